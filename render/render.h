@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Pictures of a result, drawn off-screen from its stored history alone: `amontons render RESULT`
+// redraws any of them without solving again. A module opened on first use (symbol
+// "amontons_render"); knows base/ and io/result_file only.
+#ifndef AMONTONS_RENDER_RENDER_H
+#define AMONTONS_RENDER_RENDER_H
+
+#include "base/error.h"
+
+#include <stdint.h>
+
+// X(symbol, name, title)
+#define RENDER_FIGURES(X)                                                                          \
+    X(FIGURE_FORCE, "force", "F_T/F_N against U, with an inset of the precursors")                 \
+    X(FIGURE_SLIP_MAP, "slip-map", "log10 of slip rate over V, against U and x")                   \
+    X(FIGURE_CONTACT_DENSITY, "contact-density", "contact density before sliding, zoomed in U")
+
+typedef struct RenderRequest {
+    const char *folder;          // the result folder; pictures go to folder/figures/NAME.png
+    const char *const *figures;  // [figure_count] names of RENDER_FIGURES; none: all of them
+    int32_t figure_count;
+    int32_t width, height;       // pixels; 0: the figure's own (1600 or more wide)
+} RenderRequest;
+
+typedef bool (*RenderFunction)(const RenderRequest *request, Error *err);
+
+// The module's entry. An unknown name is ERROR_INPUT and lists those that exist.
+bool amontons_render(const RenderRequest *request, Error *err);
+
+#endif

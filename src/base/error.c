@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/error.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+void error_set(Error *err, ErrorCode code, const char *file, int32_t line, const char *format, ...)
+{
+    if (err->code != ERROR_NONE) return;
+    err->code = code;
+    err->file = file;
+    err->line = line;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(err->message, sizeof err->message, format, arguments);
+    va_end(arguments);
+}
+
+void error_context(Error *err, const char *format, ...)
+{
+    if (err->code == ERROR_NONE) return;
+    char cause[ERROR_MESSAGE_SIZE];
+    memcpy(cause, err->message, sizeof cause);
+    va_list arguments;
+    va_start(arguments, format);
+    int length = vsnprintf(err->message, sizeof err->message, format, arguments);
+    va_end(arguments);
+    if (length < 0 || length >= ERROR_MESSAGE_SIZE - 2) length = 0;
+    snprintf(err->message + length, sizeof err->message - (size_t)length, ": %s", cause);
+}
+
+void error_clear(Error *err)
+{
+    *err = (Error){0};
+}
+
+bool error_is_clean(const Error *err)
+{
+    return err->code == ERROR_NONE;
+}
+
+int error_exit_status(ErrorCode code)
+{
+    switch (code) {
+#define X(symbol, status, name)                                                                    \
+    case symbol:                                                                                   \
+        return status;
+        ERROR_CODES(X)
+#undef X
+    }
+    return 1;
+}
+
+const char *error_name(ErrorCode code)
+{
+    switch (code) {
+#define X(symbol, status, name)                                                                    \
+    case symbol:                                                                                   \
+        return name;
+        ERROR_CODES(X)
+#undef X
+    }
+    return "unknown";
+}

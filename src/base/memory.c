@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The counters are process-wide and atomic: modules and BLAS threads share them.
+#include "base/memory.h"
+
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { ALIGNMENT = 64 };
+
+static atomic_llong allocation_count;
+static atomic_llong live_count;
+static atomic_llong allocations_until_failure = -1;
+
+static bool fault_is_due(void)
+{
+    long long left = atomic_load(&allocations_until_failure);
+    if (left < 0) return false;
+    if (left == 0) return true;
+    atomic_store(&allocations_until_failure, left - 1);
+    return false;
+}
+
+void *memory_array(int64_t count, size_t size, Error *err)
+{
+    void *array = NULL;
+    size_t bytes = 0;
+    if (count < 0 || size == 0 || __builtin_mul_overflow((size_t)count, size, &bytes) ||
+        bytes > SIZE_MAX / 2)
+        FAIL(err, ERROR_MEMORY, "an array of %lld items of %zu bytes is not possible",
+             (long long)count, size);
+    size_t padded = (bytes / ALIGNMENT + 1) * ALIGNMENT;
+    if (!fault_is_due()) array = aligned_alloc(ALIGNMENT, padded);
+    if (!array)
+        FAIL(err, ERROR_MEMORY, "no memory for %lld items of %zu bytes", (long long)count, size);
+    memset(array, 0, padded);
+    atomic_fetch_add(&allocation_count, 1);
+    atomic_fetch_add(&live_count, 1);
+cleanup:
+    return array;
+}
+
+void *memory_resize(void *array, int64_t old_count, int64_t new_count, size_t size, Error *err)
+{
+    void *longer = memory_array(new_count, size, err);
+    if (!longer) return NULL;
+    int64_t kept = old_count < new_count ? old_count : new_count;
+    if (array && kept > 0) memcpy(longer, array, (size_t)kept * size);
+    memory_free(array);
+    return longer;
+}
+
+char *memory_text(const char *text, Error *err)
+{
+    size_t length = strlen(text);
+    char *copy = memory_array((int64_t)length + 1, 1, err);
+    if (copy) memcpy(copy, text, length);
+    return copy;
+}
+
+void memory_free(void *array)
+{
+    if (!array) return;
+    atomic_fetch_sub(&live_count, 1);
+    free(array);
+}
+
+MemoryCounters memory_counters(void)
+{
+    return (MemoryCounters){.allocations = atomic_load(&allocation_count),
+                            .live = atomic_load(&live_count)};
+}
+
+void memory_fail_after(int64_t allocations)
+{
+    atomic_store(&allocations_until_failure, allocations);
+}

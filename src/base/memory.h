@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The program's one allocator: zeroed, 64-byte aligned arrays that count themselves and can be
+// told to fail. "Nothing is allocated in a step" and "every error path frees" are tests because of
+// it. Sizes in bytes are computed only here, checked for overflow.
+#ifndef AMONTONS_BASE_MEMORY_H
+#define AMONTONS_BASE_MEMORY_H
+
+#include "base/error.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct MemoryCounters {
+    int64_t allocations;   // calls that returned memory, since the program started
+    int64_t live;          // arrays not yet freed
+} MemoryCounters;
+
+// `count` items of `size` bytes, zeroed, 64-byte aligned; count 0 gives a valid pointer.
+// NULL with ERROR_MEMORY set when count is negative, too large, or memory is short.
+void *memory_array(int64_t count, size_t size, Error *err);
+
+// A longer (or shorter) copy of `array`, whose old items it frees; new items are zeroed. On failure
+// NULL, the error set, and `array` untouched.
+void *memory_resize(void *array, int64_t old_count, int64_t new_count, size_t size, Error *err);
+
+char *memory_text(const char *text, Error *err);   // an owned copy
+void memory_free(void *array);                     // NULL is fine
+MemoryCounters memory_counters(void);
+
+// Fault injection: the allocation after `allocations` more successful ones fails, and every later
+// one too, until called with -1. For tests only.
+void memory_fail_after(int64_t allocations);
+
+// NEW_ARRAY(double, n, err): a zeroed double[n], or NULL with the error set.
+#define NEW_ARRAY(type, count, err) ((type *)memory_array((count), sizeof(type), (err)))
+
+#endif

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Modules: the parts that need a heavy library (gmsh, VTK, OSMesa) are shared objects of their own,
+// opened on first use, because loading all of them costs more than a whole run. Called by
+// io/mesh_file, io/field_file and cli/cmd_render.
+#ifndef AMONTONS_BASE_MODULE_H
+#define AMONTONS_BASE_MODULE_H
+
+#include "base/error.h"
+
+typedef void (*ModuleFunction)(void);
+
+// Finds `symbol` in the module `amontons_<name>.so` beside the program's executable (tests: in the
+// folder AMONTONS_MODULES). A module stays open until the program ends; a second call is a look-up.
+// NULL with ERROR_LIBRARY set, naming the file and what the loader said, when it cannot be had.
+ModuleFunction module_function(const char *name, const char *symbol, Error *err);
+
+#endif

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Named arrays in one HDF5 file: growing time series, fixed arrays, attributes. Knows nothing of
+// friction; io/result_file gives the arrays their names. Chunked, shuffled, deflate 2.
+//
+// A file being written is called `path`.part; array_file_close renames it. What a killed run leaves
+// is the .part file, readable up to the last array_file_flush.
+#ifndef AMONTONS_IO_ARRAY_FILE_H
+#define AMONTONS_IO_ARRAY_FILE_H
+
+#include "base/error.h"
+
+#include <stdint.h>
+
+typedef struct ArrayFile ArrayFile;
+
+typedef enum ArrayType { ARRAY_FLOAT64, ARRAY_FLOAT32, ARRAY_UINT8, ARRAY_INT32 } ArrayType;
+
+ArrayFile *array_file_create(const char *path, Error *err);
+// Opens `path` for reading; where only `path`.part stands, that. Errors name the file.
+ArrayFile *array_file_open(const char *path, Error *err);
+// Closes; a created file gets its final name. Frees `file` either way. NULL is fine.
+bool array_file_close(ArrayFile *file, Error *err);
+
+// A series of rows of `width` values (1: a scalar series), extendable, empty. `name` may hold
+// slashes ("interface/slip_rate"); `unit` and `description` are stored as attributes.
+typedef struct ArraySeries {
+    const char *name;
+    ArrayType type;          // as stored
+    int32_t width;
+    const char *unit;
+    const char *description;
+} ArraySeries;
+bool array_file_add_series(ArrayFile *file, const ArraySeries *series, Error *err);
+
+// Appends `rows` rows of doubles, [rows * width], converted to the stored type.
+bool array_file_append(ArrayFile *file, const char *name, const double *values, int64_t rows,
+                       Error *err);
+bool array_file_flush(ArrayFile *file, Error *err);   // all appended so far is safe on disk
+
+bool array_file_set_number(ArrayFile *file, const char *name, double value, Error *err);
+bool array_file_set_text(ArrayFile *file, const char *name, const char *value, Error *err);
+bool array_file_get_number(ArrayFile *file, const char *name, double *value, Error *err);
+bool array_file_get_text(ArrayFile *file, const char *name, char *value, int32_t size, Error *err);
+
+// A whole dataset as doubles: *values [rows * width], owned by the caller (memory_free).
+bool array_file_read(ArrayFile *file, const char *name, double **values, int64_t *rows,
+                     int32_t *width, Error *err);
+bool array_file_has(ArrayFile *file, const char *name);
+
+#endif

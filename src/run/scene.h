@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A scene: everything that defines one simulation, read from a YAML file by the key table
+// (run/scene_keys) and `--set key=value` overrides. All values are in the units of the file
+// (`units: normalised` or `si`), lengths and times included: nothing is rescaled.
+#ifndef AMONTONS_RUN_SCENE_H
+#define AMONTONS_RUN_SCENE_H
+
+#include "base/error.h"
+#include "io/mesh_file.h"
+
+enum { SCENE_TEXT_SIZE = 512, SCENE_LIST_MAX = 32, SCENE_CHOICE_NONE = -1 };
+
+typedef enum SceneUnits { UNITS_NORMALISED, UNITS_SI } SceneUnits;
+typedef enum ScenePlane { PLANE_STRESS, PLANE_STRAIN } ScenePlane;
+typedef enum SceneLaw { LAW_COULOMB, LAW_LINEAR_WEAKENING, LAW_EXPONENTIAL_WEAKENING } SceneLaw;
+typedef enum SceneRodKind { ROD_PUSH, ROD_BONDED, ROD_NONE } SceneRodKind;
+typedef enum SceneStartFriction { START_FRICTION_OFF, START_FRICTION_ON } SceneStartFriction;
+typedef enum SceneStartRod { START_ROD_AWAY, START_ROD_HELD } SceneStartRod;
+typedef enum SceneScheme { SCHEME_SDIRK2 } SceneScheme;
+typedef enum SceneAccuracy { ACCURACY_DRAFT, ACCURACY_STANDARD, ACCURACY_FINE } SceneAccuracy;
+
+typedef struct SceneNames {
+    int32_t count;
+    char name[SCENE_LIST_MAX][GROUP_NAME_SIZE];
+} SceneNames;
+
+typedef struct SceneTraction {
+    char group[GROUP_NAME_SIZE];
+    double x, z;                       // stress
+} SceneTraction;
+
+typedef struct Scene {
+    char path[SCENE_TEXT_SIZE];        // of the scene file, as given
+    char title[SCENE_TEXT_SIZE];
+    SceneUnits units;
+    struct {
+        char file[SCENE_TEXT_SIZE];    // resolved against the scene file's folder
+        int32_t parameter_count;
+        MeshParameter parameters[SCENE_LIST_MAX];   // mesh.set.*
+    } mesh;
+    struct {
+        char top[GROUP_NAME_SIZE], rod[GROUP_NAME_SIZE];   // groups.top, groups.rod
+        SceneNames contact;            // groups.contact: one name or a list; empty: every curve
+                                       // group called "contact" or "contact_..."
+    } groups;
+    struct {
+        double young, poisson, density, eta1, eta2;
+        ScenePlane plane;
+    } material;
+    struct {
+        SceneLaw law;
+        double mu_static, mu_kinetic, critical_velocity;
+    } friction;
+    struct {
+        double pressure;
+        int32_t traction_count;        // load.tractions: [{group, x, z}]
+        SceneTraction tractions[SCENE_LIST_MAX];
+    } load;
+    struct {
+        double velocity;
+        double height, width;          // of the strip's centre, and its extent; 0: H/2 and 0.1 H
+        SceneRodKind kind;
+    } rod;
+    struct {
+        SceneStartFriction friction;
+        SceneStartRod rod;             // away (default) or held
+        double tolerance;              // relaxed when every speed is below this times V
+        double duration_max;           // of the relaxation, in viscous times; an error beyond
+    } start;
+    struct {
+        double until_U, until_t;       // 0: not given; one of them must be
+        bool until_periodic;
+        SceneScheme scheme;
+        SceneAccuracy accuracy;
+        double tolerance;              // of a step, relative; 0: by accuracy
+        double step_max, step_min;     // 0: chosen from the block's size and speeds
+        bool certificate;              // limit the step by the certificate (off only to study it)
+        double energy_tolerance;       // of the ledger, relative to the work done
+        double periodic_tolerance;     // peaks agree within this, relative
+    } time;
+    struct {
+        bool history;
+        bool fields;                   // output.fields: none, or {every_U, every_t, at_events}
+        double fields_every_U, fields_every_t;
+        bool fields_at_events;
+        int32_t figure_count;          // output.figures: list of names
+        char figures[SCENE_LIST_MAX][GROUP_NAME_SIZE];
+    } output;
+} Scene;
+
+// One `--set key=value`, as the user typed it.
+typedef struct SceneOverride {
+    const char *text;
+} SceneOverride;
+
+// Reads and checks a scene. Errors (ERROR_INPUT) give file:line:column (or the --set text), the
+// key, what was found and what is allowed; an unknown key comes with the nearest known one.
+bool scene_read(const char *path, const SceneOverride *overrides, int32_t override_count,
+                Scene *scene, Error *err);
+
+#endif
