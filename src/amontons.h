@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The public header of amontons: when and how an elastic block starts to slide. The command line
+// and the end-to-end tests include nothing else of ours.
+//
+//   Error err = {0};
+//   Scene *scene = NULL;
+//   RunOptions options = {.folder = "result"};
+//   RunSummary summary;
+//   bool done = amontons_scene_read("scene.yaml", NULL, 0, &scene, &err) &&
+//               amontons_run(scene, &options, &summary, &err);
+//   amontons_scene_destroy(scene);
+//
+// Functions that can fail return bool and take an Error last (base/error.h says how). Strings and
+// arrays handed in stay the caller's. Quantities are in the units of the scene's file.
+#ifndef AMONTONS_H
+#define AMONTONS_H
+
+#include "base/error.h"
+
+#include <signal.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+
+typedef struct Scene Scene;             // what to compute; opaque here
+typedef struct Simulation Simulation;   // one computation on its way; opaque
+
+enum { AMONTONS_PATH_SIZE = 1024 };
+
+// One accepted step, as shown to the caller.
+typedef struct StepView {
+    double t;               // time, 0 when the rod starts
+    double U;               // displacement of the rod, length
+    double mu;              // F_T / F_N
+    double step_size;       // of this step, time
+    double front;           // l, how far slip has grown from the trailing edge, length
+    double max_slip_rate;   // largest |slip rate| on the interface, velocity
+    double fraction;        // of the way to `time.until`, 0 to 1
+    bool certified;         // the slip set cannot grow on its own: large steps are allowed
+    int32_t events;         // precursors and slidings seen so far
+    int32_t slidings;       // leading events (the whole interface slipped) among them
+} StepView;
+
+// What was done, counted: a benchmark prints these, run.json holds them.
+typedef struct RunCounters {
+    int64_t accepted;              // steps
+    int64_t rejected;              // steps undone by error control or by the certificate
+    int64_t rejected_uncertified;  // of these: a large step that led to an uncertified state
+    int64_t unsolved_retries;      // steps undone because the contact problem had no solution
+    int64_t factorisations;        // sparse
+    int64_t solves;                // sparse, forward plus backward
+    int64_t contact_solves;        // contact problems, two a step
+    int64_t contact_iterations;    // active-set iterations over all of them
+    int64_t contact_fallbacks;     // contact problems that the plain iteration did not settle
+    int64_t certificates;          // dissipativity checks
+    int64_t loop_allocations;      // arrays allocated in the time loop (0 but for new rungs, output)
+} RunCounters;
+
+// What a run came to, for the closing lines; run.json holds more.
+typedef struct RunSummary {
+    double mu_M, mu_M_spread;      // of the periodic peaks; NaN: no peak seen
+    int32_t peaks, peaks_counted;  // seen, and belonging to the periodic regime
+    int32_t quasi_static, bounded, leading;   // events by kind
+    double critical_length;        // l_c / L seen in the dynamics; NaN: none
+    double energy_error, moment_error, complementarity_error;   // the largest, relative
+    double seconds_solve, seconds_output, seconds_total;        // wall time
+    RunCounters counters;
+    int32_t field_files;           // VTU files written
+    int32_t figures;               // pictures drawn
+    char folder[AMONTONS_PATH_SIZE];          // where everything lies
+} RunSummary;
+
+// Called after every accepted step (run) on the thread of the run. Must not keep `view`.
+typedef void (*StepCallback)(const StepView *view, void *context);
+
+typedef struct RunOptions {
+    const char *folder;            // the result folder, created; NULL: nothing is written at all
+    bool overwrite;                // replace an earlier result in it (else ERROR_INPUT)
+    StepCallback on_step;          // NULL: none
+    void *context;                 // handed to on_step
+    const volatile sig_atomic_t *stop;   // non-zero: finish the step, keep what is there, return
+                                         // ERROR_INTERRUPT; NULL: never
+} RunOptions;
+
+// --- scenes -------------------------------------------------------------------------------------
+// Reads `path` and applies `overrides` ("load.pressure=0.006"), [override_count]. ERROR_INPUT gives
+// file:line:column or the override, the key, what was found and what is allowed.
+bool amontons_scene_read(const char *path, const char *const *overrides, int32_t override_count,
+                         Scene **scene, Error *err);
+void amontons_scene_destroy(Scene *scene);                    // NULL is fine
+const char *amontons_scene_title(const Scene *scene);         // owned by the scene
+bool amontons_scene_reference(FILE *out, Error *err);         // every key, as Markdown
+
+// --- one simulation -----------------------------------------------------------------------------
+// Everything: mesh, relax, time loop, results, pictures, run.json. On failure what was computed
+// stays in the folder and run.json says why.
+bool amontons_run(const Scene *scene, const RunOptions *options, RunSummary *summary, Error *err);
+
+// The same in pieces. `create` meshes, assembles and relaxes to t = 0; `step` does one accepted
+// step and says whether the scene's end is reached; `finish` writes results and pictures.
+bool amontons_simulation_create(const Scene *scene, const RunOptions *options,
+                                Simulation **simulation, Error *err);
+bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *finished, Error *err);
+bool amontons_simulation_finish(Simulation *simulation, RunSummary *summary, Error *err);
+void amontons_simulation_destroy(Simulation *simulation);     // NULL is fine
+
+// --- results ------------------------------------------------------------------------------------
+// Draws `figures` ([figure_count] names; 0: all) of the result in `folder` into folder/figures.
+bool amontons_render_result(const char *folder, const char *const *figures, int32_t figure_count,
+                            Error *err);
+// Says in text what a mesh (.msh, .geo), a scene (.yaml) or a result folder holds.
+bool amontons_info(const char *path, FILE *out, Error *err);
+
+#endif
