@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The mesh the solver works on: what io/mesh_file delivered, checked, with its named curves. Used by
+// bulk/assembly (elements, tractions on curves) and contact/interface (the contact curves).
+#ifndef AMONTONS_BULK_MESH_H
+#define AMONTONS_BULK_MESH_H
+
+#include "base/error.h"
+#include "io/mesh_file.h"
+
+#include <stdint.h>
+
+enum { MESH_PATH_SIZE = 1024 };
+
+// A checked mesh: every element counter-clockwise, with a positive Jacobian determinant at its nodes
+// and quadrature points; every node on an element; no node twice in one element.
+typedef struct Mesh {
+    char path[MESH_PATH_SIZE];   // of the file, for messages
+    int32_t node_count;
+    double *position;   // [node_count * 2] (x, z), length; owned
+    int32_t element_count;
+    uint8_t *kind;   // [element_count] ElementKind; owned
+    int32_t *first_node;   // [element_count + 1] offsets into element_nodes; owned
+    int32_t *element_nodes;   // [first_node[element_count]] corners, mid-sides, centre; owned
+    int32_t group_count;
+    MeshGroup *groups;   // [group_count]; nodes of curves by ascending x, then z; owned
+    double x_min, x_max;   // extent, length
+    double z_min, z_max;
+} Mesh;
+
+// A named curve. Borrows from the mesh, owns nothing.
+typedef struct MeshCurve {
+    const char *name;
+    int32_t edge_count;
+    int32_t nodes_per_edge;   // 2, or 3 (end, end, middle)
+    const int32_t *edge_nodes;   // [edge_count * nodes_per_edge]
+    int32_t node_count;
+    const int32_t *nodes;   // [node_count] each once, by ascending x, then z
+} MeshCurve;
+
+// Several contact curves as one line of nodes. A node that ends one curve and begins the next is
+// listed once and belongs to the curve named first.
+typedef struct MeshContact {
+    int32_t curve_count;
+    MeshCurve *curves;   // [curve_count] in the order of the names; owned
+    int32_t node_count;
+    int32_t *nodes;   // [node_count] ascending x; owned
+    int32_t *curve_of;   // [node_count] index into curves; owned
+} MeshContact;
+
+// Takes the arrays of `file` over (it is empty afterwards, also on failure), checks and completes
+// them. A mesh that is clockwise throughout (its surface was reversed in gmsh) is turned round.
+// Errors (ERROR_INPUT) name `path` and where: an element with non-positive area, one that repeats a
+// node, a clockwise element among others, a node on no element, an edge of three elements.
+bool mesh_build(MeshFile *file, const char *path, Mesh *mesh, Error *err);
+void mesh_destroy(Mesh *mesh);
+
+// The curve called `name`; a missing one or a group of another dimension is ERROR_INPUT.
+bool mesh_curve(const Mesh *mesh, const char *name, MeshCurve *curve, Error *err);
+
+// The contact line from curves called `names` [name_count]; no names: every curve called "contact"
+// or "contact_...", in the order of their numbers. Each must lie on z = 0 and on the block's edge,
+// and the block above it: ERROR_INPUT names the group and the worst node.
+bool mesh_contact(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], int32_t name_count,
+                  MeshContact *contact, Error *err);
+void mesh_contact_destroy(MeshContact *contact);
+
+// What `amontons info` says of a mesh.
+typedef struct MeshSummary {
+    int32_t element_counts[ELEMENT_KIND_COUNT];   // by ElementKind
+    double area;   // length^2
+    double edge_min, edge_max;   // straight distances between corners, length
+    double aspect_max;   // longest over shortest edge of one element
+    int32_t aspect_worst;   // the element that has it
+} MeshSummary;
+MeshSummary mesh_summarise(const Mesh *mesh);
+
+#endif
