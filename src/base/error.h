@@ -35,9 +35,9 @@ typedef enum ErrorCode {
 enum { ERROR_MESSAGE_SIZE = 2000 };
 
 typedef struct Error {
-    ErrorCode code;                     // ERROR_NONE: clean
-    int32_t line;                       // of the FAIL that set it
-    const char *file;                   // of the FAIL that set it; static storage
+    ErrorCode code;   // ERROR_NONE: clean
+    int32_t line;   // of the FAIL that set it
+    const char *file;   // of the FAIL that set it; static storage
     char message[ERROR_MESSAGE_SIZE];   // says what is wrong, where, and how to mend it
 } Error;
 
@@ -50,8 +50,8 @@ void error_context(Error *err, const char *format, ...) __attribute__((format(pr
 
 void error_clear(Error *err);
 bool error_is_clean(const Error *err);
-int error_exit_status(ErrorCode code);      // 0 done, 1 the computation failed, 2 wrong input
-const char *error_name(ErrorCode code);     // static storage
+int error_exit_status(ErrorCode code);   // 0 done, 1 the computation failed, 2 wrong input
+const char *error_name(ErrorCode code);   // static storage
 
 #define FAIL(err, code, ...)                                                                       \
     do {                                                                                           \

@@ -12,7 +12,7 @@
 
 typedef struct MemoryCounters {
     int64_t allocations;   // calls that returned memory, since the program started
-    int64_t live;          // arrays not yet freed
+    int64_t live;   // arrays not yet freed
 } MemoryCounters;
 
 // `count` items of `size` bytes, zeroed, 64-byte aligned; count 0 gives a valid pointer.
@@ -24,7 +24,7 @@ void *memory_array(int64_t count, size_t size, Error *err);
 void *memory_resize(void *array, int64_t old_count, int64_t new_count, size_t size, Error *err);
 
 char *memory_text(const char *text, Error *err);   // an owned copy
-void memory_free(void *array);                     // NULL is fine
+void memory_free(void *array);   // NULL is fine
 MemoryCounters memory_counters(void);
 
 // Fault injection: the allocation after `allocations` more successful ones fails, and every later

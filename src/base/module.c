@@ -33,8 +33,7 @@ ModuleFunction module_function(const char *name, const char *symbol, Error *err)
     TRY(module_folder(folder, sizeof folder, err));
     snprintf(path, sizeof path, "%s/amontons_%s.so", folder, name);
     void *handle = dlopen(path, RTLD_NOW | RTLD_LOCAL);
-    if (!handle)
-        FAIL(err, ERROR_LIBRARY, "cannot open the module %s: %s", path, dlerror());
+    if (!handle) FAIL(err, ERROR_LIBRARY, "cannot open the module %s: %s", path, dlerror());
     void *address = dlsym(handle, symbol);
     if (!address) FAIL(err, ERROR_LIBRARY, "the module %s has no %s", path, symbol);
     memcpy(&function, &address, sizeof function);   // POSIX: object to function pointer

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// LAPACK's Fortran entry points come with OpenBLAS; they are declared here because Debian's
+// LAPACK headers belong to another package. Character arguments carry hidden lengths.
+#include "base/dense.h"
+
+#include <cblas.h>
+#include <math.h>
+#include <string.h>
+
+void dpotrf_(const char *uplo, const int *n, double *a, const int *lda, int *info,
+             size_t uplo_size);
+void dgetrf_(const int *m, const int *n, double *a, const int *lda, int *pivots, int *info);
+void dgetrs_(const char *trans, const int *n, const int *nrhs, const double *a, const int *lda,
+             const int *pivots, double *b, const int *ldb, int *info, size_t trans_size);
+
+void dense_use_one_thread(void)
+{
+    openblas_set_num_threads(1);
+}
+
+bool dense_cholesky(double *a, int32_t n)
+{
+    int info = 0;
+    if (n > 0) dpotrf_("L", &n, a, &n, &info, 1);
+    return info == 0;
+}
+
+bool dense_lu(double *a, int32_t n, int32_t *pivots)
+{
+    int info = 0;
+    if (n > 0) dgetrf_(&n, &n, a, &n, pivots, &info);
+    return info == 0;
+}
+
+void dense_lu_solve(const double *lu, int32_t n, const int32_t *pivots, double *b)
+{
+    int info = 0, one = 1;
+    if (n > 0) dgetrs_("N", &n, &one, lu, &n, pivots, b, &n, &info, 1);
+}
+
+void dense_symmetric_apply(const double *a, int32_t n, const double *x, double *y)
+{
+    if (n > 0) cblas_dsymv(CblasColMajor, CblasLower, n, 1.0, a, n, x, 1, 0.0, y, 1);
+}
+
+void dense_lower_apply(const double *lower, int32_t n, double *x)
+{
+    if (n > 0)
+        cblas_dtrmv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, n, lower, n, x, 1);
+}
+
+void dense_lower_apply_transposed(const double *lower, int32_t n, double *x)
+{
+    if (n > 0) cblas_dtrmv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, n, lower, n, x, 1);
+}
+
+void dense_lower_square(const double *lower, int32_t n, double *c)
+{
+    if (n == 0) return;
+    size_t size = (size_t)n;
+    for (size_t j = 0; j < size; j++) {
+        for (size_t i = 0; i < size; i++) c[j * size + i] = i >= j ? lower[j * size + i] : 0.0;
+    }
+    cblas_dtrmm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, n, n, 1.0, lower,
+                n, c, n);
+}
+
+double dense_dot(const double *x, const double *y, int32_t n)
+{
+    return cblas_ddot(n, x, 1, y, 1);
+}
+
+double dense_max_abs(const double *x, int32_t n)
+{
+    double largest = 0.0;
+    for (int32_t i = 0; i < n; i++) largest = fmax(largest, fabs(x[i]));
+    return largest;
+}

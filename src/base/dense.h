@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Small dense matrices, column-major, through BLAS and LAPACK. Called by contact/ (Newton on the
+// interface), stepping/certificate (definiteness) and base/sparse (the border block).
+#ifndef AMONTONS_BASE_DENSE_H
+#define AMONTONS_BASE_DENSE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+// BLAS threads gain nothing at these sizes and cost twice as much beside another process.
+void dense_use_one_thread(void);
+
+// Cholesky factor in place of a symmetric `a` [n * n]; the lower triangle is read and written.
+// false: `a` is not positive definite (nothing else can go wrong).
+bool dense_cholesky(double *a, int32_t n);
+
+// LU with partial pivoting in place, then one right-hand side in place. pivots: [n].
+// false: singular to working precision.
+bool dense_lu(double *a, int32_t n, int32_t *pivots);
+void dense_lu_solve(const double *lu, int32_t n, const int32_t *pivots, double *b);
+
+// y = a x with the lower triangle of a symmetric `a` [n * n].
+void dense_symmetric_apply(const double *a, int32_t n, const double *x, double *y);
+
+// x := L x and x := L' x with the lower triangle of `lower` [n * n].
+void dense_lower_apply(const double *lower, int32_t n, double *x);
+void dense_lower_apply_transposed(const double *lower, int32_t n, double *x);
+
+// c = L L' (all of c is written); lower, c: [n * n], distinct.
+void dense_lower_square(const double *lower, int32_t n, double *c);
+
+double dense_dot(const double *x, const double *y, int32_t n);
+double dense_max_abs(const double *x, int32_t n);
+
+#endif

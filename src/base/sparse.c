@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// CHOLMOD (Chen, Davis, Hager, Rajamanickam, ACM TOMS 35, 2008): CAMD keeps the border last,
+// supernodal LL'. The supernodes of the factor are read directly for L_bb.
+#include "base/sparse.h"
+
+#include "base/dense.h"
+#include "base/memory.h"
+
+#include <cholmod.h>
+#include <string.h>
+
+struct SparseAnalysis {
+    cholmod_common common;
+    bool started;
+    cholmod_sparse *pattern;   // lower triangle is what CHOLMOD reads (stype -1)
+    cholmod_factor *symbolic;
+    int32_t border_count;
+    int32_t *border_position;   // [border_count] where border[j] stands in L's border
+    cholmod_dense *forward;   // solve2's workspaces, shared by all factors
+    cholmod_dense *work_y, *work_e;
+    cholmod_dense *permuted;   // right-hand side in L's order
+};
+
+struct SparseFactor {
+    SparseAnalysis *analysis;   // not owned
+    cholmod_factor *numeric;
+    double *border_factor;   // L_bb, in L's order
+    double *schur;   // S, in the caller's order
+    double *border_work;   // [border_count]
+};
+
+void sparse_pattern_destroy(SparsePattern *pattern)
+{
+    memory_free(pattern->start);
+    memory_free(pattern->index);
+    *pattern = (SparsePattern){0};
+}
+
+void sparse_apply(const SparsePattern *pattern, const double *values, const double *x, double *y)
+{
+    const int32_t *start = pattern->start, *index = pattern->index;
+    for (int32_t row = 0; row < pattern->size; row++) {
+        double sum = 0.0;
+        for (int32_t k = start[row]; k < start[row + 1]; k++) sum += values[k] * x[index[k]];
+        y[row] = sum;
+    }
+}
+
+// A CHOLMOD view of the pattern; `values` may be NULL. Points into the caller's arrays.
+static cholmod_sparse sparse_view(const SparsePattern *pattern, double *values)
+{
+    return (cholmod_sparse){.nrow = (size_t)pattern->size,
+                            .ncol = (size_t)pattern->size,
+                            .nzmax = (size_t)pattern->start[pattern->size],
+                            .p = pattern->start,
+                            .i = pattern->index,
+                            .x = values,
+                            .stype = -1,
+                            .itype = CHOLMOD_INT,
+                            .xtype = values ? CHOLMOD_REAL : CHOLMOD_PATTERN,
+                            .dtype = CHOLMOD_DOUBLE,
+                            .sorted = 1,
+                            .packed = 1};
+}
+
+// The order that keeps the border last, checked: postordering must not have mixed it in.
+static bool analyse_with_border(SparseAnalysis *analysis, const int32_t *border, Error *err)
+{
+    cholmod_common *common = &analysis->common;
+    int32_t size = (int32_t)analysis->pattern->nrow, count = analysis->border_count;
+    int32_t *member = NEW_ARRAY(int32_t, size, err);
+    int32_t *order = NEW_ARRAY(int32_t, size, err);
+    if (!member || !order) goto cleanup;
+    for (int32_t j = 0; j < count; j++) member[border[j]] = 1;
+    if (!cholmod_camd(analysis->pattern, NULL, 0, member, order, common))
+        FAIL(err, ERROR_LIBRARY, "CHOLMOD: the fill-reducing order failed (status %d)",
+             common->status);
+    common->nmethods = 1;
+    common->method[0].ordering = CHOLMOD_GIVEN;
+    common->supernodal = CHOLMOD_SUPERNODAL;
+    common->final_ll = 1;
+    common->postorder = 1;
+    analysis->symbolic = cholmod_analyze_p(analysis->pattern, order, NULL, 0, common);
+    if (!analysis->symbolic)
+        FAIL(err, ERROR_LIBRARY, "CHOLMOD: the analysis failed (status %d)", common->status);
+
+    const int32_t *permutation = analysis->symbolic->Perm;
+    int32_t first = size - count;
+    for (int32_t k = 0; k < size; k++) {
+        if ((member[permutation[k]] == 1) != (k >= first))
+            FAIL(err, ERROR_LIBRARY, "CHOLMOD did not keep the interface last in its order");
+        order[permutation[k]] = k - first;
+    }
+    for (int32_t j = 0; j < count; j++) analysis->border_position[j] = order[border[j]];
+cleanup:
+    memory_free(member);
+    memory_free(order);
+    return error_is_clean(err);
+}
+
+SparseAnalysis *sparse_analyse(const SparsePattern *pattern, const int32_t *border,
+                               int32_t border_count, Error *err)
+{
+    SparseAnalysis *analysis = NEW_ARRAY(SparseAnalysis, 1, err);
+    if (!analysis) goto cleanup;
+    cholmod_start(&analysis->common);
+    analysis->started = true;
+    analysis->common.print = 0;
+    analysis->border_count = border_count;
+    analysis->border_position = NEW_ARRAY(int32_t, border_count, err);
+    if (!analysis->border_position) goto cleanup;
+    cholmod_sparse view = sparse_view(pattern, NULL);
+    analysis->pattern = cholmod_copy_sparse(&view, &analysis->common);
+    analysis->permuted = cholmod_zeros((size_t)pattern->size, 1, CHOLMOD_REAL, &analysis->common);
+    if (!analysis->pattern || !analysis->permuted)
+        FAIL(err, ERROR_MEMORY, "no memory for a sparse pattern of %d unknowns", pattern->size);
+    TRY(analyse_with_border(analysis, border, err));
+cleanup:
+    if (error_is_clean(err)) return analysis;
+    sparse_analysis_destroy(analysis);
+    return NULL;
+}
+
+void sparse_analysis_destroy(SparseAnalysis *analysis)
+{
+    if (!analysis) return;
+    if (analysis->started) {
+        cholmod_common *common = &analysis->common;
+        cholmod_free_factor(&analysis->symbolic, common);
+        cholmod_free_sparse(&analysis->pattern, common);
+        cholmod_free_dense(&analysis->forward, common);
+        cholmod_free_dense(&analysis->work_y, common);
+        cholmod_free_dense(&analysis->work_e, common);
+        cholmod_free_dense(&analysis->permuted, common);
+        cholmod_finish(common);
+    }
+    memory_free(analysis->border_position);
+    memory_free(analysis);
+}
+
+// Copies L_bb out of the supernodes: column c of supernode s holds rows s.rows[0 .. n) from its own
+// first row down; only rows and columns from `first` on belong to the border.
+static void read_border_factor(const cholmod_factor *factor, int32_t count, double *border_factor)
+{
+    const int32_t *super = factor->super, *row_start = factor->pi, *value_start = factor->px;
+    const int32_t *rows = factor->s;
+    const double *values = factor->x;
+    int32_t first = (int32_t)factor->n - count;
+    for (int32_t s = (int32_t)factor->nsuper - 1; s >= 0 && super[s + 1] > first; s--) {
+        int32_t height = row_start[s + 1] - row_start[s];
+        for (int32_t column = super[s]; column < super[s + 1]; column++) {
+            if (column < first) continue;
+            const double *entries = values + value_start[s] + (int64_t)height * (column - super[s]);
+            double *out = border_factor + (int64_t)count * (column - first);
+            for (int32_t k = column - super[s]; k < height; k++)
+                out[rows[row_start[s] + k] - first] = entries[k];
+        }
+    }
+}
+
+// S = L_bb L_bb', brought into the caller's order of the border.
+static void compute_schur(SparseFactor *factor, double *square)
+{
+    int32_t count = factor->analysis->border_count;
+    const int32_t *position = factor->analysis->border_position;
+    dense_lower_square(factor->border_factor, count, square);
+    for (int32_t j = 0; j < count; j++) {
+        for (int32_t i = 0; i < count; i++)
+            factor->schur[(int64_t)count * j + i] =
+                square[(int64_t)count * position[j] + position[i]];
+    }
+}
+
+SparseFactor *sparse_factorise(SparseAnalysis *analysis, const double *values, Error *err)
+{
+    cholmod_common *common = &analysis->common;
+    int64_t count = analysis->border_count;
+    double *square = NEW_ARRAY(double, count *count, err);
+    SparseFactor *factor = NEW_ARRAY(SparseFactor, 1, err);
+    if (!factor || !square) goto cleanup;
+    factor->analysis = analysis;
+    factor->border_factor = NEW_ARRAY(double, count *count, err);
+    factor->schur = NEW_ARRAY(double, count *count, err);
+    factor->border_work = NEW_ARRAY(double, count, err);
+    if (!factor->border_factor || !factor->schur || !factor->border_work) goto cleanup;
+
+    factor->numeric = cholmod_copy_factor(analysis->symbolic, common);
+    if (!factor->numeric) FAIL(err, ERROR_MEMORY, "no memory for a sparse factor");
+    cholmod_sparse matrix = *analysis->pattern;
+    matrix.x = (double *)(uintptr_t)values;   // CHOLMOD only reads it
+    matrix.xtype = CHOLMOD_REAL;
+    if (!cholmod_factorize(&matrix, factor->numeric, common))
+        FAIL(err, common->status == CHOLMOD_OUT_OF_MEMORY ? ERROR_MEMORY : ERROR_LIBRARY,
+             "CHOLMOD: the factorisation failed (status %d)", common->status);
+    if (factor->numeric->minor < factor->numeric->n)
+        FAIL(err, ERROR_COMPUTE, "the matrix is not positive definite (pivot %zu of %zu)",
+             factor->numeric->minor, factor->numeric->n);
+    read_border_factor(factor->numeric, analysis->border_count, factor->border_factor);
+    compute_schur(factor, square);
+cleanup:
+    memory_free(square);
+    if (error_is_clean(err)) return factor;
+    sparse_factor_destroy(factor);
+    return NULL;
+}
+
+void sparse_factor_destroy(SparseFactor *factor)
+{
+    if (!factor) return;
+    if (factor->analysis) cholmod_free_factor(&factor->numeric, &factor->analysis->common);
+    memory_free(factor->border_factor);
+    memory_free(factor->schur);
+    memory_free(factor->border_work);
+    memory_free(factor);
+}
+
+const double *sparse_schur(const SparseFactor *factor)
+{
+    return factor->schur;
+}
+
+bool sparse_condense(SparseFactor *factor, const double *rhs, double *g, Error *err)
+{
+    SparseAnalysis *analysis = factor->analysis;
+    const int32_t *permutation = factor->numeric->Perm;
+    int32_t size = (int32_t)factor->numeric->n, count = analysis->border_count;
+    double *permuted = analysis->permuted->x;
+    for (int32_t k = 0; k < size; k++) permuted[k] = rhs[permutation[k]];
+    if (!cholmod_solve2(CHOLMOD_L, factor->numeric, analysis->permuted, NULL, &analysis->forward,
+                        NULL, &analysis->work_y, &analysis->work_e, &analysis->common))
+        FAIL(err, ERROR_MEMORY, "CHOLMOD: the forward substitution failed (status %d)",
+             analysis->common.status);
+    double *border = factor->border_work;
+    memcpy(border, (double *)analysis->forward->x + (size - count), (size_t)count * sizeof *border);
+    dense_lower_apply(factor->border_factor, count, border);
+    for (int32_t j = 0; j < count; j++) g[j] = border[analysis->border_position[j]];
+cleanup:
+    return error_is_clean(err);
+}
+
+bool sparse_expand(SparseFactor *factor, const double *x_border, double *x, Error *err)
+{
+    SparseAnalysis *analysis = factor->analysis;
+    const int32_t *permutation = factor->numeric->Perm;
+    int32_t size = (int32_t)factor->numeric->n, count = analysis->border_count;
+    double *border = factor->border_work;
+    for (int32_t j = 0; j < count; j++) border[analysis->border_position[j]] = x_border[j];
+    dense_lower_apply_transposed(factor->border_factor, count, border);
+    memcpy((double *)analysis->forward->x + (size - count), border, (size_t)count * sizeof *border);
+    cholmod_dense *solution = analysis->permuted;
+    if (!cholmod_solve2(CHOLMOD_Lt, factor->numeric, analysis->forward, NULL, &solution, NULL,
+                        &analysis->work_y, &analysis->work_e, &analysis->common))
+        FAIL(err, ERROR_MEMORY, "CHOLMOD: the backward substitution failed (status %d)",
+             analysis->common.status);
+    analysis->permuted = solution;
+    const double *permuted = solution->x;
+    for (int32_t k = 0; k < size; k++) x[permutation[k]] = permuted[k];
+cleanup:
+    return error_is_clean(err);
+}

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/text.h"
+
+#include <ctype.h>
+#include <string.h>
+
+enum { NAME_MAX_LENGTH = 127 };
+
+static int32_t smaller(int32_t a, int32_t b)
+{
+    return a < b ? a : b;
+}
+
+static int32_t name_length(const char *name)
+{
+    return (int32_t)strnlen(name, NAME_MAX_LENGTH);
+}
+
+// Dynamic programme over prefixes; three rows are enough for swaps of neighbours.
+int32_t text_distance(const char *a, const char *b)
+{
+    int32_t a_length = name_length(a), b_length = name_length(b);
+    int32_t rows[3][NAME_MAX_LENGTH + 1];
+    for (int32_t j = 0; j <= b_length; j++) rows[0][j] = j;
+    for (int32_t i = 1; i <= a_length; i++) {
+        int32_t *now = rows[i % 3];
+        const int32_t *before = rows[(i + 2) % 3], *two_before = rows[(i + 1) % 3];
+        now[0] = i;
+        for (int32_t j = 1; j <= b_length; j++) {
+            int32_t differs = tolower((unsigned char)a[i - 1]) != tolower((unsigned char)b[j - 1]);
+            int32_t best = smaller(before[j] + 1, smaller(now[j - 1] + 1, before[j - 1] + differs));
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                best = smaller(best, two_before[j - 2] + 1);
+            now[j] = best;
+        }
+    }
+    return rows[a_length % 3][b_length];
+}
+
+int32_t text_nearest(const char *given, const char *const *names, int32_t count)
+{
+    int32_t nearest = -1, nearest_distance = 0;
+    for (int32_t k = 0; k < count; k++) {
+        int32_t distance = text_distance(given, names[k]);
+        int32_t longer = name_length(given) > name_length(names[k]) ? name_length(given)
+                                                                    : name_length(names[k]);
+        if (3 * distance > longer + 2) continue;
+        if (nearest >= 0 && distance >= nearest_distance) continue;
+        nearest = k;
+        nearest_distance = distance;
+    }
+    return nearest;
+}

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Suggestions for mistyped names. Called wherever a name from a user is looked up.
+#ifndef AMONTONS_BASE_TEXT_H
+#define AMONTONS_BASE_TEXT_H
+
+#include <stdint.h>
+
+// Number of single-character insertions, deletions, substitutions and swaps of neighbours that turn
+// `a` into `b` (optimal string alignment). Names longer than 127 bytes are cut there.
+int32_t text_distance(const char *a, const char *b);
+
+// The index of the name nearest to `given`, or -1 when none is near enough to be a likely slip of
+// the finger (more than a third of the longer name differs). names: [count].
+int32_t text_nearest(const char *given, const char *const *names, int32_t count);
+
+#endif
