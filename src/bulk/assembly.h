@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The semi-discrete bulk M u'' + C u' + K u = f: sparse K and C on one pattern, lumped M, loads.
+// Unknowns: 2 * node + 0 is u_x, 2 * node + 1 is u_z. Used by bulk/interface_operator.
+#ifndef AMONTONS_BULK_ASSEMBLY_H
+#define AMONTONS_BULK_ASSEMBLY_H
+
+#include "base/sparse.h"
+#include "bulk/material.h"
+#include "bulk/mesh.h"
+
+typedef struct Bulk {
+    int32_t dof_count;        // 2 * nodes
+    SparsePattern pattern;    // of K and C; owned
+    double *stiffness;        // [pattern.start[dof_count]]; owned
+    double *damping;          // same; owned
+    double *mass;             // [dof_count] lumped, both directions alike; owned
+    double *load;             // [dof_count] f, force/width; starts at 0; owned
+    double area;
+} Bulk;
+
+bool bulk_assemble(const Mesh *mesh, const Material *material, Bulk *bulk, Error *err);
+void bulk_destroy(Bulk *bulk);
+
+// load += int_curve N_a (traction_x, traction_z) ds. A pressure P on top is (0, -P).
+void bulk_add_traction(const Mesh *mesh, const MeshCurve *curve, const double traction[2],
+                       Bulk *bulk);
+
+// The weights of a curve's nodes: int_curve N_a ds, added to weight[node]; [mesh->node_count].
+void curve_add_weights(const Mesh *mesh, const MeshCurve *curve, double *weight);
+
+#endif

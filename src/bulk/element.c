@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Isoparametric elements, full integration (Hughes, The Finite Element Method, ch. 3).
+#include "bulk/element.h"
+
+#include <string.h>
+
+double element_strain_matrix(ElementKind kind, const double (*position)[2], const double point[2],
+                             double b[3][ELEMENT_DOFS_MAX])
+{
+    ShapeValues shape = shape_at(kind, point[0], point[1]);
+    double jacobian[2][2];
+    double determinant = shape_jacobian(kind, &shape, position, jacobian);
+    int32_t nodes = element_node_count(kind);
+    for (int32_t a = 0; a < nodes; a++) {
+        double xi = shape.slope[a][0], eta = shape.slope[a][1];
+        double d_x = (jacobian[1][1] * xi - jacobian[1][0] * eta) / determinant;
+        double d_z = (jacobian[0][0] * eta - jacobian[0][1] * xi) / determinant;
+        b[0][2 * a] = d_x;
+        b[0][2 * a + 1] = 0;
+        b[1][2 * a] = 0;
+        b[1][2 * a + 1] = d_z;
+        b[2][2 * a] = d_z;
+        b[2][2 * a + 1] = d_x;
+    }
+    return determinant;
+}
+
+// out += weight * B' D B
+static void add_quadratic_form(int32_t dofs, const double b[3][ELEMENT_DOFS_MAX],
+                               const double d[3][3], double weight,
+                               double out[ELEMENT_DOFS_MAX][ELEMENT_DOFS_MAX])
+{
+    for (int32_t j = 0; j < dofs; j++) {
+        double stress[3];
+        for (int r = 0; r < 3; r++)
+            stress[r] = weight * (d[r][0] * b[0][j] + d[r][1] * b[1][j] + d[r][2] * b[2][j]);
+        for (int32_t i = 0; i < dofs; i++)
+            out[i][j] += b[0][i] * stress[0] + b[1][i] * stress[1] + b[2][i] * stress[2];
+    }
+}
+
+void element_matrices(ElementKind kind, const double (*position)[2], const Material *material,
+                      ElementMatrices *out)
+{
+    double elastic[3][3], viscous[3][3], b[3][ELEMENT_DOFS_MAX];
+    material_elastic(material, elastic);
+    material_viscous(material, viscous);
+    memset(out, 0, sizeof *out);
+    int32_t nodes = element_node_count(kind);
+    out->dof_count = 2 * nodes;
+    Quadrature quadrature = shape_quadrature(kind);
+    double square_sum = 0;
+    for (int32_t q = 0; q < quadrature.count; q++) {
+        const double *point = quadrature.point[q];
+        double weight = quadrature.weight[q] * element_strain_matrix(kind, position, point, b);
+        add_quadratic_form(out->dof_count, b, elastic, weight, out->stiffness);
+        add_quadratic_form(out->dof_count, b, viscous, weight, out->damping);
+        out->area += weight;
+        ShapeValues shape = shape_at(kind, point[0], point[1]);
+        for (int32_t a = 0; a < nodes; a++) {
+            double square = weight * shape.value[a] * shape.value[a];
+            out->mass[a] += square;
+            square_sum += square;
+        }
+    }
+    for (int32_t a = 0; a < nodes; a++) out->mass[a] *= material->density * out->area / square_sum;
+}

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Matrices of one element: K = int B' D_el B, C = int B' D_vis B, and a lumped mass that is positive
+// at every node. Used by bulk/assembly.
+#ifndef AMONTONS_BULK_ELEMENT_H
+#define AMONTONS_BULK_ELEMENT_H
+
+#include "bulk/material.h"
+#include "bulk/shape.h"
+
+enum { ELEMENT_DOFS_MAX = 2 * ELEMENT_NODES_MAX };
+
+typedef struct ElementMatrices {
+    int32_t dof_count;                                        // 2 * nodes: x and z of each in turn
+    double stiffness[ELEMENT_DOFS_MAX][ELEMENT_DOFS_MAX];     // force/width per length
+    double damping[ELEMENT_DOFS_MAX][ELEMENT_DOFS_MAX];       // force/width per velocity
+    double mass[ELEMENT_NODES_MAX];                           // mass/width of each node
+    double area;
+} ElementMatrices;
+
+// position: [nodes][2]. Mass is lumped in proportion to int N_a^2, keeping the total (Hinton, Rock
+// and Zienkiewicz, Earthq. Eng. Struct. Dyn. 4, 1976): positive for every element, equal to the row
+// sum on parallelograms T3 and Q4.
+void element_matrices(ElementKind kind, const double (*position)[2], const Material *material,
+                      ElementMatrices *out);
+
+// B at one point: strain[3] = B [3][dofs] u; returns det J.
+double element_strain_matrix(ElementKind kind, const double (*position)[2], const double point[2],
+                             double b[3][ELEMENT_DOFS_MAX]);
+
+#endif

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The linear viscoelastic bulk of the paper (Kelvin-Voigt):
+//
+//     sigma = E/(1+nu) eps + lambda tr(eps) I  +  eta1 eps' + eta2 tr(eps') I
+//     lambda = E nu/(1-nu^2) in plane stress,  E nu/((1+nu)(1-2nu)) in plane strain.
+//
+// Used by bulk/element and bulk/recovery; its wave speeds by stepping/ and run/.
+#ifndef AMONTONS_BULK_MATERIAL_H
+#define AMONTONS_BULK_MATERIAL_H
+
+#include <stdbool.h>
+
+typedef struct Material {
+    double young;          // E, stress
+    double poisson;        // nu, 1; in (-1, 1) in plane stress, (-1, 1/2) in plane strain
+    double density;        // rho, mass per area of the plane and width
+    double eta1, eta2;     // viscosities, stress * time
+    bool plane_strain;
+} Material;
+
+// The normalised material of the paper: E = rho = eta1 = eta2 = 1, nu = 0.34, plane stress.
+Material material_default(void);
+
+// sigma = D [eps_xx, eps_zz, 2 eps_xz]; row-major, symmetric.
+void material_elastic(const Material *material, double d[3][3]);
+void material_viscous(const Material *material, double d[3][3]);
+
+// sigma_yy, which von Mises needs: 0 in plane stress, -- the viscous part likewise.
+double material_out_of_plane(const Material *material, const double strain[3],
+                             const double strain_rate[3]);
+
+typedef struct WaveSpeeds {
+    double longitudinal, shear, rayleigh;   // velocity, elastic limit
+} WaveSpeeds;
+// Rayleigh's equation is solved to rounding (Achenbach, Wave Propagation in Elastic Solids, 5.11).
+WaveSpeeds material_speeds(const Material *material);
+
+#endif

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/contact_check.h"
+
+#include <math.h>
+
+// Below this fraction of the velocity scale a tangential velocity counts as zero.
+static const double STILL = 1e-9;
+
+static void check_unilateral(double approach, double force, ContactResidual *worst)
+{
+    worst->penetration = fmax(worst->penetration, -approach);
+    worst->pull = fmax(worst->pull, -force);
+    worst->gap_force = fmax(worst->gap_force, fmin(approach, force));
+}
+
+ContactResidual contact_residual(const ContactProblem *problem, const double *velocity,
+                                 const double *reaction, double force_scale,
+                                 double velocity_scale)
+{
+    const Interface *interface = problem->interface;
+    ContactResidual worst = {0};
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        int32_t t = interface_tangent(i), n = interface_normal(i);
+        double pressing = reaction[n] / force_scale, shear = reaction[t] / force_scale;
+        check_unilateral((velocity[n] - problem->bound[n]) / velocity_scale, pressing, &worst);
+        double slip_rate = velocity[t];
+        double limit = friction_coefficient(problem->law, fabs(slip_rate)) * fmax(pressing, 0);
+        worst.cone = fmax(worst.cone, fabs(shear) - limit);
+        if (fabs(slip_rate) > STILL * velocity_scale)
+            worst.direction =
+                fmax(worst.direction, fabs(shear + (slip_rate > 0 ? limit : -limit)));
+    }
+    for (int32_t j = 0; j < interface->rod_count; j++) {
+        int32_t x = interface_rod(interface, j);
+        double approach = (velocity[x] - problem->bound[x]) / velocity_scale;
+        double force = reaction[x] / force_scale;
+        if (problem->rod_kind == ROD_PUSHES) check_unilateral(approach, force, &worst);
+        if (problem->rod_kind == ROD_IS_BONDED)
+            worst.penetration = fmax(worst.penetration, fabs(approach));
+        if (problem->rod_kind == ROD_AWAY) worst.gap_force = fmax(worst.gap_force, fabs(force));
+    }
+    return worst;
+}
+
+double contact_residual_max(const ContactResidual *residual)
+{
+    return fmax(fmax(fmax(residual->penetration, residual->pull), residual->gap_force),
+                fmax(residual->cone, residual->direction));
+}

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The local problem of one implicit stage, on the interface alone:
+//
+//     S v = g + r
+//     contact, normal     v_n >= bound_n,  r_n >= 0,  (v_n - bound_n) r_n = 0
+//     contact, tangent    |r_t| <= mu(|v_t|) r_n,  r_t = -mu(|v_t|) r_n sign(v_t) where v_t != 0
+//     rod                 v_x >= bound_x,  r_x >= 0,  complementary (push)
+//                         v_x  = bound_x (bonded),    r_x = 0 (away)
+//
+// The bounds say in velocities that the end of the stage must not penetrate:
+// (0 - u*) / (gamma dt) for the plane, (target - u*) / (gamma dt) for the rod.
+// Solved by contact/contact_solver, judged by contact/contact_check.
+#ifndef AMONTONS_CONTACT_CONTACT_PROBLEM_H
+#define AMONTONS_CONTACT_CONTACT_PROBLEM_H
+
+#include "contact/friction_law.h"
+#include "contact/rod.h"
+
+// symbol, name
+#define CONTACT_STATUSES(X)                                                                        \
+    X(CONTACT_OPEN, "open")                                                                        \
+    X(CONTACT_STICK, "stick")                                                                      \
+    X(CONTACT_SLIP_FORWARD, "slip forward")                                                        \
+    X(CONTACT_SLIP_BACKWARD, "slip backward")
+
+typedef enum ContactStatus {
+#define X(symbol, name) symbol,
+    CONTACT_STATUSES(X)
+#undef X
+} ContactStatus;
+
+// Nothing is owned.
+typedef struct ContactProblem {
+    const Interface *interface;
+    const FrictionLaw *law;
+    RodKind rod_kind;
+    const double *schur;   // S [count * count], symmetric
+    const double *g;       // [count]
+    const double *bound;   // [count] of normals and rod; entries of tangents are not used
+} ContactProblem;
+
+// Arrays are the caller's. Statuses come in as a first guess and go out as found.
+typedef struct ContactSolution {
+    double *velocity;       // v [count]
+    double *reaction;       // r [count]
+    uint8_t *status;        // [contact_count] ContactStatus
+    uint8_t *rod_touches;   // [rod_count] 1: pressed, or bonded
+} ContactSolution;
+
+static inline bool status_slips(uint8_t status)
+{
+    return status == CONTACT_SLIP_FORWARD || status == CONTACT_SLIP_BACKWARD;
+}
+
+// +1 or -1: the direction of v_t.
+static inline double status_direction(uint8_t status)
+{
+    return status == CONTACT_SLIP_FORWARD ? 1.0 : -1.0;
+}
+
+#endif

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/contact_solver.h"
+
+#include "base/dense.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+ContactSolverDef contact_solver_def(void)
+{
+    return (ContactSolverDef){.iterations_all = 30, .iterations_one = 200, .tolerance = 1e-11};
+}
+
+bool contact_solver_create(const Interface *interface, ContactSolverDef def, ContactSolver *solver,
+                           Error *err)
+{
+    int64_t count = interface->count;
+    *solver = (ContactSolver){.def = def, .count = interface->count};
+    solver->free = NEW_ARRAY(int32_t, count, err);
+    solver->pivots = NEW_ARRAY(int32_t, count, err);
+    solver->matrix = NEW_ARRAY(double, count *count, err);
+    solver->step = NEW_ARRAY(double, count, err);
+    solver->residual = NEW_ARRAY(double, count, err);
+    return error_is_clean(err);
+}
+
+void contact_solver_destroy(ContactSolver *solver)
+{
+    memory_free(solver->free);
+    memory_free(solver->pivots);
+    memory_free(solver->matrix);
+    memory_free(solver->step);
+    memory_free(solver->residual);
+    *solver = (ContactSolver){0};
+}
+
+// What one pass over the statuses found.
+typedef struct Violation {
+    int32_t broken;      // statuses that break their conditions
+    double worst;        // the largest violation, in units of the scales
+    int32_t worst_node;  // contact node, or contact_count + rod node
+    double force;        // residual of the free unknowns' equations, relative
+} Violation;
+
+// Scales that make forces and velocities comparable, and the rounding level of each.
+typedef struct Scales {
+    double force, velocity;
+} Scales;
+
+static Scales problem_scales(const ContactProblem *problem, const ContactSolution *solution)
+{
+    int32_t count = problem->interface->count;
+    double diagonal = 0;
+    for (int32_t k = 0; k < count; k++)
+        diagonal = fmax(diagonal, problem->schur[(int64_t)k * count + k]);
+    Scales scales;
+    scales.force = fmax(dense_max_abs(problem->g, count), dense_max_abs(solution->reaction, count));
+    if (scales.force == 0) scales.force = 1;
+    scales.velocity = scales.force / diagonal;
+    return scales;
+}
+
+// The held unknowns take their values; slipping and open ones keep what they had.
+static void hold_unknowns(const ContactProblem *problem, ContactSolution *solution)
+{
+    const Interface *interface = problem->interface;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        if (solution->status[i] == CONTACT_OPEN) continue;
+        int32_t n = interface_normal(i), t = interface_tangent(i);
+        solution->velocity[n] = problem->bound[n];
+        if (solution->status[i] == CONTACT_STICK) solution->velocity[t] = 0;
+        if (status_slips(solution->status[i]) &&
+            solution->velocity[t] * status_direction(solution->status[i]) < 0)
+            solution->velocity[t] = 0;
+    }
+    for (int32_t j = 0; j < interface->rod_count; j++) {
+        int32_t x = interface_rod(interface, j);
+        if (solution->rod_touches[j]) solution->velocity[x] = problem->bound[x];
+    }
+}
+
+static int32_t list_free(const ContactProblem *problem, const ContactSolution *solution,
+                         int32_t *free)
+{
+    const Interface *interface = problem->interface;
+    int32_t count = 0;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        if (solution->status[i] == CONTACT_STICK) continue;
+        free[count++] = interface_tangent(i);
+        if (solution->status[i] == CONTACT_OPEN) free[count++] = interface_normal(i);
+    }
+    for (int32_t j = 0; j < interface->rod_count; j++) {
+        if (!solution->rod_touches[j]) free[count++] = interface_rod(interface, j);
+    }
+    return count;
+}
+
+// r = S v - g
+static void compute_reaction(const ContactProblem *problem, ContactSolution *solution)
+{
+    int32_t count = problem->interface->count;
+    dense_symmetric_apply(problem->schur, count, solution->velocity, solution->reaction);
+    for (int32_t k = 0; k < count; k++) solution->reaction[k] -= problem->g[k];
+}
+
+// The slipping node an unknown is the tangent of, or -1.
+static int32_t slipping_node(const ContactProblem *problem, const ContactSolution *solution,
+                             int32_t unknown)
+{
+    if (unknown >= 2 * problem->interface->contact_count || unknown % 2 != 0) return -1;
+    return status_slips(solution->status[unknown / 2]) ? unknown / 2 : -1;
+}
+
+// The equation of a free unknown: r = 0, or r_t + s mu(|v_t|) r_n = 0 where it slips.
+static double equation(const ContactProblem *problem, const ContactSolution *solution,
+                       int32_t unknown)
+{
+    int32_t i = slipping_node(problem, solution, unknown);
+    if (i < 0) return solution->reaction[unknown];
+    double mu = friction_coefficient(problem->law, fabs(solution->velocity[unknown]));
+    return solution->reaction[unknown] +
+           status_direction(solution->status[i]) * mu * solution->reaction[interface_normal(i)];
+}
+
+static bool newton_step(ContactSolver *solver, const ContactProblem *problem,
+                        ContactSolution *solution, int32_t free_count)
+{
+    int32_t count = problem->interface->count;
+    for (int32_t a = 0; a < free_count; a++) {
+        int32_t row = solver->free[a];
+        const double *schur_row = problem->schur + (int64_t)row * count;   // symmetric
+        int32_t i = slipping_node(problem, solution, row);
+        solver->step[a] = -equation(problem, solution, row);
+        if (i < 0) {
+            for (int32_t b = 0; b < free_count; b++)
+                solver->matrix[(int64_t)b * free_count + a] = schur_row[solver->free[b]];
+            continue;
+        }
+        double speed = fabs(solution->velocity[row]);
+        double mu = status_direction(solution->status[i]) *
+                    friction_coefficient(problem->law, speed);
+        const double *normal_row = problem->schur + (int64_t)interface_normal(i) * count;
+        for (int32_t b = 0; b < free_count; b++)
+            solver->matrix[(int64_t)b * free_count + a] =
+                schur_row[solver->free[b]] + mu * normal_row[solver->free[b]];
+        solver->matrix[(int64_t)a * free_count + a] +=
+            friction_slope(problem->law, speed) * solution->reaction[interface_normal(i)];
+    }
+    if (!dense_lu(solver->matrix, free_count, solver->pivots)) return false;
+    dense_lu_solve(solver->matrix, free_count, solver->pivots, solver->step);
+    for (int32_t a = 0; a < free_count; a++) solution->velocity[solver->free[a]] += solver->step[a];
+    return true;
+}
+
+// The status a contact node should have by its own conditions, and by how much it breaks them now.
+static uint8_t judge_contact(const ContactProblem *problem, const ContactSolution *solution,
+                             Scales scales, int32_t i, double *violation)
+{
+    int32_t n = interface_normal(i), t = interface_tangent(i);
+    uint8_t status = solution->status[i];
+    double pressing = solution->reaction[n], shear = solution->reaction[t];
+    if (status == CONTACT_OPEN) {
+        *violation = (problem->bound[n] - solution->velocity[n]) / scales.velocity;
+        return CONTACT_STICK;
+    }
+    *violation = -pressing / scales.force;
+    if (*violation > 0) return CONTACT_OPEN;
+    if (status == CONTACT_STICK) {
+        *violation = (fabs(shear) - problem->law->mu_static * pressing) / scales.force;
+        return shear < 0 ? CONTACT_SLIP_FORWARD : CONTACT_SLIP_BACKWARD;
+    }
+    *violation = -solution->velocity[t] * status_direction(status) / scales.velocity;
+    return CONTACT_STICK;
+}
+
+static uint8_t judge_rod(const ContactProblem *problem, const ContactSolution *solution,
+                         Scales scales, int32_t j, double *violation)
+{
+    int32_t x = interface_rod(problem->interface, j);
+    *violation = 0;
+    if (problem->rod_kind != ROD_PUSHES) return solution->rod_touches[j];
+    if (solution->rod_touches[j])
+        *violation = -solution->reaction[x] / scales.force;
+    else
+        *violation = (problem->bound[x] - solution->velocity[x]) / scales.velocity;
+    return !solution->rod_touches[j];
+}
+
+// Checks all statuses; changes all broken ones, or only the worst.
+static Violation update_statuses(const ContactSolver *solver, const ContactProblem *problem,
+                                 ContactSolution *solution, Scales scales, bool change_all)
+{
+    const Interface *interface = problem->interface;
+    int32_t contacts = interface->contact_count;
+    double threshold = solver->def.tolerance;
+    Violation found = {.worst_node = -1};
+    uint8_t worst_status = 0;
+    for (int32_t k = 0; k < contacts + interface->rod_count; k++) {
+        double violation;
+        uint8_t better = k < contacts
+                             ? judge_contact(problem, solution, scales, k, &violation)
+                             : judge_rod(problem, solution, scales, k - contacts, &violation);
+        if (!(violation > threshold)) continue;
+        found.broken++;
+        if (violation > found.worst) {
+            found.worst = violation;
+            found.worst_node = k;
+            worst_status = better;
+        }
+        if (change_all && k < contacts) solution->status[k] = better;
+        if (change_all && k >= contacts) solution->rod_touches[k - contacts] = better;
+    }
+    if (!change_all && found.broken > 0) {
+        if (found.worst_node < contacts)
+            solution->status[found.worst_node] = worst_status;
+        else
+            solution->rod_touches[found.worst_node - contacts] = worst_status;
+    }
+    return found;
+}
+
+static double equations_residual(const ContactSolver *solver, const ContactProblem *problem,
+                                 const ContactSolution *solution, int32_t free_count)
+{
+    double largest = 0;
+    for (int32_t a = 0; a < free_count; a++)
+        largest = fmax(largest, fabs(equation(problem, solution, solver->free[a])));
+    return largest;
+}
+
+// Statuses that settle what is not in question: the rod's kind decides a bonded or absent rod.
+static void fix_rod_kind(const ContactProblem *problem, ContactSolution *solution)
+{
+    for (int32_t j = 0; j < problem->interface->rod_count; j++) {
+        if (problem->rod_kind == ROD_AWAY) solution->rod_touches[j] = 0;
+        if (problem->rod_kind == ROD_IS_BONDED) solution->rod_touches[j] = 1;
+    }
+}
+
+bool contact_solve(ContactSolver *solver, const ContactProblem *problem, ContactSolution *solution)
+{
+    solver->solves++;
+    fix_rod_kind(problem, solution);
+    int32_t limit = solver->def.iterations_all + solver->def.iterations_one;
+    hold_unknowns(problem, solution);
+    compute_reaction(problem, solution);
+    for (int32_t iteration = 0; iteration < limit; iteration++) {
+        bool change_all = iteration < solver->def.iterations_all;
+        if (iteration == solver->def.iterations_all) solver->fallbacks++;
+        int32_t free_count = list_free(problem, solution, solver->free);
+        solver->iterations++;
+        if (!newton_step(solver, problem, solution, free_count)) break;
+        compute_reaction(problem, solution);
+        Scales scales = problem_scales(problem, solution);
+        double residual = equations_residual(solver, problem, solution, free_count);
+        if (!isfinite(residual)) break;
+        bool equations_hold = residual <= solver->def.tolerance * scales.force;
+        if (!change_all && !equations_hold) continue;   // first solve for these statuses
+        Violation found = update_statuses(solver, problem, solution, scales, change_all);
+        if (found.broken == 0 && equations_hold) return true;
+        if (found.broken == 0) continue;
+        hold_unknowns(problem, solution);
+        compute_reaction(problem, solution);
+    }
+    solver->unsolved++;
+    return false;
+}

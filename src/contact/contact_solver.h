@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Active-set Newton for the contact problem of one stage (Alart and Curnier, Comp. Meth. Appl. Mech.
+// Eng. 92, 1991, in its status form). For given statuses the unknowns are the slipping tangents, both
+// components of open nodes and the rod nodes that have let go; everything else is held. One Newton
+// step on those, with the true derivative of mu(v) p,
+//
+//     row of a slipping tangent:   S_t + s mu S_n + mu'(|v_t|) r_n e_t,     s = sign of slip,
+//
+// then every status is checked against its own conditions and changed where it breaks them. The
+// linear system is dense and unsymmetric. When statuses cycle, only the worst one is changed at a
+// time; when that does not settle either, the problem counts as unsolved and the caller must take a
+// smaller step (with mu_S > 1 it may have no solution). Called by stepping/sdirk2.
+#ifndef AMONTONS_CONTACT_CONTACT_SOLVER_H
+#define AMONTONS_CONTACT_CONTACT_SOLVER_H
+
+#include "contact/contact_problem.h"
+
+typedef struct ContactSolverDef {
+    int32_t iterations_all;   // Newton steps in which every broken status is changed: 30, some ten
+                              // times what a solvable problem was seen to need
+    int32_t iterations_one;   // and then those that change only the worst: 200
+    double tolerance;         // of residual forces, relative to the largest force: 1e-11, some 1e3
+                              // above what rounding leaves in S v - g
+} ContactSolverDef;
+ContactSolverDef contact_solver_def(void);
+
+typedef struct ContactSolver {
+    ContactSolverDef def;
+    int32_t count;           // interface unknowns
+    int32_t *free;           // [count] work: the unknowns solved for; owned
+    int32_t *pivots;         // [count] work; owned
+    double *matrix;          // [count^2] work; owned
+    double *step;            // [count] work; owned
+    double *residual;        // [count] work: S v - g; owned
+    int64_t solves;          // counted
+    int64_t iterations;      // counted, Newton steps
+    int64_t fallbacks;       // counted, solves in which only the worst status was changed
+    int64_t unsolved;        // counted
+} ContactSolver;
+
+bool contact_solver_create(const Interface *interface, ContactSolverDef def, ContactSolver *solver,
+                           Error *err);
+void contact_solver_destroy(ContactSolver *solver);
+
+// Solves from the statuses in `solution` (warm start). false: unsolved; `solution` then holds no
+// meaning. Allocates nothing and sets no error: the caller decides what to do.
+bool contact_solve(ContactSolver *solver, const ContactProblem *problem,
+                   ContactSolution *solution);
+
+#endif

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/interface.h"
+
+#include "base/memory.h"
+#include "bulk/assembly.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+// How far outside the strip a rod node may lie, relative to the block's height: rounding only.
+static const double STRIP_TOLERANCE = 1e-9;
+
+static bool build_contact(const Mesh *mesh, const InterfaceDef *def, Interface *interface,
+                          Error *err)
+{
+    MeshContact contact = {0};
+    double *weight = NEW_ARRAY(double, mesh->node_count, err);
+    if (!weight) goto cleanup;
+    TRY(mesh_contact(mesh, def->contact_names, def->contact_name_count, &contact, err));
+    for (int32_t c = 0; c < contact.curve_count; c++)
+        curve_add_weights(mesh, &contact.curves[c], weight);
+    int32_t count = contact.node_count;
+    interface->contact_count = count;
+    interface->pad_count = contact.curve_count;
+    interface->node = NEW_ARRAY(int32_t, count, err);
+    interface->x = NEW_ARRAY(double, count, err);
+    interface->weight = NEW_ARRAY(double, count, err);
+    interface->pad = NEW_ARRAY(int32_t, count, err);
+    if (!interface->node || !interface->x || !interface->weight || !interface->pad) goto cleanup;
+    for (int32_t i = 0; i < count; i++) {
+        int32_t node = contact.nodes[i];
+        interface->node[i] = node;
+        interface->x[i] = mesh->position[2 * node];
+        interface->weight[i] = weight[node];
+        interface->pad[i] = contact.curve_of[i];
+    }
+cleanup:
+    memory_free(weight);
+    mesh_contact_destroy(&contact);
+    return error_is_clean(err);
+}
+
+static bool is_contact_node(const Interface *interface, int32_t node)
+{
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        if (interface->node[i] == node) return true;
+    }
+    return false;
+}
+
+static bool build_rod(const Mesh *mesh, const InterfaceDef *def, Interface *interface, Error *err)
+{
+    if (!def->has_rod) return true;
+    MeshCurve curve;
+    TRY(mesh_curve(mesh, def->rod_name, &curve, err));
+    interface->rod_node = NEW_ARRAY(int32_t, curve.node_count, err);
+    interface->rod_z = NEW_ARRAY(double, curve.node_count, err);
+    if (!interface->rod_node || !interface->rod_z) goto cleanup;
+    double reach = 0.5 * def->rod_width + STRIP_TOLERANCE * (mesh->z_max - mesh->z_min);
+    double nearest = INFINITY;
+    for (int32_t k = 0; k < curve.node_count; k++) {
+        int32_t node = curve.nodes[k];
+        double z = mesh->position[2 * node + 1];
+        if (is_contact_node(interface, node)) continue;
+        if (fabs(z - def->rod_height) < fabs(nearest - def->rod_height)) nearest = z;
+        if (fabs(z - def->rod_height) > reach) continue;
+        int32_t j = interface->rod_count++;
+        while (j > 0 && interface->rod_z[j - 1] > z) {
+            interface->rod_z[j] = interface->rod_z[j - 1];
+            interface->rod_node[j] = interface->rod_node[j - 1];
+            j--;
+        }
+        interface->rod_z[j] = z;
+        interface->rod_node[j] = node;
+    }
+    if (interface->rod_count == 0)
+        FAIL(err, ERROR_INPUT,
+             "%s: no node of group \"%s\" lies in the rod's strip %g <= z <= %g; the nearest is at "
+             "z = %g: widen rod.width, move rod.height or refine the mesh",
+             mesh->path, def->rod_name, def->rod_height - 0.5 * def->rod_width,
+             def->rod_height + 0.5 * def->rod_width, nearest);
+cleanup:
+    return error_is_clean(err);
+}
+
+bool interface_build(const Mesh *mesh, const InterfaceDef *def, Interface *interface, Error *err)
+{
+    *interface = (Interface){0};
+    TRY(build_contact(mesh, def, interface, err));
+    TRY(build_rod(mesh, def, interface, err));
+    interface->count = 2 * interface->contact_count + interface->rod_count;
+    interface->dofs = NEW_ARRAY(int32_t, interface->count, err);
+    if (!interface->dofs) goto cleanup;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        interface->dofs[interface_tangent(i)] = 2 * interface->node[i];
+        interface->dofs[interface_normal(i)] = 2 * interface->node[i] + 1;
+    }
+    for (int32_t j = 0; j < interface->rod_count; j++)
+        interface->dofs[interface_rod(interface, j)] = 2 * interface->rod_node[j];
+cleanup:
+    return error_is_clean(err);
+}
+
+void interface_destroy(Interface *interface)
+{
+    memory_free(interface->node);
+    memory_free(interface->x);
+    memory_free(interface->weight);
+    memory_free(interface->pad);
+    memory_free(interface->rod_node);
+    memory_free(interface->rod_z);
+    memory_free(interface->dofs);
+    *interface = (Interface){0};
+}
