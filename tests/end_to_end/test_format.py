@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The style that a machine can check: clang-format, lengths of files, functions and lines, number
+of arguments, the licence line."""
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
+FILE_LINES, FUNCTION_LINES, ARGUMENTS, COLUMNS = 700, 90, 6, 100
+HEADER_LINES = {"amontons.h": 220}   # the public header; every other header: below 150
+HEADER_LINES_MAX = 150
+CLANG_FORMAT = "14"                  # Debian 12's; another major version formats otherwise
+LICENCE = "SPDX-License-Identifier: GPL-2.0-or-later"
+
+
+def c_files(root):
+    tops = ("src", "render", "tests")
+    return sorted(f for top in tops for f in root.glob(f"{top}/**/*")
+                  if f.suffix in (".c", ".h", ".cc"))
+
+
+def functions(text):
+    """(name, lines, arguments) of each function: in our format a body stands between a "{" and a
+    "}" in the first column, and its head follows an empty line, a comment or a directive."""
+    lines = text.splitlines()
+    found = []
+    for start, line in enumerate(lines):
+        if line != "{":
+            continue
+        end = lines.index("}", start) if "}" in lines[start:] else len(lines) - 1
+        head = start
+        while head > 0 and lines[head - 1] and not lines[head - 1].startswith(("//", "#", "}")):
+            head -= 1
+        match = re.match(r"[^(]*?(\w+)\((.*)\)", " ".join(lines[head:start]))
+        if match:
+            found.append((match[1], end - head + 1, count_arguments(match[2])))
+    return found
+
+
+def count_arguments(inside):
+    """Of "const double *a, void (*f)(int, int)": 2."""
+    if inside.strip() in ("", "void"):
+        return 0
+    depth, count = 0, 1
+    for letter in inside:
+        depth += (letter == "(") - (letter == ")")
+        count += letter == "," and depth == 0
+    return count
+
+
+def faults(path):
+    """What is wrong with one C file."""
+    text = path.read_text()
+    lines = text.splitlines()
+    found = []
+    if not lines or lines[0] != f"// {LICENCE}":
+        found.append("the first line is not the SPDX line")
+    limit = HEADER_LINES.get(path.name, HEADER_LINES_MAX - 1) if path.suffix == ".h" else FILE_LINES
+    if len(lines) > limit:
+        found.append(f"{len(lines)} lines, at most {limit}")
+    for number, line in enumerate(lines, 1):
+        if len(line) > COLUMNS:
+            found.append(f"line {number} has {len(line)} columns, at most {COLUMNS}")
+    for name, length, arguments in functions(text):
+        if length > FUNCTION_LINES:
+            found.append(f"{name} has {length} lines, at most {FUNCTION_LINES}")
+        if arguments > ARGUMENTS:
+            found.append(f"{name} takes {arguments} arguments, at most {ARGUMENTS}")
+    return found
+
+
+class Style(unittest.TestCase):
+    def test_limits(self):
+        files = c_files(SOURCE)
+        self.assertGreater(len(files), 20)
+        for path in files:
+            with self.subTest(str(path.relative_to(SOURCE))):
+                self.assertEqual(faults(path), [])
+
+    def test_licence_of_the_rest(self):
+        """Scripts, build files and meshes name the licence in their first three lines."""
+        names = [SOURCE / "amontons", SOURCE / ".ci/run"]
+        for pattern in ("**/CMakeLists.txt", "**/*.py", "**/*.geo", "**/*.edp"):
+            names += [f for f in SOURCE.glob(pattern) if "build" not in str(f.relative_to(SOURCE))]
+        for path in names:
+            with self.subTest(str(path.relative_to(SOURCE))):
+                self.assertIn(LICENCE, "\n".join(path.read_text().splitlines()[:3]))
+
+    def test_sees_faults(self):
+        body = "    int a = 0;\n" * 100
+        seven = ", ".join(f"int a{i}" for i in range(7))
+        text = (f"// {LICENCE}\n\n// Too long.\nstatic int long_one(void)\n{{\n{body}}}\n\n"
+                f"int many_arguments({seven[:30]}\n    {seven[30:]})\n{{\n}}\n"
+                "int fine(const int *a, void (*f)(int, int))\n{\n    f(*a, 1);\n}\n")
+        self.assertEqual(functions(text), [("long_one", 103, 0), ("many_arguments", 4, 7),
+                                           ("fine", 4, 2)])
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "bad.c"
+            path.write_text(text + "//" + "-" * 99 + "\n")
+            self.assertEqual(len(faults(path)), 3)
+            path.write_text("int a;\n" * 701)
+            self.assertEqual(len(faults(path)), 2)
+            header = Path(folder) / "bad.h"
+            header.write_text(f"// {LICENCE}\n" + "int a;\n" * 149)
+            self.assertEqual(len(faults(header)), 1)
+
+
+class ClangFormat(unittest.TestCase):
+    def setUp(self):
+        self.assertIsNotNone(shutil.which("clang-format"), "clang-format is not installed")
+        version = subprocess.run(["clang-format", "--version"], capture_output=True, text=True)
+        if f"version {CLANG_FORMAT}." not in version.stdout:
+            self.skipTest(f"only version {CLANG_FORMAT} formats as the project does")
+
+    def complaints(self, files):
+        """The first lines clang-format would change, with their files."""
+        done = subprocess.run(
+            ["clang-format", f"-style=file:{SOURCE}/.clang-format", "--dry-run", "-Werror", *files],
+            capture_output=True, text=True)
+        return [line for line in done.stderr.splitlines() if "error:" in line][:10]
+
+    def test_sources(self):
+        self.assertEqual(self.complaints(c_files(SOURCE)), [])
+
+    def test_sees_faults(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "bad.c"
+            path.write_text("int  f(void){return 0;}\n")
+            self.assertNotEqual(self.complaints([path]), [])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The folders of src are layers: a file includes its own folder and those above it in the list.
+
+Also: nothing below run/ knows a scene or the public header, render/ sees base/ and the result
+format only, cli/ sees the public header only, and modules export amontons_ symbols only.
+"""
+import os
+import re
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
+MODULES = Path(os.environ.get("AMONTONS_MODULES", SOURCE / "build/bin"))
+
+LAYERS = ["base", "io", "bulk", "contact", "stepping", "run", "study", "cli"]
+OWN_INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
+
+
+def allowed(folder, include):
+    """Whether a file in `folder` ("bulk", ..., "render", "" for amontons.h) may include `include`."""
+    if include in ("amontons.h", "run/scene.h", "render/render.h") and folder in LAYERS[:5]:
+        return False
+    if folder == "":
+        return include.startswith("base/")
+    if folder == "render":
+        return include.startswith(("base/", "render/")) or include == "io/result_file.h"
+    if folder == "cli":
+        return include == "amontons.h" or include.startswith("cli/")
+    if include in ("amontons.h", "render/render.h"):
+        return True
+    target = include.split("/")[0]
+    return target in LAYERS and LAYERS.index(target) <= LAYERS.index(folder)
+
+
+def violations(root):
+    """Every include in src/ and render/ that the layers do not allow, as "file includes what"."""
+    found = []
+    files = [*root.glob("src/**/*"), *root.glob("render/**/*")]
+    for path in sorted(f for f in files if f.suffix in (".c", ".h", ".cc")):
+        place = path.relative_to(root).parts
+        folder = "render" if place[0] == "render" else "/".join(place[1:-1])
+        if folder not in [*LAYERS, "render", ""]:
+            found.append(f"{'/'.join(place)}: {folder} is not a layer")
+            continue
+        for include in OWN_INCLUDE.findall(path.read_text()):
+            if not allowed(folder, include):
+                found.append(f"{'/'.join(place)} includes {include}")
+    return found
+
+
+def exported(module):
+    """The symbols that a shared object defines for others."""
+    listing = subprocess.run(["nm", "-D", "--defined-only", module], capture_output=True, text=True,
+                             check=True).stdout
+    return [line.split()[-1].split("@")[0] for line in listing.splitlines()]
+
+
+class Layers(unittest.TestCase):
+    def test_sources(self):
+        self.assertEqual(violations(SOURCE), [])
+
+    def test_sees_faults(self):
+        """Each rule catches the file that breaks it, and nothing else."""
+        faults = {
+            "src/base/a.c": "io/array_file.h",
+            "src/bulk/a.c": "contact/rod.h",
+            "src/stepping/a.h": "run/scene.h",
+            "src/contact/a.c": "amontons.h",
+            "src/run/a.c": "cli/options.h",
+            "src/cli/a.c": "run/scene.h",
+            "src/io/a.cc": "render/render.h",
+            "src/run/b.c": "utils/list.h",
+            "src/amontons.h": "run/scene.h",
+            "render/a.c": "run/history.h",
+            "render/b.c": "io/field_file.h",
+        }
+        good = {
+            "src/bulk/good.c": ["bulk/mesh.h", "io/mesh_file.h", "base/error.h"],
+            "src/run/good.c": ["amontons.h", "run/scene.h", "stepping/state.h", "render/render.h"],
+            "src/cli/good.c": ["amontons.h", "cli/options.h"],
+            "render/good.c": ["render/render.h", "io/result_file.h", "base/memory.h"],
+        }
+        with tempfile.TemporaryDirectory() as folder:
+            root = Path(folder)
+            for name, includes in [*((f, [i]) for f, i in faults.items()), *good.items()]:
+                (root / name).parent.mkdir(parents=True, exist_ok=True)
+                (root / name).write_text("".join(f'#include "{i}"\n' for i in includes))
+            (root / "src/utils").mkdir()
+            (root / "src/utils/list.c").write_text("")
+            expected = [f"{name} includes {include}" for name, include in faults.items()]
+            expected.append("src/utils/list.c: utils is not a layer")
+            self.assertEqual(sorted(violations(root)), sorted(expected))
+
+    def test_no_library_below_its_layer(self):
+        """Heavy libraries stay in the one file each that DESIGN gives them."""
+        owners = {
+            "gmshc.h": {"src/io/mesh_file_module.c"},
+            "cholmod.h": {"src/base/sparse.c"},
+            "hdf5.h": {"src/io/array_file.c"},
+            "libfyaml.h": {"src/io/yaml_document.c"},
+        }
+        for header, files in owners.items():
+            users = {
+                str(path.relative_to(SOURCE))
+                for top in ("src", "render")
+                for path in (SOURCE / top).rglob("*.[ch]*")
+                if re.search(rf"#\s*include\s+<(?:\w+/)?{re.escape(header)}>", path.read_text())
+            }
+            self.assertLessEqual(users, files, header)
+
+
+class Modules(unittest.TestCase):
+    def test_exports(self):
+        modules = sorted(MODULES.glob("amontons_*.so"))
+        self.assertTrue(modules, f"no module in {MODULES}")
+        for module in modules:
+            foreign = [s for s in exported(module) if not s.startswith("amontons_")]
+            self.assertEqual(foreign, [], module.name)
+
+    def test_program_loads_no_heavy_library(self):
+        """gmsh, VTK and OSMesa come with their modules, on first use."""
+        program = MODULES / "amontons"
+        needed = subprocess.run(["ldd", program], capture_output=True, text=True, check=True).stdout
+        for library in ("libgmsh", "libvtk", "libOSMesa", "libstdc++"):
+            self.assertNotIn(library, needed)
+
+
+if __name__ == "__main__":
+    unittest.main()
