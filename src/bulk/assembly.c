@@ -10,7 +10,7 @@
 
 // The nodes that share an element with each node, ascending, itself included.
 typedef struct NodeGraph {
-    int32_t *start;       // [nodes + 1]
+    int32_t *start;   // [nodes + 1]
     int32_t *neighbour;   // [start[nodes]]
 } NodeGraph;
 
@@ -29,7 +29,8 @@ static bool build_graph(const Mesh *mesh, NodeGraph *graph, Error *err)
     if (!filled || !graph->start) goto cleanup;
     for (int32_t e = 0; e < mesh->element_count; e++) {
         int32_t first = mesh->first_node[e], count = mesh->first_node[e + 1] - first;
-        for (int32_t a = 0; a < count; a++) graph->start[mesh->element_nodes[first + a] + 1] += count;
+        for (int32_t a = 0; a < count; a++)
+            graph->start[mesh->element_nodes[first + a] + 1] += count;
     }
     for (int32_t i = 0; i < nodes; i++) graph->start[i + 1] += graph->start[i];
     graph->neighbour = NEW_ARRAY(int32_t, graph->start[nodes], err);

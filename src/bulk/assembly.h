@@ -9,12 +9,12 @@
 #include "bulk/mesh.h"
 
 typedef struct Bulk {
-    int32_t dof_count;        // 2 * nodes
-    SparsePattern pattern;    // of K and C; owned
-    double *stiffness;        // [pattern.start[dof_count]]; owned
-    double *damping;          // same; owned
-    double *mass;             // [dof_count] lumped, both directions alike; owned
-    double *load;             // [dof_count] f, force/width; starts at 0; owned
+    int32_t dof_count;   // 2 * nodes
+    SparsePattern pattern;   // of K and C; owned
+    double *stiffness;   // [pattern.start[dof_count]]; owned
+    double *damping;   // same; owned
+    double *mass;   // [dof_count] lumped, both directions alike; owned
+    double *load;   // [dof_count] f, force/width; starts at 0; owned
     double area;
 } Bulk;
 

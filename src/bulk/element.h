@@ -10,10 +10,10 @@
 enum { ELEMENT_DOFS_MAX = 2 * ELEMENT_NODES_MAX };
 
 typedef struct ElementMatrices {
-    int32_t dof_count;                                        // 2 * nodes: x and z of each in turn
-    double stiffness[ELEMENT_DOFS_MAX][ELEMENT_DOFS_MAX];     // force/width per length
-    double damping[ELEMENT_DOFS_MAX][ELEMENT_DOFS_MAX];       // force/width per velocity
-    double mass[ELEMENT_NODES_MAX];                           // mass/width of each node
+    int32_t dof_count;   // 2 * nodes: x and z of each in turn
+    double stiffness[ELEMENT_DOFS_MAX][ELEMENT_DOFS_MAX];   // force/width per length
+    double damping[ELEMENT_DOFS_MAX][ELEMENT_DOFS_MAX];   // force/width per velocity
+    double mass[ELEMENT_NODES_MAX];   // mass/width of each node
     double area;
 } ElementMatrices;
 

@@ -7,14 +7,14 @@
 
 struct InterfaceOperator {
     BulkOperator *system;   // not owned
-    SparseFactor *factor;     // owned
-    double *schur;            // [interface_count^2] S without the shift; owned
+    SparseFactor *factor;   // owned
+    double *schur;   // [interface_count^2] S without the shift; owned
 };
 
 bool bulk_operator_create(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
                           BulkOperator *system, Error *err)
 {
-    *system= (BulkOperator){
+    *system = (BulkOperator){
         .dof_count = bulk->dof_count, .interface_count = interface_count, .bulk = bulk};
     system->interface_dofs = NEW_ARRAY(int32_t, interface_count, err);
     system->values = NEW_ARRAY(double, bulk->pattern.start[bulk->dof_count], err);
@@ -30,7 +30,7 @@ void bulk_operator_destroy(BulkOperator *system)
     memory_free(system->interface_dofs);
     memory_free(system->values);
     sparse_analysis_destroy(system->analysis);
-    *system= (BulkOperator){0};
+    *system = (BulkOperator){0};
 }
 
 void bulk_operator_apply(const BulkOperator *system, BulkTerm term, const double *x, double *y)
@@ -59,13 +59,12 @@ static void combine_terms(BulkOperator *system, OperatorTerms terms)
     }
 }
 
-InterfaceOperator *interface_operator_create(BulkOperator *system, OperatorTerms terms,
-                                             Error *err)
+InterfaceOperator *interface_operator_create(BulkOperator *system, OperatorTerms terms, Error *err)
 {
     int64_t count = system->interface_count;
     InterfaceOperator *condensed = NEW_ARRAY(InterfaceOperator, 1, err);
     if (!condensed) goto cleanup;
-    condensed->system= system;
+    condensed->system = system;
     condensed->schur = NEW_ARRAY(double, count *count, err);
     if (!condensed->schur) goto cleanup;
     combine_terms(system, terms);

@@ -17,12 +17,12 @@ typedef enum BulkTerm { BULK_STIFFNESS, BULK_DAMPING } BulkTerm;
 typedef struct BulkOperator {
     int32_t dof_count;
     int32_t interface_count;
-    int32_t *interface_dofs;    // [interface_count] indices of unknowns; owned
-    const Bulk *bulk;           // K, C, M, f; not owned
+    int32_t *interface_dofs;   // [interface_count] indices of unknowns; owned
+    const Bulk *bulk;   // K, C, M, f; not owned
     SparseAnalysis *analysis;   // owned
-    double *values;             // [entries] work: A; owned
-    int64_t factorisations;     // counted
-    int64_t solves;             // counted
+    double *values;   // [entries] work: A; owned
+    int64_t factorisations;   // counted
+    int64_t solves;   // counted
 } BulkOperator;
 
 // `bulk` must outlive the operator.
@@ -35,15 +35,14 @@ void bulk_operator_apply(const BulkOperator *system, BulkTerm term, const double
 
 typedef struct OperatorTerms {
     double mass, damping, stiffness;   // factors of M, C, K in A
-    double shift;                      // added to A's interface diagonal before factoring and taken
-                                       // off S afterwards: lets C alone, which is singular, be used
+    double shift;   // added to A's interface diagonal before factoring and taken
+        // off S afterwards: lets C alone, which is singular, be used
 } OperatorTerms;
 
 typedef struct InterfaceOperator InterfaceOperator;   // A, factored
 
 // ERROR_COMPUTE when A is not positive definite.
-InterfaceOperator *interface_operator_create(BulkOperator *system, OperatorTerms terms,
-                                             Error *err);
+InterfaceOperator *interface_operator_create(BulkOperator *system, OperatorTerms terms, Error *err);
 void interface_operator_destroy(InterfaceOperator *condensed);   // NULL is fine
 
 // S: [interface_count^2], symmetric, column-major.

@@ -11,10 +11,10 @@
 #include <stdbool.h>
 
 typedef struct Material {
-    double young;          // E, stress
-    double poisson;        // nu, 1; in (-1, 1) in plane stress, (-1, 1/2) in plane strain
-    double density;        // rho, mass per area of the plane and width
-    double eta1, eta2;     // viscosities, stress * time
+    double young;   // E, stress
+    double poisson;   // nu, 1; in (-1, 1) in plane stress, (-1, 1/2) in plane strain
+    double density;   // rho, mass per area of the plane and width
+    double eta1, eta2;   // viscosities, stress * time
     bool plane_strain;
 } Material;
 

@@ -14,8 +14,7 @@ static void check_unilateral(double approach, double force, ContactResidual *wor
 }
 
 ContactResidual contact_residual(const ContactProblem *problem, const double *velocity,
-                                 const double *reaction, double force_scale,
-                                 double velocity_scale)
+                                 const double *reaction, double force_scale, double velocity_scale)
 {
     const Interface *interface = problem->interface;
     ContactResidual worst = {0};
@@ -27,8 +26,7 @@ ContactResidual contact_residual(const ContactProblem *problem, const double *ve
         double limit = friction_coefficient(problem->law, fabs(slip_rate)) * fmax(pressing, 0);
         worst.cone = fmax(worst.cone, fabs(shear) - limit);
         if (fabs(slip_rate) > STILL * velocity_scale)
-            worst.direction =
-                fmax(worst.direction, fabs(shear + (slip_rate > 0 ? limit : -limit)));
+            worst.direction = fmax(worst.direction, fabs(shear + (slip_rate > 0 ? limit : -limit)));
     }
     for (int32_t j = 0; j < interface->rod_count; j++) {
         int32_t x = interface_rod(interface, j);

@@ -10,15 +10,14 @@
 // `velocity_scale`.
 typedef struct ContactResidual {
     double penetration;   // bound - v_n (or rod), velocity
-    double pull;          // -r_n (or rod), force
-    double gap_force;     // min(v_n - bound, r_n) in scaled quantities: pressed though apart
-    double cone;          // |r_t| - mu r_n, force
-    double direction;     // |r_t + mu r_n sign(v_t)| where |v_t| is above rounding, force
+    double pull;   // -r_n (or rod), force
+    double gap_force;   // min(v_n - bound, r_n) in scaled quantities: pressed though apart
+    double cone;   // |r_t| - mu r_n, force
+    double direction;   // |r_t + mu r_n sign(v_t)| where |v_t| is above rounding, force
 } ContactResidual;
 
 ContactResidual contact_residual(const ContactProblem *problem, const double *velocity,
-                                 const double *reaction, double force_scale,
-                                 double velocity_scale);
+                                 const double *reaction, double force_scale, double velocity_scale);
 double contact_residual_max(const ContactResidual *residual);
 
 #endif

@@ -35,15 +35,15 @@ typedef struct ContactProblem {
     const FrictionLaw *law;
     RodKind rod_kind;
     const double *schur;   // S [count * count], symmetric
-    const double *g;       // [count]
+    const double *g;   // [count]
     const double *bound;   // [count] of normals and rod; entries of tangents are not used
 } ContactProblem;
 
 // Arrays are the caller's. Statuses come in as a first guess and go out as found.
 typedef struct ContactSolution {
-    double *velocity;       // v [count]
-    double *reaction;       // r [count]
-    uint8_t *status;        // [contact_count] ContactStatus
+    double *velocity;   // v [count]
+    double *reaction;   // r [count]
+    uint8_t *status;   // [contact_count] ContactStatus
     uint8_t *rod_touches;   // [rod_count] 1: pressed, or bonded
 } ContactSolution;
 

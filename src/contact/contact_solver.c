@@ -37,10 +37,10 @@ void contact_solver_destroy(ContactSolver *solver)
 
 // What one pass over the statuses found.
 typedef struct Violation {
-    int32_t broken;      // statuses that break their conditions
-    double worst;        // the largest violation, in units of the scales
-    int32_t worst_node;  // contact node, or contact_count + rod node
-    double force;        // residual of the free unknowns' equations, relative
+    int32_t broken;   // statuses that break their conditions
+    double worst;   // the largest violation, in units of the scales
+    int32_t worst_node;   // contact node, or contact_count + rod node
+    double force;   // residual of the free unknowns' equations, relative
 } Violation;
 
 // Scales that make forces and velocities comparable, and the rounding level of each.
@@ -142,10 +142,10 @@ static bool newton_step(ContactSolver *solver, const ContactProblem *problem,
                     friction_coefficient(problem->law, speed);
         const double *normal_row = problem->schur + (int64_t)interface_normal(i) * count;
         for (int32_t b = 0; b < free_count; b++)
-            solver->matrix[(int64_t)b * free_count + a] =
-                schur_row[solver->free[b]] + mu * normal_row[solver->free[b]];
-        solver->matrix[(int64_t)a * free_count + a] +=
-            friction_slope(problem->law, speed) * solution->reaction[interface_normal(i)];
+            solver->matrix[(int64_t)b * free_count + a] = schur_row[solver->free[b]] +
+                                                          mu * normal_row[solver->free[b]];
+        solver->matrix[(int64_t)a * free_count + a] += friction_slope(problem->law, speed) *
+                                                       solution->reaction[interface_normal(i)];
     }
     if (!dense_lu(solver->matrix, free_count, solver->pivots)) return false;
     dense_lu_solve(solver->matrix, free_count, solver->pivots, solver->step);

@@ -17,25 +17,25 @@
 
 typedef struct ContactSolverDef {
     int32_t iterations_all;   // Newton steps in which every broken status is changed: 30, some ten
-                              // times what a solvable problem was seen to need
+        // times what a solvable problem was seen to need
     int32_t iterations_one;   // and then those that change only the worst: 200
-    double tolerance;         // of residual forces, relative to the largest force: 1e-11, some 1e3
-                              // above what rounding leaves in S v - g
+    double tolerance;   // of residual forces, relative to the largest force: 1e-11, some 1e3
+        // above what rounding leaves in S v - g
 } ContactSolverDef;
 ContactSolverDef contact_solver_def(void);
 
 typedef struct ContactSolver {
     ContactSolverDef def;
-    int32_t count;           // interface unknowns
-    int32_t *free;           // [count] work: the unknowns solved for; owned
-    int32_t *pivots;         // [count] work; owned
-    double *matrix;          // [count^2] work; owned
-    double *step;            // [count] work; owned
-    double *residual;        // [count] work: S v - g; owned
-    int64_t solves;          // counted
-    int64_t iterations;      // counted, Newton steps
-    int64_t fallbacks;       // counted, solves in which only the worst status was changed
-    int64_t unsolved;        // counted
+    int32_t count;   // interface unknowns
+    int32_t *free;   // [count] work: the unknowns solved for; owned
+    int32_t *pivots;   // [count] work; owned
+    double *matrix;   // [count^2] work; owned
+    double *step;   // [count] work; owned
+    double *residual;   // [count] work: S v - g; owned
+    int64_t solves;   // counted
+    int64_t iterations;   // counted, Newton steps
+    int64_t fallbacks;   // counted, solves in which only the worst status was changed
+    int64_t unsolved;   // counted
 } ContactSolver;
 
 bool contact_solver_create(const Interface *interface, ContactSolverDef def, ContactSolver *solver,
@@ -44,7 +44,6 @@ void contact_solver_destroy(ContactSolver *solver);
 
 // Solves from the statuses in `solution` (warm start). false: unsolved; `solution` then holds no
 // meaning. Allocates nothing and sets no error: the caller decides what to do.
-bool contact_solve(ContactSolver *solver, const ContactProblem *problem,
-                   ContactSolution *solution);
+bool contact_solve(ContactSolver *solver, const ContactProblem *problem, ContactSolution *solution);
 
 #endif

@@ -21,8 +21,8 @@ typedef enum FrictionKind {
 
 typedef struct FrictionLaw {
     FrictionKind kind;
-    double mu_static;           // mu_S, 1
-    double mu_kinetic;          // mu_K <= mu_S, 1; unused by Coulomb
+    double mu_static;   // mu_S, 1
+    double mu_kinetic;   // mu_K <= mu_S, 1; unused by Coulomb
     double critical_velocity;   // v_c > 0, velocity; unused by Coulomb
 } FrictionLaw;
 

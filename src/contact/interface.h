@@ -12,16 +12,16 @@
 
 typedef struct Interface {
     int32_t contact_count;
-    int32_t *node;        // [contact_count] mesh node, ascending x; owned
-    double *x;            // [contact_count] position, length; owned
-    double *weight;       // [contact_count] integral of the shape function, length; owned
-    int32_t *pad;         // [contact_count] which contact curve, from 0; owned
+    int32_t *node;   // [contact_count] mesh node, ascending x; owned
+    double *x;   // [contact_count] position, length; owned
+    double *weight;   // [contact_count] integral of the shape function, length; owned
+    int32_t *pad;   // [contact_count] which contact curve, from 0; owned
     int32_t pad_count;
     int32_t rod_count;
-    int32_t *rod_node;    // [rod_count] mesh node, ascending z; owned
-    double *rod_z;        // [rod_count] height, length; owned
-    int32_t count;        // 2 * contact_count + rod_count
-    int32_t *dofs;        // [count] unknowns of the bulk; owned
+    int32_t *rod_node;   // [rod_count] mesh node, ascending z; owned
+    double *rod_z;   // [rod_count] height, length; owned
+    int32_t count;   // 2 * contact_count + rod_count
+    int32_t *dofs;   // [count] unknowns of the bulk; owned
 } Interface;
 
 typedef struct InterfaceDef {

@@ -7,15 +7,15 @@
 #include "contact/interface.h"
 
 typedef enum RodKind {
-    ROD_AWAY,       // touches nothing (while the block relaxes)
-    ROD_PUSHES,     // unilateral: can lose contact, never pulls
+    ROD_AWAY,   // touches nothing (while the block relaxes)
+    ROD_PUSHES,   // unilateral: can lose contact, never pulls
     ROD_IS_BONDED   // bilateral
 } RodKind;
 
 typedef struct Rod {
     RodKind kind;
-    double velocity;    // V, velocity
-    double *origin;     // [rod_count] u_x,j(0), length; owned
+    double velocity;   // V, velocity
+    double *origin;   // [rod_count] u_x,j(0), length; owned
     int32_t count;
 } Rod;
 

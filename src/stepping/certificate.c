@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "stepping/certificate.h"
+
+#include "base/dense.h"
+#include "base/memory.h"
+
+#include <math.h>
+
+bool certificate_create(BulkOperator *system, const Interface *interface, const FrictionLaw *law,
+                        Certificate *certificate, Error *err)
+{
+    *certificate = (Certificate){.interface = interface, .law = law};
+    int64_t count = interface->count;
+    certificate->matrix = NEW_ARRAY(double, count *count, err);
+    certificate->weakening = NEW_ARRAY(double, count, err);
+    certificate->moving = NEW_ARRAY(int32_t, count, err);
+    if (!error_is_clean(err)) return false;
+    // C alone is singular (rigid motion); a shift of the interface's own size is taken off again.
+    const Bulk *bulk = system->bulk;
+    double shift = 0;
+    for (int32_t k = 0; k < interface->count; k++) {
+        int32_t dof = interface->dofs[k];
+        for (int32_t e = bulk->pattern.start[dof]; e < bulk->pattern.start[dof + 1]; e++)
+            if (bulk->pattern.index[e] == dof) shift = fmax(shift, bulk->damping[e]);
+    }
+    OperatorTerms terms = {.damping = 1, .shift = shift};
+    certificate->damping = interface_operator_create(system, terms, err);
+    if (!certificate->damping) error_context(err, "the viscosity matrix");
+    return certificate->damping != NULL;
+}
+
+void certificate_destroy(Certificate *certificate)
+{
+    interface_operator_destroy(certificate->damping);
+    memory_free(certificate->matrix);
+    memory_free(certificate->weakening);
+    memory_free(certificate->moving);
+    *certificate = (Certificate){0};
+}
+
+// Fills F and W; says whether anything weakens at all.
+static bool list_moving(Certificate *certificate, const State *state, int32_t *moving_count)
+{
+    const Interface *interface = certificate->interface;
+    int32_t count = 0;
+    bool weakens = false;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        int32_t t = interface_tangent(i), n = interface_normal(i);
+        if (state->status[i] == CONTACT_STICK) continue;
+        double weakening = 0;
+        if (status_slips(state->status[i]))
+            weakening = -friction_slope(certificate->law, fabs(state->slip_rate[t])) *
+                        state->reaction[n];
+        certificate->moving[count] = t;
+        certificate->weakening[count++] = weakening;
+        if (weakening > 0) weakens = true;
+        if (state->status[i] != CONTACT_OPEN) continue;
+        certificate->moving[count] = n;
+        certificate->weakening[count++] = 0;
+    }
+    for (int32_t j = 0; j < interface->rod_count; j++) {
+        if (state->rod_touches[j]) continue;
+        certificate->moving[count] = interface_rod(interface, j);
+        certificate->weakening[count++] = 0;
+    }
+    *moving_count = count;
+    return weakens;
+}
+
+static bool is_definite(Certificate *certificate, const State *state, const double *schur)
+{
+    int32_t count = 0;
+    if (!list_moving(certificate, state, &count)) return true;   // S itself is never indefinite
+    int64_t size = certificate->interface->count;
+    for (int32_t b = 0; b < count; b++) {
+        const double *column = schur + size * certificate->moving[b];
+        double *out = certificate->matrix + (int64_t)count * b;
+        for (int32_t a = b; a < count; a++) out[a] = column[certificate->moving[a]];
+        out[b] -= certificate->weakening[b];
+    }
+    certificate->checks++;
+    return dense_cholesky(certificate->matrix, count);
+}
+
+bool certificate_holds(Certificate *certificate, const State *state)
+{
+    return is_definite(certificate, state, interface_operator_schur(certificate->damping));
+}
+
+bool certificate_step_resolves(Certificate *certificate, const State *state,
+                               const InterfaceOperator *rung)
+{
+    return is_definite(certificate, state, interface_operator_schur(rung));
+}

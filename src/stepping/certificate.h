@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// When may inertia's time scale be skipped? Let F be the interface unknowns that can move (slipping
+// tangents, open nodes, rod nodes let go), J the slipping nodes on the weakening branch and
+//
+//     W = diag(-mu'(|v_i|) r_n,i) on J, 0 elsewhere     (linear law: (mu_S - mu_K) p_i w_i / v_c).
+//
+//   * S_C[F,F] - W positive definite, S_C the Schur complement of the damping C alone: viscosity
+//     takes more out of any slip than weakening puts in. No perturbation can gain energy, and any step
+//     that accuracy allows may be taken. First lost at about l_sc.
+//   * S(dt)[F,F] - W positive definite for a rung's S(dt) = (M s + C + K/s) condensed, s = 1/(gamma
+//     dt): nothing grows faster than s. Lost: a real growth rate above s exists, the step hides it.
+//
+// Both leave out the coupling of pressure to slip (mu S_nt). Called by stepping/step_control.
+#ifndef AMONTONS_STEPPING_CERTIFICATE_H
+#define AMONTONS_STEPPING_CERTIFICATE_H
+
+#include "stepping/ladder.h"
+#include "stepping/state.h"
+
+typedef struct Certificate {
+    const Interface *interface;   // not owned, like the law
+    const FrictionLaw *law;
+    InterfaceOperator *damping;   // holds S_C; owned
+    double *matrix;   // [count^2] work; owned
+    double *weakening;   // [count] work: W's diagonal; owned
+    int32_t *moving;   // [count] work: F; owned
+    int64_t checks;   // counted: Cholesky factorisations
+} Certificate;
+
+bool certificate_create(BulkOperator *system, const Interface *interface, const FrictionLaw *law,
+                        Certificate *certificate, Error *err);
+void certificate_destroy(Certificate *certificate);
+
+// The slip set of `state` cannot gain energy.
+bool certificate_holds(Certificate *certificate, const State *state);
+
+// Nothing grows faster than 1/(gamma dt), dt that of `rung`.
+bool certificate_step_resolves(Certificate *certificate, const State *state,
+                               const InterfaceOperator *rung);
+
+#endif

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "stepping/energy.h"
+
+#include "base/dense.h"
+
+#include <math.h>
+
+void energy_store(const BulkOperator *system, const State *state, EnergyLedger *ledger)
+{
+    double kinetic = 0;
+    for (int32_t k = 0; k < state->dof_count; k++)
+        kinetic += system->bulk->mass[k] * state->velocity[k] * state->velocity[k];
+    ledger->kinetic = 0.5 * kinetic;
+    ledger->elastic = 0.5 * dense_dot(state->displacement, state->elastic_force, state->dof_count);
+}
+
+EnergyLedger energy_open(const BulkOperator *system, const State *state)
+{
+    EnergyLedger ledger = {0};
+    energy_store(system, state, &ledger);
+    ledger.stored_at_start = ledger.elastic + ledger.kinetic;
+    return ledger;
+}
+
+StagePower energy_stage(const Interface *interface, const double *velocity,
+                        const double *viscous_force, int32_t dof_count,
+                        const ContactSolution *contact)
+{
+    StagePower power = {.viscous = dense_dot(velocity, viscous_force, dof_count)};
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        int32_t t = interface_tangent(i);
+        power.frictional -= contact->velocity[t] * contact->reaction[t];
+    }
+    for (int32_t j = 0; j < interface->rod_count; j++) {
+        int32_t x = interface_rod(interface, j);
+        power.rod += contact->velocity[x] * contact->reaction[x];
+    }
+    return power;
+}
+
+double energy_imbalance(const EnergyLedger *ledger)
+{
+    return ledger->rod_work + ledger->load_work - ledger->viscous - ledger->frictional -
+           (ledger->elastic + ledger->kinetic - ledger->stored_at_start);
+}
+
+double energy_turnover(const EnergyLedger *ledger)
+{
+    return fabs(ledger->rod_work) + fabs(ledger->load_work) + ledger->viscous + ledger->frictional +
+           ledger->elastic + ledger->kinetic + ledger->stored_at_start;
+}

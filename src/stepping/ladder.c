@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "stepping/ladder.h"
+
+#include <math.h>
+
+const double SDIRK2_GAMMA = 1.0 - 0.70710678118654752440;
+
+void ladder_init(BulkOperator *system, double step_max, double step_min, Ladder *ladder)
+{
+    *ladder = (Ladder){.system = system, .step_max = step_max};
+    double rungs = floor(log2(step_max / step_min) * (1 + 1e-12)) + 1;
+    ladder->rung_count = (int32_t)fmin(fmax(rungs, 1), LADDER_RUNGS_MAX);
+}
+
+void ladder_destroy(Ladder *ladder)
+{
+    for (int32_t k = 0; k < LADDER_RUNGS_MAX; k++) interface_operator_destroy(ladder->rung[k]);
+    *ladder = (Ladder){0};
+}
+
+double ladder_step(const Ladder *ladder, int32_t k)
+{
+    return ldexp(ladder->step_max, -k);
+}
+
+int32_t ladder_find(const Ladder *ladder, double step)
+{
+    int32_t k = 0;
+    while (k < ladder->rung_count && ladder_step(ladder, k) > step * (1 + 1e-12)) k++;
+    return k;
+}
+
+InterfaceOperator *ladder_rung(Ladder *ladder, int32_t k, Error *err)
+{
+    if (!ladder->rung[k]) {
+        double scaled = SDIRK2_GAMMA * ladder_step(ladder, k);
+        OperatorTerms terms = {.mass = 1 / scaled, .damping = 1, .stiffness = scaled};
+        ladder->rung[k] = interface_operator_create(ladder->system, terms, err);
+        if (!ladder->rung[k]) error_context(err, "step %g", ladder_step(ladder, k));
+    }
+    return ladder->rung[k];
+}

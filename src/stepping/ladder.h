@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The step sizes dt_max 2^-k. A rung's matrix A = M/(gamma dt) + C + gamma dt K is factored when the
+// rung is first used and kept; changing the step then costs nothing. Used by stepping/sdirk2.
+#ifndef AMONTONS_STEPPING_LADDER_H
+#define AMONTONS_STEPPING_LADDER_H
+
+#include "bulk/interface_operator.h"
+
+enum { LADDER_RUNGS_MAX = 48 };
+
+// gamma = 1 - 1/sqrt(2): the two-stage scheme is then of order 2 and L-stable.
+extern const double SDIRK2_GAMMA;
+
+typedef struct Ladder {
+    BulkOperator *system;   // not owned
+    double step_max;   // of rung 0, time
+    int32_t rung_count;   // usable rungs: 0 .. rung_count - 1
+    InterfaceOperator *rung[LADDER_RUNGS_MAX];   // NULL: not built; owned
+    int64_t accepted[LADDER_RUNGS_MAX];   // steps, counted by step_control
+} Ladder;
+
+// Rungs from step_max down to the last that is not below step_min.
+void ladder_init(BulkOperator *system, double step_max, double step_min, Ladder *ladder);
+void ladder_destroy(Ladder *ladder);
+
+double ladder_step(const Ladder *ladder, int32_t k);
+// The coarsest rung whose step is at most `step`; rung_count when there is none.
+int32_t ladder_find(const Ladder *ladder, double step);
+// NULL with the error set when the matrix cannot be factored.
+InterfaceOperator *ladder_rung(Ladder *ladder, int32_t k, Error *err);
+
+#endif

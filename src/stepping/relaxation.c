@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "stepping/relaxation.h"
+
+#include "base/dense.h"
+
+#include <math.h>
+
+bool relax(StepControl *control, const RelaxationDef *def, int64_t *steps, Error *err)
+{
+    double speed = INFINITY;
+    for (*steps = 0; speed > def->speed_max; (*steps)++) {
+        if (control->now.time > def->duration_max)
+            FAIL(
+                err, ERROR_COMPUTE,
+                "the block has not settled under its load after t = %g: the fastest point moves at "
+                "%g, start.tolerance asks for %g (does it tip over, or is start.duration_max too "
+                "short?)",
+                control->now.time, speed, def->speed_max);
+        TRY(step_control_advance(control, INFINITY, err));
+        speed = dense_max_abs(control->now.velocity, control->now.dof_count);
+    }
+cleanup:
+    if (!error_is_clean(err)) error_context(err, "while relaxing before the rod moves");
+    return error_is_clean(err);
+}

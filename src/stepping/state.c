@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "stepping/state.h"
+
+#include "base/memory.h"
+
+#include <string.h>
+
+bool state_create(const BulkOperator *system, const Interface *interface, State *state, Error *err)
+{
+    *state = (State){.dof_count = system->dof_count,
+                     .interface_count = interface->count,
+                     .contact_count = interface->contact_count,
+                     .rod_count = interface->rod_count};
+    state->displacement = NEW_ARRAY(double, state->dof_count, err);
+    state->velocity = NEW_ARRAY(double, state->dof_count, err);
+    state->elastic_force = NEW_ARRAY(double, state->dof_count, err);
+    state->acceleration = NEW_ARRAY(double, state->dof_count, err);
+    state->slip_rate = NEW_ARRAY(double, state->interface_count, err);
+    state->reaction = NEW_ARRAY(double, state->interface_count, err);
+    state->status = NEW_ARRAY(uint8_t, state->contact_count, err);
+    state->rod_touches = NEW_ARRAY(uint8_t, state->rod_count, err);
+    if (!error_is_clean(err)) return false;
+    memset(state->status, CONTACT_STICK, (size_t)state->contact_count);
+    return true;
+}
+
+void state_destroy(State *state)
+{
+    memory_free(state->displacement);
+    memory_free(state->velocity);
+    memory_free(state->elastic_force);
+    memory_free(state->acceleration);
+    memory_free(state->slip_rate);
+    memory_free(state->reaction);
+    memory_free(state->status);
+    memory_free(state->rod_touches);
+    *state = (State){0};
+}
+
+void state_copy(const State *from, State *to)
+{
+    size_t bulk_bytes = (size_t)from->dof_count * sizeof(double);
+    size_t interface_bytes = (size_t)from->interface_count * sizeof(double);
+    to->time = from->time;
+    memcpy(to->displacement, from->displacement, bulk_bytes);
+    memcpy(to->velocity, from->velocity, bulk_bytes);
+    memcpy(to->elastic_force, from->elastic_force, bulk_bytes);
+    memcpy(to->acceleration, from->acceleration, bulk_bytes);
+    memcpy(to->slip_rate, from->slip_rate, interface_bytes);
+    memcpy(to->reaction, from->reaction, interface_bytes);
+    memcpy(to->status, from->status, (size_t)from->contact_count);
+    memcpy(to->rod_touches, from->rod_touches, (size_t)from->rod_count);
+}

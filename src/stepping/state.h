@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The state of block and interface at one time. Used by everything in stepping/ and read by run/.
+#ifndef AMONTONS_STEPPING_STATE_H
+#define AMONTONS_STEPPING_STATE_H
+
+#include "bulk/interface_operator.h"
+#include "contact/contact_problem.h"
+
+typedef struct State {
+    double time;
+    int32_t dof_count;   // of the bulk
+    int32_t interface_count;
+    int32_t contact_count, rod_count;
+    double *displacement;   // u [dof_count]; owned, like all that follows
+    double *velocity;   // v [dof_count]
+    double *elastic_force;   // K u [dof_count]
+    double *acceleration;   // [dof_count] of the last stage
+    double *slip_rate;   // [interface_count] v on the interface, exact where it is held
+    double *reaction;   // [interface_count] on the block, force/width
+    uint8_t *status;   // [contact_count] ContactStatus
+    uint8_t *rod_touches;   // [rod_count]
+} State;
+
+// At rest and undeformed: u = v = 0, every contact node sticking, every rod node apart.
+bool state_create(const BulkOperator *system, const Interface *interface, State *state, Error *err);
+void state_destroy(State *state);
+void state_copy(const State *from, State *to);   // of the same sizes
+
+#endif

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The rung follows the error as dt ~ error^(-1/3), the order of the estimate (Hairer and Wanner,
+// Solving ODEs II, IV.8), rounded down to the ladder.
+#include "stepping/step_control.h"
+
+#include <math.h>
+
+// A longer step is tried only when its error is expected to be this fraction of the tolerance.
+static const double SAFETY = 0.5;
+static const double ESTIMATE_ORDER = 3;
+
+bool step_control_create(BulkOperator *system, const Interface *interface, const FrictionLaw *law,
+                         Rod *rod, const StepControlDef *def, StepControl *control, Error *err)
+{
+    *control = (StepControl){.def = *def, .certified = true};
+    ladder_init(system, def->step_max, def->step_min, &control->ladder);
+    TRY(sdirk2_create(system, interface, law, rod, &control->scheme, err));
+    TRY(certificate_create(system, interface, law, &control->certificate, err));
+    TRY(state_create(system, interface, &control->now, err));
+    TRY(state_create(system, interface, &control->next, err));
+    step_control_restart(control);
+cleanup:
+    return error_is_clean(err);
+}
+
+void step_control_destroy(StepControl *control)
+{
+    ladder_destroy(&control->ladder);
+    sdirk2_destroy(&control->scheme);
+    certificate_destroy(&control->certificate);
+    state_destroy(&control->now);
+    state_destroy(&control->next);
+    *control = (StepControl){0};
+}
+
+void step_control_restart(StepControl *control)
+{
+    control->now.time = 0;
+    control->counters = (StepCounters){0};
+    for (int32_t k = 0; k < LADDER_RUNGS_MAX; k++) control->ladder.accepted[k] = 0;
+    control->ledger = energy_open(control->scheme.system, &control->now);
+    int32_t wave_rung = ladder_find(&control->ladder, control->def.wave_step);
+    control->rung = wave_rung < control->ladder.rung_count ? wave_rung
+                                                           : control->ladder.rung_count - 1;
+}
+
+typedef enum Verdict { STEP_ACCEPTED, STEP_UNSOLVED, STEP_INACCURATE, STEP_UNCERTIFIED } Verdict;
+
+static Verdict judge_step(StepControl *control, int32_t k, const StepOutcome *outcome,
+                          bool *certified)
+{
+    *certified = true;
+    if (!outcome->solved || !isfinite(outcome->error)) return STEP_UNSOLVED;
+    if (outcome->error > control->def.tolerance) return STEP_INACCURATE;
+    if (!control->def.use_certificate) return STEP_ACCEPTED;
+    *certified = certificate_holds(&control->certificate, &control->next);
+    if (*certified) return STEP_ACCEPTED;
+    if (ladder_step(&control->ladder, k) > control->def.wave_step * (1 + 1e-12))
+        return STEP_UNCERTIFIED;
+    if (!certificate_step_resolves(&control->certificate, &control->next, control->ladder.rung[k]))
+        return STEP_UNCERTIFIED;
+    return STEP_ACCEPTED;
+}
+
+// The rung after a rejection: at least one further down.
+static int32_t smaller_rung(const StepControl *control, int32_t k, Verdict verdict,
+                            const StepOutcome *outcome)
+{
+    int32_t target = k + 1;
+    if (verdict == STEP_INACCURATE) {
+        double shrink = pow(SAFETY * control->def.tolerance / outcome->error, 1 / ESTIMATE_ORDER);
+        target = ladder_find(&control->ladder, ladder_step(&control->ladder, k) * shrink);
+    }
+    if (verdict == STEP_UNCERTIFIED) target = ladder_find(&control->ladder, control->def.wave_step);
+    return target > k ? target : k + 1;
+}
+
+// The rung after an accepted step: one up when the error allows it and the certificate does.
+static int32_t next_rung(const StepControl *control, int32_t k, double error, bool retried)
+{
+    double stretch = control->def.growth_max;
+    double expected = error * pow(stretch, ESTIMATE_ORDER);
+    bool grows = !retried && k > 0 && expected < SAFETY * control->def.tolerance;
+    int32_t next = grows ? k - 1 : k;
+    if (control->certified) return next;
+    int32_t wave_rung = ladder_find(&control->ladder, control->def.wave_step);
+    return next > wave_rung ? next : wave_rung;
+}
+
+// The coarsest built rung that does not overshoot; the chosen one when none is.
+static int32_t fit_rung(const StepControl *control, int32_t k, double remaining)
+{
+    const Ladder *ladder = &control->ladder;
+    if (ladder_step(ladder, k) <= remaining) return k;
+    for (int32_t fit = k + 1; fit < ladder->rung_count; fit++) {
+        if (ladder->rung[fit] && ladder_step(ladder, fit) <= remaining) return fit;
+    }
+    return k;
+}
+
+static void accept_step(StepControl *control, int32_t k, const StepOutcome *outcome)
+{
+    State accepted = control->next;
+    control->next = control->now;
+    control->now = accepted;
+    control->outcome = *outcome;
+    control->last_step = ladder_step(&control->ladder, k);
+    control->counters.accepted++;
+    control->ladder.accepted[k]++;
+    sdirk2_add_energy(outcome, control->last_step, &control->ledger);
+    energy_store(control->scheme.system, &control->now, &control->ledger);
+}
+
+bool step_control_advance(StepControl *control, double remaining, Error *err)
+{
+    static const char *const reasons[] = {
+        [STEP_ACCEPTED] = "",
+        [STEP_UNSOLVED] = "its contact problem has no solution that could be found",
+        [STEP_INACCURATE] = "its local error is above the tolerance",
+        [STEP_UNCERTIFIED] = "slip grows faster than it resolves"};
+    StepCounters *counters = &control->counters;
+    int32_t k = fit_rung(control, control->rung, remaining);
+    bool shortened = k != control->rung, retried = false, certified = true;
+    for (;;) {
+        StepOutcome outcome;
+        TRY(sdirk2_step(&control->scheme, &control->ladder, k, &control->now, &control->next,
+                        &outcome, err));
+        Verdict verdict = judge_step(control, k, &outcome, &certified);
+        if (verdict == STEP_ACCEPTED) {
+            control->certified = certified;
+            accept_step(control, k, &outcome);
+            if (!shortened || retried)
+                control->rung = next_rung(control, k, outcome.error, retried);
+            break;
+        }
+        counters->unsolved += verdict == STEP_UNSOLVED;
+        counters->rejected_error += verdict == STEP_INACCURATE;
+        counters->rejected_uncertified += verdict == STEP_UNCERTIFIED;
+        retried = true;
+        k = smaller_rung(control, k, verdict, &outcome);
+        if (k >= control->ladder.rung_count)
+            FAIL(err, ERROR_COMPUTE, "at t = %.9g the step went below time.step_min = %g: %s",
+                 control->now.time, control->def.step_min, reasons[verdict]);
+    }
+cleanup:
+    return error_is_clean(err);
+}

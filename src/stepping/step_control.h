@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Chooses the rung, tries it, and accepts a step only when
+//   1. both its contact problems were solved,
+//   2. the estimated local error is within tolerance,
+//   3. its end state is certified dissipative, or the step resolves waves (dt <= wave_step) and no
+//      growth faster than 1/(gamma dt) is left in the slip set (stepping/certificate).
+// Otherwise it goes back to the old state with a smaller rung. Used by stepping/relaxation and
+// run/simulation.
+#ifndef AMONTONS_STEPPING_STEP_CONTROL_H
+#define AMONTONS_STEPPING_STEP_CONTROL_H
+
+#include "stepping/certificate.h"
+#include "stepping/sdirk2.h"
+
+typedef struct StepControlDef {
+    double tolerance;   // of the local error of u in one step, length
+    double step_max;   // rung 0, time
+    double step_min;   // below it the run stops with an error, time
+    double wave_step;   // largest step while not certified, time
+    double growth_max;   // a step's successor may be at most this many times longer: 2
+    bool use_certificate;   // off only to study what it prevents
+} StepControlDef;
+
+typedef struct StepCounters {
+    int64_t accepted, rejected_error, rejected_uncertified, unsolved;
+} StepCounters;
+
+typedef struct StepControl {
+    StepControlDef def;
+    Ladder ladder;   // owned, like all that follows
+    Sdirk2 scheme;
+    Certificate certificate;
+    State now;   // the last accepted state
+    State next;   // work
+    EnergyLedger ledger;
+    StepOutcome outcome;   // of the last accepted step
+    double last_step;   // its length, time
+    bool certified;   // `now` is dissipative
+    int32_t rung;   // to try next
+    StepCounters counters;
+} StepControl;
+
+bool step_control_create(BulkOperator *system, const Interface *interface, const FrictionLaw *law,
+                         Rod *rod, const StepControlDef *def, StepControl *control, Error *err);
+void step_control_destroy(StepControl *control);
+
+// One accepted step, at most `remaining` long if a rung that is built already fits (so that a run
+// ends where it should). ERROR_COMPUTE when even step_min is not accepted: the message says why.
+bool step_control_advance(StepControl *control, double remaining, Error *err);
+
+// Starts counting anew at `now`: time 0, ledger opened, coarse steps to be earned again.
+void step_control_restart(StepControl *control);
+
+#endif
