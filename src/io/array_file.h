@@ -3,7 +3,8 @@
 // friction; io/result_file gives the arrays their names. Chunked, shuffled, deflate 2.
 //
 // A file being written is called `path`.part; array_file_close renames it. What a killed run leaves
-// is the .part file, readable up to the last array_file_flush.
+// is the .part file, readable up to the last array_file_flush. A write that fails (ERROR_FILE: full
+// disk, quota) spoils the file for good: every later call on it fails likewise.
 #ifndef AMONTONS_IO_ARRAY_FILE_H
 #define AMONTONS_IO_ARRAY_FILE_H
 
@@ -18,8 +19,11 @@ typedef enum ArrayType { ARRAY_FLOAT64, ARRAY_FLOAT32, ARRAY_UINT8, ARRAY_INT32 
 ArrayFile *array_file_create(const char *path, Error *err);
 // Opens `path` for reading; where only `path`.part stands, that. Errors name the file.
 ArrayFile *array_file_open(const char *path, Error *err);
-// Closes; a created file gets its final name. Frees `file` either way. NULL is fine.
+// Closes; a created file gets its final name, unless a write failed: then the .part stays. Frees
+// `file` either way. NULL is fine.
 bool array_file_close(ArrayFile *file, Error *err);
+// Closes without a final name: what was appended stays in `path`.part. NULL is fine.
+void array_file_abandon(ArrayFile *file);
 
 // A series of rows of `width` values (1: a scalar series), extendable, empty. `name` may hold
 // slashes ("interface/slip_rate"); `unit` and `description` are stored as attributes.
@@ -32,10 +36,11 @@ typedef struct ArraySeries {
 } ArraySeries;
 bool array_file_add_series(ArrayFile *file, const ArraySeries *series, Error *err);
 
-// Appends `rows` rows of doubles, [rows * width], converted to the stored type.
+// Appends `rows` rows of doubles, [rows * width], converted to the stored type (integers: the nearest
+// that fits, 0 for NaN). Cheap for single rows, and allocates no arrays.
 bool array_file_append(ArrayFile *file, const char *name, const double *values, int64_t rows,
                        Error *err);
-bool array_file_flush(ArrayFile *file, Error *err);   // all appended so far is safe on disk
+bool array_file_flush(ArrayFile *file, Error *err);   // whoever reads now finds all appended so far
 
 bool array_file_set_number(ArrayFile *file, const char *name, double value, Error *err);
 bool array_file_set_text(ArrayFile *file, const char *name, const char *value, Error *err);

@@ -11,7 +11,7 @@
 
 #include "io/array_file.h"
 
-#include <stddef.h>
+#include <stdio.h>
 
 // Rows are accepted steps; the state stored is the one at the END of the step, row 0 the start.
 // X(symbol, name, stored type, 1: a column a contact node, unit, description)
@@ -106,6 +106,7 @@ const char *result_nodes_name(ResultNodes nodes);
 const char *result_table_name(ResultTable table);
 const char *result_number_name(ResultNumber number);
 bool result_series_is_per_node(ResultSeries series);
+void result_file_describe(FILE *out);   // all of the above as Markdown, for the README
 
 // Writing: creates RESULT/history.h5(.part) with every series of the table, empty, and the fixed
 // arrays. `nodes[k]`: [contact_count] for each ResultNodes.

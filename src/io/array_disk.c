@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "io/array_disk.h"
+
+#include <errno.h>
+#include <string.h>
+#include <unistd.h>
+
+// The property list carries the address of the disk; HDF5 copies it byte by byte.
+typedef struct DiskAddress {
+    ArrayDisk *disk;
+} DiskAddress;
+
+static void note_failure(ArrayDisk *disk, int cause)
+{
+    if (disk->failure == 0) disk->failure = cause ? cause : EIO;
+}
+
+// HDF5 opens a file it creates twice: the first time only to look.
+static H5FD_t *disk_open(const char *name, unsigned flags, hid_t access, haddr_t address_max)
+{
+    (void)name, (void)flags, (void)address_max;
+    const DiskAddress *address = H5Pget_driver_info(access);
+    return address ? &address->disk->base : NULL;
+}
+
+static herr_t disk_close(H5FD_t *base)
+{
+    (void)base;   // the descriptor is not ours
+    return 0;
+}
+
+static herr_t disk_query(const H5FD_t *base, unsigned long *flags)
+{
+    (void)base;
+    *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE |
+             H5FD_FEAT_AGGREGATE_SMALLDATA | H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;
+    return 0;
+}
+
+// Space is handed out once and never again, not even the last piece: what the last flush made known
+// stays as it is until the next one.
+static haddr_t disk_allocate(H5FD_t *base, H5FD_mem_t type, hid_t transfer, hsize_t size)
+{
+    (void)type, (void)transfer;
+    ArrayDisk *disk = (ArrayDisk *)base;
+    haddr_t address = disk->end_of_space;
+    disk->end_of_space += size;
+    return address;
+}
+
+static herr_t disk_free(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_t address,
+                        hsize_t size)
+{
+    (void)base, (void)type, (void)transfer, (void)address, (void)size;
+    return 0;
+}
+
+static haddr_t disk_end_of_space(const H5FD_t *base, H5FD_mem_t type)
+{
+    (void)type;
+    return ((const ArrayDisk *)base)->end_of_space;
+}
+
+static herr_t disk_set_end_of_space(H5FD_t *base, H5FD_mem_t type, haddr_t end)
+{
+    (void)type;
+    ((ArrayDisk *)base)->end_of_space = end;
+    return 0;
+}
+
+static haddr_t disk_end_of_file(const H5FD_t *base, H5FD_mem_t type)
+{
+    (void)type;
+    return ((const ArrayDisk *)base)->end_of_file;
+}
+
+static herr_t disk_read(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_t address, size_t size,
+                        void *buffer)
+{
+    (void)type, (void)transfer;
+    ArrayDisk *disk = (ArrayDisk *)base;
+    char *next = buffer;
+    while (size > 0) {
+        ssize_t count = pread(disk->descriptor, next, size, (off_t)address);
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) note_failure(disk, errno);
+        if (count <= 0) break;
+        next += count;
+        address += (haddr_t)count;
+        size -= (size_t)count;
+    }
+    memset(next, 0, size);   // past the end, or unreadable
+    return 0;
+}
+
+static herr_t disk_write(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_t address,
+                         size_t size, const void *buffer)
+{
+    (void)type, (void)transfer;
+    ArrayDisk *disk = (ArrayDisk *)base;
+    const char *next = buffer;
+    if (address + size > disk->end_of_file) disk->end_of_file = address + size;
+    while (size > 0 && disk->failure == 0) {
+        ssize_t count = pwrite(disk->descriptor, next, size, (off_t)address);
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) {
+            note_failure(disk, count < 0 ? errno : ENOSPC);
+            break;
+        }
+        next += count;
+        address += (haddr_t)count;
+        size -= (size_t)count;
+    }
+    return 0;
+}
+
+// Makes the file as long as the space handed out, as HDF5 records the length in its header.
+static herr_t disk_truncate(H5FD_t *base, hid_t transfer, hbool_t closing)
+{
+    (void)transfer, (void)closing;
+    ArrayDisk *disk = (ArrayDisk *)base;
+    if (disk->end_of_file == disk->end_of_space || disk->failure != 0) return 0;
+    if (ftruncate(disk->descriptor, (off_t)disk->end_of_space) != 0) note_failure(disk, errno);
+    disk->end_of_file = disk->end_of_space;
+    return 0;
+}
+
+bool array_disk_use(ArrayDisk *disk, int descriptor, hid_t access, hid_t *driver)
+{
+    static const H5FD_class_t description = {
+        .name = "amontons_disk",
+        .maxaddr = INT64_MAX,
+        .fc_degree = H5F_CLOSE_STRONG,   // closing the file closes the datasets left open
+        .fapl_size = sizeof(DiskAddress),
+        .open = disk_open,
+        .close = disk_close,
+        .query = disk_query,
+        .alloc = disk_allocate,
+        .free = disk_free,
+        .get_eoa = disk_end_of_space,
+        .set_eoa = disk_set_end_of_space,
+        .get_eof = disk_end_of_file,
+        .read = disk_read,
+        .write = disk_write,
+        .truncate = disk_truncate,
+        .fl_map = H5FD_FLMAP_DICHOTOMY,
+    };
+    DiskAddress address = {disk};
+    *disk = (ArrayDisk){.descriptor = descriptor};
+    *driver = H5FDregister(&description);
+    return *driver >= 0 && H5Pset_driver(access, *driver, &address) >= 0;
+}

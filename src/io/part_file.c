@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "io/part_file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+bool part_file_name(const char *path, char *part)
+{
+    size_t length = strlen(path);
+    if (length == 0 || length >= PATH_MAX - 8) return false;
+    snprintf(part, PATH_MAX + 8, "%s.part", path);
+    return true;
+}
+
+// Whether the name still leads to the file behind `descriptor`: another writer may have renamed
+// the one we opened between our open and our lock.
+static bool name_leads_to(const char *name, int descriptor)
+{
+    struct stat named, opened;
+    return stat(name, &named) == 0 && fstat(descriptor, &opened) == 0 &&
+           named.st_dev == opened.st_dev && named.st_ino == opened.st_ino;
+}
+
+bool part_file_create(PartFile *file, const char *path, Error *err)
+{
+    *file = (PartFile){0};
+    if (!part_file_name(path, file->part))
+        FAIL(err, ERROR_FILE, "cannot write \"%s\": the name is empty or too long", path);
+    snprintf(file->path, sizeof file->path, "%s", path);
+    while (!file->open) {
+        file->descriptor = open(file->part, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        if (file->descriptor < 0)
+            FAIL(err, ERROR_FILE, "cannot write %s: %s", path, strerror(errno));
+        file->open = true;
+        // Not every file system can lock; only a lock that another process holds is an error.
+        if (flock(file->descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+            part_file_leave(file);
+            FAIL(err, ERROR_FILE, "cannot write %s: another process is writing %s", path,
+                 file->part);
+        }
+        if (!name_leads_to(file->part, file->descriptor)) part_file_leave(file);
+    }
+    if (ftruncate(file->descriptor, 0) != 0) {
+        int cause = errno;
+        part_file_leave(file);
+        FAIL(err, ERROR_FILE, "cannot write %s: %s", path, strerror(cause));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+bool part_file_write(PartFile *file, const void *bytes, int64_t size, Error *err)
+{
+    const char *next = bytes;
+    while (size > 0) {
+        ssize_t written = write(file->descriptor, next, (size_t)size);
+        if (written < 0 && errno == EINTR) continue;
+        if (written <= 0)
+            FAIL(err, ERROR_FILE, "cannot write %s: %s", file->path,
+                 written < 0 ? strerror(errno) : "nothing was written");
+        next += written;
+        size -= written;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+bool part_file_commit(PartFile *file, Error *err)
+{
+    // EINVAL: a file system that cannot sync, which is no fault of the file.
+    if (fsync(file->descriptor) != 0 && errno != EINVAL)
+        FAIL(err, ERROR_FILE, "cannot write %s to disk: %s", file->path, strerror(errno));
+    if (rename(file->part, file->path) != 0)
+        FAIL(err, ERROR_FILE, "cannot rename %s to %s: %s", file->part, file->path,
+             strerror(errno));
+    part_file_leave(file);   // there is no part any more: this only closes
+cleanup:
+    part_file_discard(file);
+    return error_is_clean(err);
+}
+
+void part_file_discard(PartFile *file)
+{
+    if (file->open) unlink(file->part);
+    part_file_leave(file);
+}
+
+void part_file_leave(PartFile *file)
+{
+    if (file->open) close(file->descriptor);
+    file->open = false;
+}

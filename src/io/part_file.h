@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A file on its way: written as `path`.part and renamed when all of it is on disk, so that a half
+// file never stands under a final name. Called by json_writer, array_file and field_file.
+//
+//   create -> write ... -> commit     the file has its final name
+//                       -> discard    nothing is left
+//                       -> leave      `path`.part is left, for what may still be read of it
+#ifndef AMONTONS_IO_PART_FILE_H
+#define AMONTONS_IO_PART_FILE_H
+
+#include "base/error.h"
+
+#include <limits.h>
+#include <stdint.h>
+
+typedef struct PartFile {
+    bool open;                   // false: zeroed, committed or discarded
+    int descriptor;              // for reading and writing; valid while open
+    char path[PATH_MAX];         // the final name
+    char part[PATH_MAX + 8];     // the name until then
+} PartFile;
+
+// `path`.part into `part`, of PATH_MAX + 8 bytes; false when `path` is empty or too long.
+bool part_file_name(const char *path, char *part);
+
+// Opens an empty `path`.part and locks it against other writers; what a killed process left there
+// is overwritten. ERROR_FILE names the path and the cause, here and below.
+bool part_file_create(PartFile *file, const char *path, Error *err);
+bool part_file_write(PartFile *file, const void *bytes, int64_t size, Error *err);
+
+// Onto the disk (fsync), then under the final name. After a failure the part is gone.
+bool part_file_commit(PartFile *file, Error *err);
+void part_file_discard(PartFile *file);   // closes and removes; fine when not open
+void part_file_leave(PartFile *file);     // closes and keeps `path`.part; fine when not open
+
+#endif

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "io/result_file.h"
+
+#include "base/memory.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct ResultRow {
+    const char *name;
+    ArrayType type;
+    bool per_node;
+    const char *unit, *description;
+} ResultRow;
+
+static const ResultRow series_rows[] = {
+#define X(symbol, name, type, per_node, unit, description)                                         \
+    {name, type, per_node, unit, description},
+    RESULT_SERIES(X)
+#undef X
+};
+
+static const ResultRow nodes_rows[] = {
+#define X(symbol, name, type, unit, description) {name, type, true, unit, description},
+    RESULT_NODES(X)
+#undef X
+};
+
+static const ResultRow table_rows[] = {
+#define X(symbol, name, unit, description) {name, ARRAY_FLOAT64, false, unit, description},
+    RESULT_TABLES(X)
+#undef X
+};
+
+static const ResultRow number_rows[] = {
+#define X(symbol, name, unit, description) {name, ARRAY_FLOAT64, false, unit, description},
+    RESULT_NUMBERS(X)
+#undef X
+};
+
+const char *result_series_name(ResultSeries series)
+{
+    return series_rows[series].name;
+}
+
+const char *result_nodes_name(ResultNodes nodes)
+{
+    return nodes_rows[nodes].name;
+}
+
+const char *result_table_name(ResultTable table)
+{
+    return table_rows[table].name;
+}
+
+const char *result_number_name(ResultNumber number)
+{
+    return number_rows[number].name;
+}
+
+bool result_series_is_per_node(ResultSeries series)
+{
+    return series_rows[series].per_node;
+}
+
+static bool history_path(const char *folder, char path[PATH_MAX], Error *err)
+{
+    int length = snprintf(path, PATH_MAX, "%s/history.h5", folder);
+    if (length < 0 || length >= PATH_MAX)
+        FAIL(err, ERROR_INPUT, "the name of the result folder is too long: %s", folder);
+cleanup:
+    return error_is_clean(err);
+}
+
+// --- writing ------------------------------------------------------------------------------------
+
+static bool add_row(ArrayFile *file, const ResultRow *row, int32_t width, Error *err)
+{
+    ArraySeries series = {.name = row->name,
+                          .type = row->type,
+                          .width = width,
+                          .unit = row->unit,
+                          .description = row->description};
+    return array_file_add_series(file, &series, err);
+}
+
+static bool write_attributes(ArrayFile *file, const ResultHead *head, Error *err)
+{
+    TRY(array_file_set_text(file, "title", head->title, err));
+    TRY(array_file_set_text(file, "units", head->units, err));
+    TRY(array_file_set_text(file, "version", head->version, err));
+    for (int32_t k = 0; k < RESULT_NUMBERS_COUNT; k++)
+        if (!isnan(head->numbers[k]))
+            TRY(array_file_set_number(file, number_rows[k].name, head->numbers[k], err));
+cleanup:
+    return error_is_clean(err);
+}
+
+ArrayFile *result_file_create(const char *folder, const ResultHead *head, Error *err)
+{
+    char path[PATH_MAX];
+    ArrayFile *file = NULL;
+    if (head->contact_count < 1)
+        FAIL(err, ERROR_INPUT, "a result needs contact nodes, not %d of them", head->contact_count);
+    TRY(history_path(folder, path, err));
+    file = array_file_create(path, err);
+    if (!file) goto cleanup;
+    TRY(write_attributes(file, head, err));
+    for (int32_t k = 0; k < RESULT_NODES_COUNT; k++) {
+        TRY(add_row(file, &nodes_rows[k], 1, err));
+        TRY(array_file_append(file, nodes_rows[k].name, head->nodes[k], head->contact_count, err));
+    }
+    for (int32_t k = 0; k < RESULT_SERIES_COUNT; k++)
+        TRY(add_row(file, &series_rows[k], series_rows[k].per_node ? head->contact_count : 1, err));
+    TRY(array_file_flush(file, err));
+    return file;
+cleanup:
+    array_file_abandon(file);
+    return NULL;
+}
+
+bool result_file_write_table(ArrayFile *file, ResultTable table, const double *values,
+                             int32_t count, Error *err)
+{
+    TRY(add_row(file, &table_rows[table], 1, err));
+    TRY(array_file_append(file, table_rows[table].name, values, count, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// --- reading ------------------------------------------------------------------------------------
+
+ArrayFile *result_file_open(const char *folder, Error *err)
+{
+    char path[PATH_MAX];
+    if (!history_path(folder, path, err)) return NULL;
+    ArrayFile *file = array_file_open(path, err);
+    if (!file && err->code == ERROR_FILE) {
+        err->code = ERROR_INPUT;   // the folder is what the user gave
+        error_context(err, "%s holds no history of a run", folder);
+    }
+    return file;
+}
+
+// A fixed array: as `array_file_read`, its rows as a count; missing: none.
+static bool read_column(ArrayFile *file, const char *name, double **values, int32_t *count,
+                        Error *err)
+{
+    int64_t rows = 0;
+    int32_t width = 0;
+    *count = 0;
+    TRY(array_file_read(file, name, values, &rows, &width, err));
+    if (rows > INT32_MAX || width != 1) {
+        memory_free(*values);
+        *values = NULL;
+        FAIL(err, ERROR_INPUT, "%s is not one column but %lld rows of %d", name, (long long)rows,
+             width);
+    }
+    *count = (int32_t)rows;
+cleanup:
+    return error_is_clean(err);
+}
+
+bool result_file_read_series(ArrayFile *file, ResultSeries series, double **values, int64_t *rows,
+                             int32_t *width, Error *err)
+{
+    return array_file_read(file, series_rows[series].name, values, rows, width, err);
+}
+
+bool result_file_read_nodes(ArrayFile *file, ResultNodes nodes, double **values, int32_t *count,
+                            Error *err)
+{
+    return read_column(file, nodes_rows[nodes].name, values, count, err);
+}
+
+bool result_file_read_table(ArrayFile *file, ResultTable table, double **values, int32_t *count,
+                            Error *err)
+{
+    if (array_file_has(file, table_rows[table].name))
+        return read_column(file, table_rows[table].name, values, count, err);
+    *count = 0;
+    *values = NEW_ARRAY(double, 0, err);
+    return *values != NULL;
+}
+
+double result_file_number(ArrayFile *file, ResultNumber number)
+{
+    Error absent = {0};
+    double value = NAN;
+    array_file_get_number(file, number_rows[number].name, &value, &absent);
+    return value;
+}
+
+bool result_file_text(ArrayFile *file, const char *name, char *value, int32_t size, Error *err)
+{
+    return array_file_get_text(file, name, value, size, err);
+}
+
+// --- the README's table -------------------------------------------------------------------------
+
+static const char *type_name(ArrayType type)
+{
+    switch (type) {
+    case ARRAY_FLOAT64:
+        return "float64";
+    case ARRAY_FLOAT32:
+        return "float32";
+    case ARRAY_UINT8:
+        return "uint8";
+    case ARRAY_INT32:
+        return "int32";
+    }
+    return "?";
+}
+
+static void describe_rows(FILE *out, const ResultRow *rows, int32_t count, const char *shape)
+{
+    for (int32_t k = 0; k < count; k++)
+        fprintf(out, "| `%s` | %s | %s | %s | %s |\n", rows[k].name,
+                shape              ? shape
+                : rows[k].per_node ? "steps, nodes"
+                                   : "steps",
+                type_name(rows[k].type), rows[k].unit, rows[k].description);
+}
+
+void result_file_describe(FILE *out)
+{
+    fputs("| array | shape | type | unit | what it holds |\n|---|---|---|---|---|\n", out);
+    describe_rows(out, series_rows, RESULT_SERIES_COUNT, NULL);
+    describe_rows(out, nodes_rows, RESULT_NODES_COUNT, "nodes");
+    for (int32_t k = 0; k < RESULT_TABLES_COUNT; k++)
+        describe_rows(out, &table_rows[k], 1,
+                      strncmp(table_rows[k].name, "peaks/", 6) == 0 ? "peaks" : "events");
+    fputs("\n| attribute of the file | unit | what it holds |\n|---|---|---|\n", out);
+    fputs("| `title` | text | of the scene |\n| `units` | text | normalised or si |\n"
+          "| `version` | text | of amontons |\n",
+          out);
+    for (int32_t k = 0; k < RESULT_NUMBERS_COUNT; k++)
+        fprintf(out, "| `%s` | %s | %s |\n", number_rows[k].name, number_rows[k].unit,
+                number_rows[k].description);
+}
