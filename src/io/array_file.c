@@ -20,7 +20,7 @@
 #include <unistd.h>
 
 enum {
-    CHUNK_BYTES = 256 * 1024,   // aimed at; smaller ones compress worse, larger ones flush slower
+    CHUNK_BYTES = 64 * 1024,   // aimed at; larger ones compress no better and flush slower
     CHUNK_ROWS_MAX = 1024,   // a scalar series is flushed in pieces of 8 kB
     DEFLATE_LEVEL = 2,   // 4 saves 4 % and costs 20 % more time
     FIRST_SERIES = 16,

@@ -215,14 +215,26 @@ static const char *type_name(ArrayType type)
     return "?";
 }
 
+// Ends a row of a Markdown table; a bar inside a cell would end the cell.
+static void put_last_cell(FILE *out, const char *text)
+{
+    for (const char *c = text; *c; c++) {
+        if (*c == '|') fputc('\\', out);
+        fputc(*c, out);
+    }
+    fputs(" |\n", out);
+}
+
 static void describe_rows(FILE *out, const ResultRow *rows, int32_t count, const char *shape)
 {
-    for (int32_t k = 0; k < count; k++)
-        fprintf(out, "| `%s` | %s | %s | %s | %s |\n", rows[k].name,
+    for (int32_t k = 0; k < count; k++) {
+        fprintf(out, "| `%s` | %s | %s | %s | ", rows[k].name,
                 shape              ? shape
                 : rows[k].per_node ? "steps, nodes"
                                    : "steps",
-                type_name(rows[k].type), rows[k].unit, rows[k].description);
+                type_name(rows[k].type), rows[k].unit);
+        put_last_cell(out, rows[k].description);
+    }
 }
 
 void result_file_describe(FILE *out)
@@ -237,7 +249,8 @@ void result_file_describe(FILE *out)
     fputs("| `title` | text | of the scene |\n| `units` | text | normalised or si |\n"
           "| `version` | text | of amontons |\n",
           out);
-    for (int32_t k = 0; k < RESULT_NUMBERS_COUNT; k++)
-        fprintf(out, "| `%s` | %s | %s |\n", number_rows[k].name, number_rows[k].unit,
-                number_rows[k].description);
+    for (int32_t k = 0; k < RESULT_NUMBERS_COUNT; k++) {
+        fprintf(out, "| `%s` | %s | ", number_rows[k].name, number_rows[k].unit);
+        put_last_cell(out, number_rows[k].description);
+    }
 }

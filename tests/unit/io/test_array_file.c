@@ -104,8 +104,7 @@ static void assert_holds_rows(ArrayFile *file, int64_t expected)
     for (int64_t row = 0; row < rows; row++)
         for (int32_t k = 0; k < WIDTH; k++)
             if (values[row * WIDTH + k] != value_at(row, k))
-                fail_msg("row %lld column %d holds %g", (long long)row, k,
-                         values[row * WIDTH + k]);
+                fail_msg("row %lld column %d holds %g", (long long)row, k, values[row * WIDTH + k]);
     memory_free(values);
     array_file_read(file, "series/time", &values, &rows, &width, &err);
     assert_clean(&err);
@@ -120,7 +119,7 @@ static void rows_come_back(void **state)
     (void)state;
     const char *path = path_of("rows.h5");
     // Around a chunk's end, across many chunks, and with flushes in between.
-    static const int64_t counts[] = {0, 1, 808, 809, 810, 2500};
+    static const int64_t counts[] = {0, 1, 201, 202, 203, 2500};
     for (size_t c = 0; c < sizeof counts / sizeof counts[0]; c++) {
         Error err = {0};
         ArrayFile *file = create_with_series(path);
@@ -190,12 +189,12 @@ static void the_stored_form_is_as_stated(void **state)
     assert_int_equal(shape[1], WIDTH);
     assert_true(shape_max[0] == H5S_UNLIMITED);
     assert_int_equal(H5Pget_chunk(creation, 2, chunk), 2);
-    assert_in_range(chunk[0] * chunk[1] * 4, 64 * 1024, 1024 * 1024);
+    assert_in_range(chunk[0] * chunk[1] * 4, 32 * 1024, 1024 * 1024);
     assert_int_equal(H5Pget_nfilters(creation), 2);
     unsigned level = 0;
     size_t level_count = 1;
-    assert_true(H5Pget_filter_by_id2(creation, H5Z_FILTER_SHUFFLE, NULL, NULL, NULL, 0, NULL,
-                                     NULL) >= 0);
+    assert_true(
+        H5Pget_filter_by_id2(creation, H5Z_FILTER_SHUFFLE, NULL, NULL, NULL, 0, NULL, NULL) >= 0);
     assert_true(H5Pget_filter_by_id2(creation, H5Z_FILTER_DEFLATE, NULL, &level_count, &level, 0,
                                      NULL, NULL) >= 0);
     assert_int_equal(level, 2);
@@ -282,7 +281,7 @@ static void write_until_killed(const char *path, int64_t flushed, int64_t last)
 static void a_killed_run_keeps_what_was_flushed(void **state)
 {
     (void)state;
-    static const int64_t flushed[] = {0, 5, 809, 1000};
+    static const int64_t flushed[] = {0, 5, 202, 1000};
     for (size_t c = 0; c < 4; c++)
         for (int64_t more = 0; more < 100000; more = 10 * more + 900) {
             Error err = {0};
