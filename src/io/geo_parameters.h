@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The parameters a .geo takes: the names in its DefineConstant[ ... ] lists. Read from the text,
+// because gmsh passes over a -setnumber that nothing listens to. Called by io/mesh_file, cli/info.
+#ifndef AMONTONS_IO_GEO_PARAMETERS_H
+#define AMONTONS_IO_GEO_PARAMETERS_H
+
+#include "base/error.h"
+#include "io/mesh_file.h"
+
+#include <stdint.h>
+
+typedef struct GeoParameter {
+    char name[GROUP_NAME_SIZE];
+    bool is_text;            // its default is a string
+} GeoParameter;
+
+typedef struct GeoParameters {
+    int32_t count;
+    GeoParameter *items;     // [count] in the order of the file; owned
+} GeoParameters;
+
+// Reads `path` and the files it includes (`Include "other.geo";`). *known is destroyed by the
+// caller. ERROR_INPUT: a file that cannot be read, or includes nested deeper than 8.
+bool geo_parameters_read(const char *path, GeoParameters *known, Error *err);
+void geo_parameters_destroy(GeoParameters *known);
+
+// ERROR_INPUT for one of `given` [given_count] that the .geo does not know, is given twice, or has
+// the other type; lists those it knows.
+bool geo_parameters_check(const GeoParameters *known, const char *path, const MeshParameter *given,
+                          int32_t given_count, Error *err);
+
+#endif

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What can be told of a mesh file before gmsh sees it is told here: gmsh opens a missing file as an
+// empty model, takes junk for a script, and reads a file cut off inside its last number.
+#include "io/mesh_file.h"
+
+#include "base/memory.h"
+#include "base/module.h"
+#include "base/text.h"
+#include "io/geo_parameters.h"
+#include "io/mesh_raw.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { CHUNK_SIZE = 1 << 16, HEAD_LINES = 200, LIST_SIZE = 1200 };
+
+int32_t element_node_count(ElementKind kind)
+{
+    switch (kind) {
+#define X(symbol, nodes, edge_nodes, gmsh, name)                                                   \
+    case symbol:                                                                                   \
+        return nodes;
+        ELEMENT_KINDS(X)
+#undef X
+    case ELEMENT_KIND_COUNT:
+        break;
+    }
+    return 0;
+}
+
+const char *element_name(ElementKind kind)
+{
+    switch (kind) {
+#define X(symbol, nodes, edge_nodes, gmsh, name)                                                   \
+    case symbol:                                                                                   \
+        return name;
+        ELEMENT_KINDS(X)
+#undef X
+    case ELEMENT_KIND_COUNT:
+        break;
+    }
+    return "unknown";
+}
+
+void mesh_file_destroy(MeshFile *mesh)
+{
+    for (int32_t k = 0; k < mesh->group_count; k++) {
+        memory_free(mesh->groups[k].edge_nodes);
+        memory_free(mesh->groups[k].nodes);
+    }
+    memory_free(mesh->position);
+    memory_free(mesh->node_number);
+    memory_free(mesh->element_number);
+    memory_free(mesh->kind);
+    memory_free(mesh->first_node);
+    memory_free(mesh->element_nodes);
+    memory_free(mesh->groups);
+    *mesh = (MeshFile){0};
+}
+
+// --- before gmsh --------------------------------------------------------------------------------
+
+static bool ends_with(const char *path, const char *ending)
+{
+    size_t length = strlen(path), wanted = strlen(ending);
+    return length >= wanted && strcmp(path + length - wanted, ending) == 0;
+}
+
+static bool check_file(const char *path, Error *err)
+{
+    struct stat status;
+    if (stat(path, &status) != 0)
+        FAIL(err, ERROR_INPUT, "%s: cannot be read: %s", path, strerror(errno));
+    if (!S_ISREG(status.st_mode)) FAIL(err, ERROR_INPUT, "%s: is not a file", path);
+    if (status.st_size == 0) FAIL(err, ERROR_INPUT, "%s: is empty", path);
+cleanup:
+    return error_is_clean(err);
+}
+
+// Finds $MeshFormat among the first lines and the version on the line after it.
+static bool read_version(FILE *file, const char *path, double *version, Error *err)
+{
+    char line[256];
+    for (int32_t k = 0; k < HEAD_LINES && fgets(line, sizeof line, file); k++) {
+        if (strncmp(line, "$MeshFormat", strlen("$MeshFormat")) != 0) continue;
+        if (!fgets(line, sizeof line, file) || (*version = strtod(line, NULL)) <= 0)
+            FAIL(err, ERROR_INPUT, "%s: is truncated: no version after $MeshFormat", path);
+        goto cleanup;
+    }
+    FAIL(err, ERROR_INPUT, "%s: is not a gmsh mesh: it has no $MeshFormat (format 4.1 or 2.2)",
+         path);
+cleanup:
+    return error_is_clean(err);
+}
+
+// True when `mark` occurs from the file's present position on.
+static bool file_holds(FILE *file, const char *mark, char *chunk)
+{
+    size_t width = strlen(mark), kept = 0, got = 0;
+    while ((got = fread(chunk + kept, 1, CHUNK_SIZE - kept, file)) > 0) {
+        size_t filled = kept + got;
+        if (memmem(chunk, filled, mark, width)) return true;
+        kept = filled < width - 1 ? filled : width - 1;
+        memmove(chunk, chunk + filled - kept, kept);
+    }
+    return false;
+}
+
+static bool check_msh(const char *path, double *version, Error *err)
+{
+    char *chunk = NULL;
+    FILE *file = fopen(path, "rb");
+    if (!file) FAIL(err, ERROR_INPUT, "%s: cannot be read: %s", path, strerror(errno));
+    TRY(read_version(file, path, version, err));
+    if (!(chunk = NEW_ARRAY(char, CHUNK_SIZE, err))) goto cleanup;
+    if (!file_holds(file, "$EndElements", chunk))
+        FAIL(err, ERROR_INPUT, "%s: is truncated, or was never meshed: it has no $EndElements",
+             path);
+cleanup:
+    memory_free(chunk);
+    if (file) fclose(file);
+    return error_is_clean(err);
+}
+
+static bool check_geo(const char *path, const MeshParameter *parameters, int32_t count, Error *err)
+{
+    GeoParameters known = {0};
+    TRY(geo_parameters_read(path, &known, err));
+    TRY(geo_parameters_check(&known, path, parameters, count, err));
+cleanup:
+    geo_parameters_destroy(&known);
+    return error_is_clean(err);
+}
+
+bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t parameter_count,
+                    MeshFile *mesh, Error *err)
+{
+    MeshRaw raw = {0};
+    MeshRawRequest request = {.path = path,
+                              .generate = ends_with(path, ".geo"),
+                              .parameters = parameters,
+                              .parameter_count = parameter_count};
+    double version = 0;
+    *mesh = (MeshFile){0};
+    if (!request.generate && !ends_with(path, ".msh"))
+        FAIL(err, ERROR_INPUT, "%s: a mesh is a .msh or a .geo file", path);
+    TRY(check_file(path, err));
+    if (request.generate)
+        TRY(check_geo(path, parameters, parameter_count, err));
+    else
+        TRY(check_msh(path, &version, err));
+    if (!request.generate && parameter_count > 0)
+        FAIL(err, ERROR_INPUT, "%s: parameters ('%s') need a .geo; a .msh is meshed already", path,
+             parameters[0].name);
+    MeshRawReader read = (MeshRawReader)module_function("gmsh", "amontons_gmsh_read", err);
+    if (!read) goto cleanup;
+    TRY(read(&request, &raw, err));
+    TRY(mesh_raw_convert(&raw, path, version, mesh, err));
+cleanup:
+    mesh_raw_destroy(&raw);
+    return error_is_clean(err);
+}
+
+// --- groups -------------------------------------------------------------------------------------
+
+// "'body' (surface), 'contact' (curve)" or "none".
+static void list_groups(const MeshFile *mesh, char list[LIST_SIZE])
+{
+    static const char *const words[] = {"point", "curve", "surface", "volume"};
+    size_t length = 0;
+    snprintf(list, LIST_SIZE, "none");
+    for (int32_t k = 0; k < mesh->group_count && length < LIST_SIZE; k++)
+        length += (size_t)snprintf(list + length, LIST_SIZE - length, "%s'%s' (%s)", k ? ", " : "",
+                                   mesh->groups[k].name, words[mesh->groups[k].dimension & 3]);
+}
+
+static const MeshGroup *find_group(const MeshFile *mesh, const char *name)
+{
+    for (int32_t k = 0; k < mesh->group_count; k++)
+        if (strcmp(mesh->groups[k].name, name) == 0) return &mesh->groups[k];
+    return NULL;
+}
+
+const MeshGroup *mesh_file_group(const MeshFile *mesh, const char *path, const char *name,
+                                 int32_t dimension, Error *err)
+{
+    static const char *const words[] = {"point", "curve", "surface", "volume"};
+    const MeshGroup *group = find_group(mesh, name);
+    const char **names = NULL;
+    char list[LIST_SIZE], hint[GROUP_NAME_SIZE + 32] = "";
+    if (group && group->dimension == dimension) return group;
+    list_groups(mesh, list);
+    if (group)
+        FAIL(err, ERROR_INPUT, "%s: group '%s' is a %s, wanted is a %s; the groups are: %s", path,
+             name, words[group->dimension & 3], words[dimension & 3], list);
+    if (!(names = NEW_ARRAY(const char *, mesh->group_count, err))) goto cleanup;
+    for (int32_t k = 0; k < mesh->group_count; k++) names[k] = mesh->groups[k].name;
+    int32_t nearest = text_nearest(name, names, mesh->group_count);
+    if (nearest >= 0) snprintf(hint, sizeof hint, "; did you mean '%s'?", names[nearest]);
+    FAIL(err, ERROR_INPUT, "%s: has no group '%s'; the groups are: %s%s", path, name, list, hint);
+cleanup:
+    memory_free(names);
+    return NULL;
+}

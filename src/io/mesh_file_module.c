@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The only file that knows gmsh. Built into the module amontons_gmsh, because loading libgmsh takes
+// longer than reading a mesh. Each gmsh array is copied into counted memory and freed at once.
+#include "base/memory.h"
+#include "io/mesh_raw.h"
+
+#include <gmshc.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { ARGUMENT_SIZE = 64, MESH_ADAPT_QUADS = 8 };
+
+// gmsh's first error of this session, or what it was doing when it has none.
+static void fail_with_log(const MeshRawRequest *request, const char *doing, Error *err)
+{
+    static const char mark[] = "Error: ";
+    char **log = NULL;
+    size_t count = 0;
+    int status = 0;
+    const char *first = NULL;
+    gmshLoggerGet(&log, &count, &status);
+    for (size_t k = 0; k < count && !first; k++)
+        if (strncmp(log[k], mark, sizeof mark - 1) == 0) first = log[k] + sizeof mark - 1;
+    error_set(err, ERROR_INPUT, __FILE__, __LINE__, "%s: gmsh failed while %s: %s", request->path,
+              doing, first ? first : "it does not say why");
+    for (size_t k = 0; k < count; k++) gmshFree(log[k]);
+    gmshFree(log);
+}
+
+// True when gmsh logged an error, even where the call itself claimed success.
+static bool gmsh_complained(void)
+{
+    char *message = NULL;
+    int status = 0;
+    gmshLoggerGetLastError(&message, &status);
+    bool complained = status == 0 && message && message[0];
+    gmshFree(message);
+    return complained;
+}
+
+// Starts gmsh with the parameters as its command line: that is what DefineConstant listens to.
+static bool gmsh_begin(const MeshRawRequest *request, Error *err)
+{
+    int32_t count = 3 * request->parameter_count + 1;
+    char **argv = NULL;
+    char(*texts)[ARGUMENT_SIZE] = NULL;
+    int status = 0;
+    if (!(argv = NEW_ARRAY(char *, count + 1, err))) goto cleanup;
+    if (!(texts = memory_array(count, sizeof *texts, err))) goto cleanup;
+    snprintf(texts[0], ARGUMENT_SIZE, "gmsh");
+    for (int32_t k = 0; k < request->parameter_count; k++) {
+        const MeshParameter *parameter = &request->parameters[k];
+        char(*three)[ARGUMENT_SIZE] = texts + 3 * k + 1;
+        bool is_text = parameter->text[0] != '\0';
+        snprintf(three[0], ARGUMENT_SIZE, "%s", is_text ? "-setstring" : "-setnumber");
+        snprintf(three[1], ARGUMENT_SIZE, "%s", parameter->name);
+        if (is_text)
+            snprintf(three[2], ARGUMENT_SIZE, "%s", parameter->text);
+        else
+            snprintf(three[2], ARGUMENT_SIZE, "%.17g", parameter->value);
+    }
+    for (int32_t k = 0; k < count; k++) argv[k] = texts[k];
+    gmshInitialize(count, argv, 0, &status);
+    if (status) FAIL(err, ERROR_LIBRARY, "gmsh does not start (status %d)", status);
+    gmshOptionSetNumber("General.Terminal", 0, &status);
+    gmshOptionSetNumber("General.NumThreads", 1, &status);
+    gmshLoggerStart(&status);
+cleanup:
+    memory_free(texts);
+    memory_free(argv);
+    return error_is_clean(err);
+}
+
+static void gmsh_end(void)
+{
+    int status = 0;
+    gmshLoggerStop(&status);
+    gmshFinalize(&status);
+}
+
+static bool gmsh_load(const MeshRawRequest *request, Error *err)
+{
+    int status = 0;
+    double algorithm = 0;
+    gmshOpen(request->path, &status);
+    if (status || gmsh_complained()) {
+        fail_with_log(request, "reading it", err);
+        goto cleanup;
+    }
+    if (!request->generate) goto cleanup;
+    gmshOptionGetNumber("Mesh.Algorithm", &algorithm, &status);
+    if (status == 0 && algorithm == MESH_ADAPT_QUADS)
+        FAIL(err, ERROR_INPUT,
+             "%s: sets Mesh.Algorithm = 8, which crashes gmsh 4.8; use 6, and for quadrilaterals "
+             "Mesh.RecombinationAlgorithm = 3 with it",
+             request->path);
+    gmshModelMeshGenerate(2, &status);
+    if (status || gmsh_complained()) fail_with_log(request, "meshing it", err);
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool copy_tags(const size_t *from, size_t count, int64_t **to, Error *err)
+{
+    int64_t *copy = NEW_ARRAY(int64_t, (int64_t)count, err);
+    if (copy)
+        for (size_t k = 0; k < count; k++) copy[k] = (int64_t)from[k];
+    *to = copy;
+    return copy != NULL;
+}
+
+// Appends the nodes on entities of one dimension.
+static bool fetch_nodes(int dimension, MeshRaw *raw, Error *err)
+{
+    size_t *tags = NULL, tag_count = 0, value_count = 0, parameter_count = 0;
+    double *values = NULL, *parameters = NULL;
+    int status = 0;
+    gmshModelMeshGetNodes(&tags, &tag_count, &values, &value_count, &parameters, &parameter_count,
+                          dimension, -1, 0, 0, &status);
+    if (status) FAIL(err, ERROR_LIBRARY, "gmsh gives no nodes (status %d)", status);
+    int64_t old = raw->node_count, total = old + (int64_t)tag_count;
+    int64_t *number = memory_resize(raw->node_number, old, total, sizeof(int64_t), err);
+    if (!number) goto cleanup;
+    raw->node_number = number;
+    uint8_t *on = memory_resize(raw->node_dimension, old, total, sizeof(uint8_t), err);
+    if (!on) goto cleanup;
+    raw->node_dimension = on;
+    double *position = memory_resize(raw->node_position, 3 * old, 3 * total, sizeof(double), err);
+    if (!position) goto cleanup;
+    raw->node_position = position;
+    for (size_t k = 0; k < tag_count; k++) {
+        number[old + (int64_t)k] = (int64_t)tags[k];
+        on[old + (int64_t)k] = (uint8_t)dimension;
+    }
+    if (tag_count) memcpy(position + 3 * old, values, 3 * tag_count * sizeof(double));
+    raw->node_count = total;
+cleanup:
+    gmshFree(tags);
+    gmshFree(values);
+    gmshFree(parameters);
+    return error_is_clean(err);
+}
+
+static bool name_type(RawBlock *block, Error *err)
+{
+    char *name = NULL;
+    double *local = NULL;
+    size_t local_count = 0;
+    int dimension = 0, order = 0, nodes = 0, primary = 0, status = 0;
+    gmshModelMeshGetElementProperties(block->gmsh_type, &name, &dimension, &order, &nodes, &local,
+                                      &local_count, &primary, &status);
+    if (status) FAIL(err, ERROR_LIBRARY, "gmsh does not know its type %d", block->gmsh_type);
+    snprintf(block->type_name, sizeof block->type_name, "%s", name);
+    block->nodes_per_element = nodes;
+cleanup:
+    gmshFree(name);
+    gmshFree(local);
+    return error_is_clean(err);
+}
+
+// Appends the blocks of one entity.
+static bool fetch_elements(int dimension, int entity, MeshRaw *raw, Error *err)
+{
+    int *types = NULL, status = 0;
+    size_t type_count = 0, tag_lists = 0, node_lists = 0;
+    size_t **tags = NULL, *tag_counts = NULL, **nodes = NULL, *node_counts = NULL;
+    gmshModelMeshGetElements(&types, &type_count, &tags, &tag_counts, &tag_lists, &nodes,
+                             &node_counts, &node_lists, dimension, entity, &status);
+    if (status) FAIL(err, ERROR_LIBRARY, "gmsh gives no elements (status %d)", status);
+    for (size_t k = 0; k < type_count; k++) {
+        RawBlock *blocks =
+            memory_resize(raw->blocks, raw->block_count, raw->block_count + 1, sizeof *blocks, err);
+        if (!blocks) goto cleanup;
+        raw->blocks = blocks;
+        RawBlock *block = &blocks[raw->block_count++];
+        *block = (RawBlock){.dimension = dimension, .entity = entity, .gmsh_type = types[k]};
+        TRY(name_type(block, err));
+        block->count = (int64_t)tag_counts[k];
+        TRY(copy_tags(tags[k], tag_counts[k], &block->number, err));
+        TRY(copy_tags(nodes[k], node_counts[k], &block->nodes, err));
+    }
+cleanup:
+    for (size_t k = 0; k < tag_lists; k++) gmshFree(tags[k]);
+    for (size_t k = 0; k < node_lists; k++) gmshFree(nodes[k]);
+    gmshFree(types);
+    gmshFree(tags);
+    gmshFree(tag_counts);
+    gmshFree(nodes);
+    gmshFree(node_counts);
+    return error_is_clean(err);
+}
+
+static bool fetch_all_elements(MeshRaw *raw, Error *err)
+{
+    int *pairs = NULL, status = 0;
+    size_t count = 0;
+    gmshModelGetEntities(&pairs, &count, -1, &status);
+    if (status) FAIL(err, ERROR_LIBRARY, "gmsh gives no entities (status %d)", status);
+    for (size_t k = 0; k + 1 < count; k += 2) TRY(fetch_elements(pairs[k], pairs[k + 1], raw, err));
+cleanup:
+    gmshFree(pairs);
+    return error_is_clean(err);
+}
+
+static bool fetch_group(const char *path, int dimension, int number, RawGroup *group, Error *err)
+{
+    char *name = NULL;
+    int *entities = NULL, status = 0;
+    size_t count = 0;
+    *group = (RawGroup){.dimension = dimension, .number = number};
+    gmshModelGetPhysicalName(dimension, number, &name, &status);
+    if (name && strlen(name) >= sizeof group->name)
+        FAIL(err, ERROR_INPUT, "%s: the physical name '%s' is longer than %d bytes", path, name,
+             (int)sizeof group->name - 1);
+    if (name) snprintf(group->name, sizeof group->name, "%s", name);
+    gmshModelGetEntitiesForPhysicalGroup(dimension, number, &entities, &count, &status);
+    if (status) FAIL(err, ERROR_LIBRARY, "%s: gmsh does not give group %d", path, number);
+    group->entities = NEW_ARRAY(int32_t, (int64_t)count, err);
+    if (!group->entities) goto cleanup;
+    group->entity_count = (int32_t)count;
+    for (size_t k = 0; k < count; k++) group->entities[k] = entities[k];
+cleanup:
+    gmshFree(name);
+    gmshFree(entities);
+    return error_is_clean(err);
+}
+
+static bool fetch_groups(const char *path, MeshRaw *raw, Error *err)
+{
+    int *pairs = NULL, status = 0;
+    size_t count = 0;
+    gmshModelGetPhysicalGroups(&pairs, &count, -1, &status);
+    if (status) FAIL(err, ERROR_LIBRARY, "gmsh gives no physical groups (status %d)", status);
+    raw->groups = NEW_ARRAY(RawGroup, (int64_t)count / 2, err);
+    if (!raw->groups) goto cleanup;
+    for (size_t k = 0; k + 1 < count; k += 2)
+        TRY(fetch_group(path, pairs[k], pairs[k + 1], &raw->groups[raw->group_count++], err));
+cleanup:
+    gmshFree(pairs);
+    return error_is_clean(err);
+}
+
+__attribute__((visibility("default"))) bool amontons_gmsh_read(const MeshRawRequest *request,
+                                                               MeshRaw *raw, Error *err)
+{
+    bool begun = false;
+    *raw = (MeshRaw){0};
+    TRY(begun = gmsh_begin(request, err));
+    TRY(gmsh_load(request, err));
+    for (int dimension = 0; dimension <= 3; dimension++) TRY(fetch_nodes(dimension, raw, err));
+    TRY(fetch_all_elements(raw, err));
+    TRY(fetch_groups(request->path, raw, err));
+cleanup:
+    if (begun) gmsh_end();
+    return error_is_clean(err);
+}
