@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The mesh the solver works on: what io/mesh_file delivered, checked, with its named curves. Used by
-// bulk/assembly (elements, tractions on curves) and contact/interface (the contact curves).
+// The mesh the solver works on: what io/mesh_file delivered, checked, with its named curves. Used
+// by bulk/assembly (elements, tractions on curves) and contact/interface (the contact curves).
 #ifndef AMONTONS_BULK_MESH_H
 #define AMONTONS_BULK_MESH_H
 
@@ -11,13 +11,16 @@
 
 enum { MESH_PATH_SIZE = 1024 };
 
-// A checked mesh: every element counter-clockwise, with a positive Jacobian determinant at its nodes
-// and quadrature points; every node on an element; no node twice in one element.
+// A checked mesh: every element counter-clockwise, with a positive Jacobian determinant at its
+// nodes and quadrature points; every node on an element; no node twice in one element; no edge on
+// more than two elements; every edge of a curve group is an edge of an element.
 typedef struct Mesh {
     char path[MESH_PATH_SIZE];   // of the file, for messages
     int32_t node_count;
     double *position;            // [node_count * 2] (x, z), length; owned
+    int64_t *node_number;        // [node_count] gmsh's node tags, for messages; owned
     int32_t element_count;
+    int64_t *element_number;     // [element_count] gmsh's element tags, for messages; owned
     uint8_t *kind;               // [element_count] ElementKind; owned
     int32_t *first_node;         // [element_count + 1] offsets into element_nodes; owned
     int32_t *element_nodes;      // [first_node[element_count]] corners, mid-sides, centre; owned
@@ -50,7 +53,8 @@ typedef struct MeshContact {
 // Takes the arrays of `file` over (it is empty afterwards, also on failure), checks and completes
 // them. A mesh that is clockwise throughout (its surface was reversed in gmsh) is turned round.
 // Errors (ERROR_INPUT) name `path` and where: an element with non-positive area, one that repeats a
-// node, a clockwise element among others, a node on no element, an edge of three elements.
+// node, a clockwise element among others, a node on no element, an edge of three elements, elements
+// of different order side by side, a curve group that does not follow the elements.
 bool mesh_build(MeshFile *file, const char *path, Mesh *mesh, Error *err);
 void mesh_destroy(Mesh *mesh);
 
@@ -58,8 +62,8 @@ void mesh_destroy(Mesh *mesh);
 bool mesh_curve(const Mesh *mesh, const char *name, MeshCurve *curve, Error *err);
 
 // The contact line from curves called `names` [name_count]; no names: every curve called "contact"
-// or "contact_...", in the order of their numbers. Each must lie on z = 0 and on the block's edge,
-// and the block above it: ERROR_INPUT names the group and the worst node.
+// or "contact_...", in the order of their first nodes' x. Each must lie on z = 0 and on the block's
+// edge, no two on the same edge, and the block above them: ERROR_INPUT names the group and the node.
 bool mesh_contact(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], int32_t name_count,
                   MeshContact *contact, Error *err);
 void mesh_contact_destroy(MeshContact *contact);
