@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A rectangular block on a flat substrate, its lower left corner at the origin. gmsh's y is the z of
+// amontons: the contact line is y = 0, and the rod pushes the face x = 0 towards +x.
+//
+//               top
+//           4---------3
+//      rod  |  body   |  leading
+//           1---------2
+//             contact
+//
+// Physical groups: body (the surface), contact, top, rod (the trailing face) and leading (curves).
+//
+//   In a scene:   mesh: {file: block.geo, set: {nx: 80, nz: 80, shape: quad}}
+//   By hand:      gmsh -2 block.geo -setnumber nx 80 -setstring shape triangle
+
+DefineConstant[
+    length = 1,             // extent along x
+    height = 0.5,           // extent along z
+    nx = 40,                // cells along x
+    nz = 40,                // cells along z
+    shape = "quad",         // "quad" or "triangle"
+    order = 1,              // 1: Q4, T3; 2: Q9, T6
+    incomplete = 0,         // 1: order 2 gives Q8 in place of Q9
+    layout = "regular",     // "regular": nx x nz cells, a triangle being half a cell
+                            // "alternate": as regular, but the diagonals of triangles alternate
+                            // "free": unstructured; nx and nz cells on the sides only
+    grade_x = 1,            // a middle cell is so many times as long as one at the ends x = 0, length
+    grade_z = 1             // the top cell is so many times as high as the one at the contact
+];
+
+// --- what is allowed ----------------------------------------------------------------------------
+If (length <= 0 || height <= 0)
+    Error("length and height must be above 0, found %g and %g", length, height);
+    Abort;
+EndIf
+If (nx < 1 || nz < 1 || nx != Floor(nx) || nz != Floor(nz))
+    Error("nx and nz must be whole numbers from 1 on, found %g and %g", nx, nz);
+    Abort;
+EndIf
+If (order != 1 && order != 2)
+    Error("order must be 1 or 2, found %g", order);
+    Abort;
+EndIf
+If (incomplete != 0 && incomplete != 1)
+    Error("incomplete must be 0 or 1, found %g", incomplete);
+    Abort;
+EndIf
+If (grade_x <= 0 || grade_z <= 0)
+    Error("grade_x and grade_z must be above 0 (1: even), found %g and %g", grade_x, grade_z);
+    Abort;
+EndIf
+If (StrCmp(shape, "quad") != 0 && StrCmp(shape, "triangle") != 0)
+    Error(StrCat("shape must be quad or triangle, found ", shape));
+    Abort;
+EndIf
+If (StrCmp(layout, "regular") != 0 && StrCmp(layout, "alternate") != 0 &&
+    StrCmp(layout, "free") != 0)
+    Error(StrCat("layout must be regular, alternate or free, found ", layout));
+    Abort;
+EndIf
+
+// --- geometry -----------------------------------------------------------------------------------
+Point(1) = {0, 0, 0};
+Point(2) = {length, 0, 0};
+Point(3) = {length, height, 0};
+Point(4) = {0, height, 0};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4};
+Plane Surface(1) = {1};
+
+Physical Surface("body") = {1};
+Physical Curve("contact") = {1};
+Physical Curve("leading") = {2};
+Physical Curve("top") = {3};
+Physical Curve("rod") = {4};
+
+// --- mesh ---------------------------------------------------------------------------------------
+// nz heights in geometric progression, the last grade_z times the first.
+ratio_z = 1;
+If (nz > 1)
+    ratio_z = grade_z ^ (1 / (nz - 1));
+EndIf
+Transfinite Curve{1, 3} = nx + 1 Using Bump 1 / grade_x;
+Transfinite Curve{2, -4} = nz + 1 Using Progression ratio_z;
+
+If (StrCmp(layout, "regular") == 0)
+    Transfinite Surface{1};
+EndIf
+If (StrCmp(layout, "alternate") == 0)
+    Transfinite Surface{1} Alternate;
+EndIf
+If (StrCmp(shape, "quad") == 0)
+    Recombine Surface{1};
+EndIf
+
+Mesh.Algorithm = 6;                  // frontal; 8 crashes gmsh 4.8
+Mesh.RecombinationAlgorithm = 3;     // no triangle is left over where the layout is free
+Mesh.ElementOrder = order;
+Mesh.SecondOrderIncomplete = incomplete;
