@@ -145,9 +145,10 @@ void yaml_key_error(const YamlDocument *document, YamlNode node, Error *err, con
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
-    int32_t key = document->nodes[node].key;
-    int32_t place = key == YAML_NO_NODE ? node : key;
-    yaml_error_at(document, document->nodes[place].position, err, message);
+    int32_t key = document->nodes[node].key, position = document->nodes[node].position;
+    if (key != YAML_NO_NODE) position = document->nodes[key].position;
+    if (node == YAML_ROOT) position = 0;   // of "a.b=1" the key is what yaml_parse skipped
+    yaml_error_at(document, position, err, message);
 }
 
 void yaml_describe(const YamlDocument *document, YamlNode node, char *words, int32_t size)

@@ -8,7 +8,11 @@
 #include "base/error.h"
 #include "io/mesh_file.h"
 
-enum { SCENE_TEXT_SIZE = 512, SCENE_LIST_MAX = 32, SCENE_CHOICE_NONE = -1 };
+enum {
+    SCENE_TEXT_SIZE = 512,
+    SCENE_LIST_MAX = 32,
+    SCENE_KEYS_MAX = 64,   // of run/scene_keys's table
+};
 
 typedef enum SceneUnits { UNITS_NORMALISED, UNITS_SI } SceneUnits;
 typedef enum ScenePlane { PLANE_STRESS, PLANE_STRAIN } ScenePlane;
@@ -26,22 +30,22 @@ typedef struct SceneNames {
 
 typedef struct SceneTraction {
     char group[GROUP_NAME_SIZE];
-    double x, z;                       // stress
+    double x, z;   // stress
 } SceneTraction;
 
 typedef struct Scene {
-    char path[SCENE_TEXT_SIZE];        // of the scene file, as given
+    char path[SCENE_TEXT_SIZE];   // of the scene file, as given
     char title[SCENE_TEXT_SIZE];
     SceneUnits units;
     struct {
-        char file[SCENE_TEXT_SIZE];    // resolved against the scene file's folder
+        char file[SCENE_TEXT_SIZE];   // resolved against the scene file's folder
         int32_t parameter_count;
         MeshParameter parameters[SCENE_LIST_MAX];   // mesh.set.*
     } mesh;
     struct {
         char top[GROUP_NAME_SIZE], rod[GROUP_NAME_SIZE];   // groups.top, groups.rod
-        SceneNames contact;            // groups.contact: one name or a list; empty: every curve
-                                       // group called "contact" or "contact_..."
+        SceneNames contact;   // groups.contact: one name or a list; empty: every curve
+            // group called "contact" or "contact_..."
     } groups;
     struct {
         double young, poisson, density, eta1, eta2;
@@ -53,49 +57,50 @@ typedef struct Scene {
     } friction;
     struct {
         double pressure;
-        int32_t traction_count;        // load.tractions: [{group, x, z}]
+        int32_t traction_count;   // load.tractions: [{group, x, z}]
         SceneTraction tractions[SCENE_LIST_MAX];
     } load;
     struct {
         double velocity;
-        double height, width;          // of the strip's centre, and its extent; 0: H/2 and 0.1 H
+        double height, width;   // of the strip's centre, and its extent; 0: H/2 and 0.1 H
         SceneRodKind kind;
     } rod;
     struct {
         SceneStartFriction friction;
-        SceneStartRod rod;             // away (default) or held
-        double tolerance;              // relaxed when every speed is below this times V
-        double duration_max;           // of the relaxation, in viscous times; an error beyond
+        SceneStartRod rod;   // away (default) or held
+        double tolerance;   // relaxed when every speed is below this times V
+        double duration_max;   // of the relaxation, in viscous times; an error beyond
     } start;
     struct {
-        double until_U, until_t;       // 0: not given; one of them must be
+        double until_U, until_t;   // 0: not given; one of them must be
         bool until_periodic;
         SceneScheme scheme;
         SceneAccuracy accuracy;
-        double tolerance;              // of a step, relative; 0: by accuracy
-        double step_max, step_min;     // 0: chosen from the block's size and speeds
-        bool certificate;              // limit the step by the certificate (off only to study it)
-        double energy_tolerance;       // of the ledger, relative to the work done
-        double periodic_tolerance;     // peaks agree within this, relative
+        double tolerance;   // of a step, relative; 0: by accuracy
+        double step_max, step_min;   // 0: chosen from the block's size and speeds
+        bool certificate;   // limit the step by the certificate (off only to study it)
+        double energy_tolerance;   // of the ledger, relative to the work done
+        double periodic_tolerance;   // peaks agree within this, relative
     } time;
     struct {
         bool history;
-        bool fields;                   // output.fields: none, or {every_U, every_t, at_events}
+        bool fields;   // output.fields: none, or {every_U, every_t, at_events}
         double fields_every_U, fields_every_t;
         bool fields_at_events;
-        int32_t figure_count;          // output.figures: list of names
-        char figures[SCENE_LIST_MAX][GROUP_NAME_SIZE];
+        SceneNames figures;   // names of render's RENDER_FIGURES
     } output;
+    bool given[SCENE_KEYS_MAX];   // by key of scene_keys(): stands in the file or a --set
 } Scene;
 
-// One `--set key=value`, as the user typed it.
-typedef struct SceneOverride {
-    const char *text;
-} SceneOverride;
-
-// Reads and checks a scene. Errors (ERROR_INPUT) give file:line:column (or the --set text), the
-// key, what was found and what is allowed; an unknown key comes with the nearest known one.
-bool scene_read(const char *path, const SceneOverride *overrides, int32_t override_count,
+// Reads and checks a scene; `overrides` ([override_count]) are "key=value" as typed after --set, the
+// value in YAML's flow style. An override of a single key replaces its value; one of a whole map
+// ("time.until={t: 5}") replaces the map. mesh.file is taken relative to the scene file's folder.
+// Errors (ERROR_INPUT) give file:line:column (or the --set text), the key, what was found and what
+// is allowed; an unknown key comes with the nearest known one.
+bool scene_read(const char *path, const char *const *overrides, int32_t override_count,
                 Scene *scene, Error *err);
+
+// The same from a text, with `path` (of a file that need not exist) for errors and mesh.file.
+bool scene_read_text(const char *path, const char *text, Scene *scene, Error *err);
 
 #endif

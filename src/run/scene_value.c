@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "run/scene_value.h"
+
+#include "base/text.h"
+#include "run/scene_units.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void *field_of(const SceneKey *key, Scene *scene)
+{
+    return (char *)scene + key->offset;
+}
+
+// "material.young: found `abc`; allowed: a number > 0"
+static void report_wrong(const SceneKey *key, const SceneValue *value, Error *err)
+{
+    char found[100], allowed[300];
+    yaml_describe(value->document, value->node, found, sizeof found);
+    scene_key_allowed(key, allowed, sizeof allowed);
+    yaml_error(value->document, value->node, err, "%s: found %s; allowed: %s", key->name, found,
+               allowed);
+}
+
+static bool expect_scalar(const SceneKey *key, const SceneValue *value, Error *err)
+{
+    if (yaml_kind(value->document, value->node) == YAML_SCALAR) return true;
+    report_wrong(key, value, err);
+    return false;
+}
+
+// A list or map item as a value of its own.
+static SceneValue value_at(const SceneValue *value, YamlNode node)
+{
+    return (SceneValue){.document = value->document, .node = node};
+}
+
+// --- numbers ------------------------------------------------------------------------------------
+
+// Decimal numbers only: strtod would take "inf", "nan" and "0x10" too.
+static bool starts_as_number(const char *text)
+{
+    if (*text == '+' || *text == '-') text++;
+    if (*text == '.') text++;
+    return isdigit((unsigned char)*text) && !(text[0] == '0' && (text[1] == 'x' || text[1] == 'X'));
+}
+
+// Splits "10 um/s" into 10 and "um/s".
+static bool split_number(const char *text, double *number, const char **suffix)
+{
+    if (!starts_as_number(text)) return false;
+    char *end = NULL;
+    *number = strtod(text, &end);
+    *suffix = end + strspn(end, " ");
+    return true;
+}
+
+// Applies the unit `suffix` to *number, or says why it does not fit.
+static bool apply_unit(const SceneKey *key, const SceneValue *value, SceneUnits units,
+                       const char *suffix, double *number, Error *err)
+{
+    const char *text = yaml_text(value->document, value->node);
+    const char *examples = unit_examples(key->unit);
+    if (!*suffix) return true;
+    if (units == UNITS_NORMALISED)
+        yaml_error(value->document, value->node, err,
+                   "%s: found `%.60s`, with a unit; a normalised scene has plain numbers "
+                   "(units need `units: si`)",
+                   key->name, text);
+    else if (!*examples)
+        yaml_error(value->document, value->node, err,
+                   "%s: found `%.60s`; this number has no unit; allowed: %s", key->name, text,
+                   scene_range_words(key->range));
+    else if (!unit_to_si(suffix, key->unit, number))
+        yaml_error(value->document, value->node, err,
+                   "%s: found `%.60s`; `%.30s` is no unit of %s; allowed: %s", key->name, text,
+                   suffix, key->unit, examples);
+    return error_is_clean(err);
+}
+
+static bool read_number(const SceneKey *key, const SceneValue *value, SceneUnits units,
+                        double *number, Error *err)
+{
+    const char *suffix = "";
+    TRY(expect_scalar(key, value, err));
+    if (!split_number(yaml_text(value->document, value->node), number, &suffix)) {
+        report_wrong(key, value, err);
+        goto cleanup;
+    }
+    TRY(apply_unit(key, value, units, suffix, number, err));
+    if (!isfinite(*number)) report_wrong(key, value, err);
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool set_number(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+{
+    double number = 0;
+    TRY(read_number(key, value, scene->units, &number, err));
+    if (!scene_range_holds(key->range, number))
+        report_wrong(key, value, err);
+    else
+        memcpy(field_of(key, scene), &number, sizeof number);
+cleanup:
+    return error_is_clean(err);
+}
+
+// --- words --------------------------------------------------------------------------------------
+
+static bool set_flag(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+{
+    const char *text = yaml_text(value->document, value->node);
+    bool flag = strcmp(text, "true") == 0;
+    if (!flag && strcmp(text, "false") != 0)
+        report_wrong(key, value, err);
+    else
+        memcpy(field_of(key, scene), &flag, sizeof flag);
+    return error_is_clean(err);
+}
+
+static bool copy_text(const SceneKey *key, const SceneValue *value, size_t size, char *out,
+                      Error *err)
+{
+    TRY(expect_scalar(key, value, err));
+    const char *text = yaml_text(value->document, value->node);
+    bool empty_name = size == GROUP_NAME_SIZE && !*text;
+    if (empty_name || strlen(text) >= size || strpbrk(text, "\n\r\t"))
+        report_wrong(key, value, err);
+    else
+        memcpy(out, text, strlen(text) + 1);
+cleanup:
+    return error_is_clean(err);
+}
+
+static int32_t find_choice(const SceneKey *key, const char *text)
+{
+    for (int32_t k = 0; key->choices[k]; k++)
+        if (strcmp(key->choices[k], text) == 0) return k;
+    return -1;
+}
+
+static void report_choice(const SceneKey *key, const SceneValue *value, Error *err)
+{
+    const char *text = yaml_text(value->document, value->node);
+    int32_t count = 0;
+    while (key->choices[count]) count++;
+    int32_t nearest = text_nearest(text, key->choices, count);
+    char allowed[300];
+    scene_key_allowed(key, allowed, sizeof allowed);
+    if (nearest < 0)
+        report_wrong(key, value, err);
+    else
+        yaml_error(value->document, value->node, err,
+                   "%s: found `%.60s`, did you mean `%s`? Allowed: %s", key->name, text,
+                   key->choices[nearest], allowed);
+}
+
+static bool set_choice(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+{
+    TRY(expect_scalar(key, value, err));
+    int32_t choice = find_choice(key, yaml_text(value->document, value->node));
+    if (choice < 0)
+        report_choice(key, value, err);
+    else
+        memcpy(field_of(key, scene), &choice, sizeof choice);
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool add_name(const SceneKey *key, const SceneValue *value, SceneNames *names, Error *err)
+{
+    char name[GROUP_NAME_SIZE];
+    TRY(copy_text(key, value, GROUP_NAME_SIZE, name, err));
+    if (key->choices && find_choice(key, name) < 0) {
+        report_choice(key, value, err);
+        goto cleanup;
+    }
+    for (int32_t i = 0; i < names->count; i++)
+        if (strcmp(names->name[i], name) == 0) {
+            yaml_error(value->document, value->node, err, "%s: `%s` stands twice in the list",
+                       key->name, name);
+            goto cleanup;
+        }
+    if (names->count == SCENE_LIST_MAX)
+        report_wrong(key, value, err);
+    else
+        memcpy(names->name[names->count++], name, sizeof name);
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool set_names(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+{
+    SceneNames *names = field_of(key, scene);
+    *names = (SceneNames){0};
+    YamlKind kind = yaml_kind(value->document, value->node);
+    if (kind == YAML_SCALAR) return add_name(key, value, names, err);
+    if (kind == YAML_MAP) report_wrong(key, value, err);
+    if (kind != YAML_LIST) return error_is_clean(err);   // nothing: an empty list
+    for (YamlNode item = yaml_first(value->document, value->node); item != YAML_NO_NODE;
+         item = yaml_next(value->document, item)) {
+        SceneValue one = value_at(value, item);
+        TRY(add_name(key, &one, names, err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// --- the keys that are maps and lists of their own ----------------------------------------------
+
+static MeshParameter *find_parameter(Scene *scene, const char *name)
+{
+    for (int32_t i = 0; i < scene->mesh.parameter_count; i++)
+        if (strcmp(scene->mesh.parameters[i].name, name) == 0) return &scene->mesh.parameters[i];
+    return NULL;
+}
+
+static bool set_parameter(const SceneKey *key, const SceneValue *value, const char *name,
+                          Scene *scene, Error *err)
+{
+    MeshParameter made = {0};
+    const char *text = yaml_text(value->document, value->node);
+    MeshParameter *parameter = find_parameter(scene, name);
+    bool full = !parameter && scene->mesh.parameter_count == SCENE_LIST_MAX;
+    if (full || !*name || strlen(name) >= GROUP_NAME_SIZE) {
+        yaml_key_error(value->document, value->node, err,
+                       "%s: at most 32 parameters, with names of 1 to 63 bytes", key->name);
+        goto cleanup;
+    }
+    TRY(expect_scalar(key, value, err));
+    if (!yaml_is_quoted(value->document, value->node) && starts_as_number(text))
+        TRY(read_number(key, value, scene->units, &made.value, err));
+    else
+        TRY(copy_text(key, value, GROUP_NAME_SIZE, made.text, err));
+    memcpy(made.name, name, strlen(name) + 1);
+    if (!parameter) parameter = &scene->mesh.parameters[scene->mesh.parameter_count++];
+    *parameter = made;
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool set_parameters(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+{
+    if (value->part) return set_parameter(key, value, value->part, scene, err);
+    scene->mesh.parameter_count = 0;
+    YamlKind kind = yaml_kind(value->document, value->node);
+    if (kind == YAML_NOTHING) return true;
+    if (kind != YAML_MAP) {
+        report_wrong(key, value, err);
+        return false;
+    }
+    for (YamlNode item = yaml_first(value->document, value->node); item != YAML_NO_NODE;
+         item = yaml_next(value->document, item)) {
+        SceneValue one = value_at(value, item);
+        TRY(set_parameter(key, &one, yaml_key(value->document, item), scene, err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool set_traction_part(const SceneKey *key, const SceneValue *value, const Scene *scene,
+                              SceneTraction *traction, Error *err)
+{
+    const char *name = yaml_key(value->document, value->node);
+    SceneKey component = {.name = "load.tractions.x", .type = KEY_NUMBER, .unit = key->unit};
+    if (strcmp(name, "group") == 0)
+        return copy_text(key, value, GROUP_NAME_SIZE, traction->group, err);
+    if (strcmp(name, "x") == 0)
+        return read_number(&component, value, scene->units, &traction->x, err);
+    component.name = "load.tractions.z";
+    if (strcmp(name, "z") == 0)
+        return read_number(&component, value, scene->units, &traction->z, err);
+    yaml_key_error(value->document, value->node, err,
+                   "%s: unknown key `%.60s`; allowed: group, x, z", key->name, name);
+    return false;
+}
+
+static bool set_traction(const SceneKey *key, const SceneValue *value, const Scene *scene,
+                         SceneTraction *traction, Error *err)
+{
+    *traction = (SceneTraction){0};
+    if (yaml_kind(value->document, value->node) != YAML_MAP) {
+        report_wrong(key, value, err);
+        goto cleanup;
+    }
+    for (YamlNode item = yaml_first(value->document, value->node); item != YAML_NO_NODE;
+         item = yaml_next(value->document, item)) {
+        SceneValue part = value_at(value, item);
+        TRY(set_traction_part(key, &part, scene, traction, err));
+    }
+    if (!*traction->group)
+        yaml_error(value->document, value->node, err, "%s: a traction needs its `group`",
+                   key->name);
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool set_tractions(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+{
+    scene->load.traction_count = 0;
+    YamlKind kind = yaml_kind(value->document, value->node);
+    if (kind == YAML_NOTHING) return true;
+    if (kind != YAML_LIST || yaml_count(value->document, value->node) > SCENE_LIST_MAX) {
+        report_wrong(key, value, err);
+        return false;
+    }
+    for (YamlNode item = yaml_first(value->document, value->node); item != YAML_NO_NODE;
+         item = yaml_next(value->document, item)) {
+        SceneValue one = value_at(value, item);
+        SceneTraction *traction = &scene->load.tractions[scene->load.traction_count];
+        TRY(set_traction(key, &one, scene, traction, err));
+        scene->load.traction_count++;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool set_fields(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+{
+    bool is_map = yaml_kind(value->document, value->node) == YAML_MAP;
+    if (!is_map && strcmp(yaml_text(value->document, value->node), "none") != 0)
+        report_wrong(key, value, err);
+    scene->output.fields = is_map;
+    scene->output.fields_every_U = scene->output.fields_every_t = 0;
+    scene->output.fields_at_events = false;
+    return error_is_clean(err);
+}
+
+bool scene_value_set(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+{
+    switch (key->type) {
+    case KEY_NUMBER:
+        return set_number(key, value, scene, err);
+    case KEY_FLAG:
+        return set_flag(key, value, scene, err);
+    case KEY_TEXT:
+        return copy_text(key, value, SCENE_TEXT_SIZE, field_of(key, scene), err);
+    case KEY_NAME:
+        return copy_text(key, value, GROUP_NAME_SIZE, field_of(key, scene), err);
+    case KEY_CHOICE:
+        return set_choice(key, value, scene, err);
+    case KEY_NAMES:
+        return set_names(key, value, scene, err);
+    case KEY_PARAMETERS:
+        return set_parameters(key, value, scene, err);
+    case KEY_TRACTIONS:
+        return set_tractions(key, value, scene, err);
+    case KEY_FIELDS:
+        return set_fields(key, value, scene, err);
+    }
+    return true;
+}
