@@ -161,8 +161,10 @@ static uint8_t judge_contact(const ContactProblem *problem, const ContactSolutio
     uint8_t status = solution->status[i];
     double pressing = solution->reaction[n], shear = solution->reaction[t];
     if (status == CONTACT_OPEN) {
+        // It lands with the tangential velocity it has: held at once it may want to open again.
         *violation = (problem->bound[n] - solution->velocity[n]) / scales.velocity;
-        return CONTACT_STICK;
+        if (solution->velocity[t] == 0) return CONTACT_STICK;
+        return solution->velocity[t] > 0 ? CONTACT_SLIP_FORWARD : CONTACT_SLIP_BACKWARD;
     }
     *violation = -pressing / scales.force;
     if (*violation > 0) return CONTACT_OPEN;
