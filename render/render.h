@@ -16,10 +16,10 @@
     X(FIGURE_CONTACT_DENSITY, "contact-density", "contact density before sliding, zoomed in U")
 
 typedef struct RenderRequest {
-    const char *folder;          // the result folder; pictures go to folder/figures/NAME.png
-    const char *const *figures;  // [figure_count] names of RENDER_FIGURES; none: all of them
+    const char *folder;   // the result folder; pictures go to folder/figures/NAME.png
+    const char *const *figures;   // [figure_count] names of RENDER_FIGURES; none: all of them
     int32_t figure_count;
-    int32_t width, height;       // pixels; 0: the figure's own (1600 or more wide)
+    int32_t width, height;   // pixels; 0: the figure's own (1600 or more wide)
 } RenderRequest;
 
 typedef bool (*RenderFunction)(const RenderRequest *request, Error *err);

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "render/axes.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { TICKS_X_MAX = 7, TICKS_Y_MAX = 6, TICKS_MIN = 2 };
+
+static const double TICK_LENGTH = 2.6;   // points
+static const double MINOR_LENGTH = 1.5;   // points
+static const double NUMBER_GAP = 1.6;   // points: tick to number
+static const double LABEL_GAP = 3.2;   // points: numbers to name
+static const double EDGE_GAP = 1.5;   // points: name to the picture's edge
+
+Point axes_place(const Axes *axes, double x, double y)
+{
+    const Box *box = &axes->box;
+    double across = (x - axes->x.low) / (axes->x.high - axes->x.low);
+    double up = (y - axes->y.low) / (axes->y.high - axes->y.low);
+    return (Point){box->left + across * (box->right - box->left),
+                   box->bottom - up * (box->bottom - box->top)};
+}
+
+static double number_width(const Page *page, const Axes *axes, const Ticks *ticks)
+{
+    double widest = 0;
+    char label[TICK_LABEL_SIZE];
+    for (int32_t k = 0; k < ticks->count; ++k) {
+        tick_label(ticks, k, label);
+        widest = fmax(widest, text_width(page->text, axes->number_size * page->point, label));
+    }
+    return widest;
+}
+
+static Ticks axis_ticks(const Axis *axis, int32_t wanted)
+{
+    return ticks_choose(axis->low * axis->factor, axis->high * axis->factor, wanted);
+}
+
+// As many ticks as leave room between their numbers.
+static Ticks ticks_along_x(const Page *page, const Axes *axes)
+{
+    double room = axes->box.right - axes->box.left;
+    Ticks ticks = {0};
+    for (int32_t wanted = TICKS_X_MAX; wanted >= TICKS_MIN; --wanted) {
+        ticks = axis_ticks(&axes->x, wanted);
+        if (1.5 * ticks.count * number_width(page, axes, &ticks) <= room) break;
+    }
+    return ticks;
+}
+
+static Ticks ticks_along_y(const Page *page, const Axes *axes)
+{
+    double room = (axes->box.bottom - axes->box.top) / page->point;
+    int32_t wanted = (int32_t)(room / (2.4 * axes->number_size));
+    if (wanted > TICKS_Y_MAX) wanted = TICKS_Y_MAX;
+    return axis_ticks(&axes->y, wanted < TICKS_MIN ? TICKS_MIN : wanted);
+}
+
+double axes_left_margin(const Page *page, const Axes *axes)
+{
+    Ticks ticks = ticks_along_y(page, axes);
+    double numbers = number_width(page, axes, &ticks) / page->point;
+    double name = axes->y.label[0] ? LABEL_GAP + LABEL_SIZE + EDGE_GAP : 0;
+    return TICK_LENGTH + NUMBER_GAP + numbers + name;
+}
+
+double axes_bottom_margin(const Axes *axes)
+{
+    double name = axes->x.label[0] ? LABEL_GAP + LABEL_SIZE + EDGE_GAP : 0;
+    return TICK_LENGTH + NUMBER_GAP + axes->number_size * text_digit_height() + name;
+}
+
+double axes_top_margin(const Axes *axes)
+{
+    Ticks ticks = axis_ticks(&axes->y, TICKS_Y_MAX);
+    return ticks.exponent == 0 ? axes->number_size * 0.6 : axes->number_size * 1.8;
+}
+
+static void exponent_write(const Page *page, const TextStyle *style, Point place,
+                           const Ticks *ticks)
+{
+    char words[TICK_LABEL_SIZE];
+    if (ticks->exponent == 0) return;
+    snprintf(words, sizeof words, "\u00d710^{%d}", ticks->exponent);
+    text_draw(page->text, style, place, words);
+}
+
+static void tick_mark(const Page *page, const Axes *axes, Point foot, bool below, double length)
+{
+    Stroke stroke = {.color = axes->color, .width = FRAME_WIDTH * page->point};
+    double out = length * page->point;
+    Point end = {foot.x - (below ? 0 : out), foot.y + (below ? out : 0)};
+    shape_segment(page->canvas, &stroke, foot, end);
+}
+
+// Minor ticks lie between the ticks and beyond them to both ends of the axis.
+static void minor_marks(const Page *page, const Axes *axes, const Ticks *ticks, bool below)
+{
+    const Axis *axis = below ? &axes->x : &axes->y;
+    if (ticks->count == 0) return;
+    for (int32_t k = -ticks->minor; k <= ticks->count * ticks->minor; ++k) {
+        double value = ((double)ticks->first + (double)k / ticks->minor) * ticks->step /
+                       axis->factor;
+        double slack = 1e-6 * (axis->high - axis->low);
+        if (value < axis->low - slack || value > axis->high + slack) continue;
+        Point foot = below ? axes_place(axes, value, axes->y.low)
+                           : axes_place(axes, axes->x.low, value);
+        tick_mark(page, axes, foot, below, MINOR_LENGTH);
+    }
+}
+
+static void draw_below(const Page *page, const Axes *axes)
+{
+    Ticks ticks = ticks_along_x(page, axes);
+    TextStyle style = {
+        .size = axes->number_size * page->point, .color = INK, .across = 0.5, .up = 1};
+    double line = axes->box.bottom + (TICK_LENGTH + NUMBER_GAP) * page->point;
+    char label[TICK_LABEL_SIZE];
+    minor_marks(page, axes, &ticks, true);
+    for (int32_t k = 0; k < ticks.count; ++k) {
+        Point foot = axes_place(axes, tick_value(&ticks, k) / axes->x.factor, axes->y.low);
+        tick_mark(page, axes, foot, true, TICK_LENGTH);
+        tick_label(&ticks, k, label);
+        text_draw(page->text, &style, (Point){foot.x, line}, label);
+    }
+    line += (axes->number_size * text_digit_height() + LABEL_GAP) * page->point;
+    style.across = 1;
+    exponent_write(page, &style, (Point){axes->box.right, line}, &ticks);
+    style.across = 0.5;
+    style.size = LABEL_SIZE * page->point;
+    text_draw(page->text, &style, (Point){(axes->box.left + axes->box.right) / 2, line},
+              axes->x.label);
+}
+
+static void draw_left(const Page *page, const Axes *axes)
+{
+    Ticks ticks = ticks_along_y(page, axes);
+    TextStyle style = {
+        .size = axes->number_size * page->point, .color = INK, .across = 1, .up = 0.5};
+    double edge = axes->box.left - (TICK_LENGTH + NUMBER_GAP) * page->point;
+    char label[TICK_LABEL_SIZE];
+    minor_marks(page, axes, &ticks, false);
+    for (int32_t k = 0; k < ticks.count; ++k) {
+        Point foot = axes_place(axes, axes->x.low, tick_value(&ticks, k) / axes->y.factor);
+        tick_mark(page, axes, foot, false, TICK_LENGTH);
+        tick_label(&ticks, k, label);
+        text_draw(page->text, &style, (Point){edge, foot.y}, label);
+    }
+    style.across = 0;
+    style.up = 0;
+    exponent_write(page, &style, (Point){axes->box.left, axes->box.top - NUMBER_GAP * page->point},
+                   &ticks);
+    if (!axes->y.label[0]) return;
+    style =
+        (TextStyle){.size = LABEL_SIZE * page->point, .color = INK, .across = 0.5, .rising = true};
+    edge -= number_width(page, axes, &ticks) + LABEL_GAP * page->point;
+    text_draw(page->text, &style, (Point){edge, (axes->box.top + axes->box.bottom) / 2},
+              axes->y.label);
+}
+
+void axes_draw(const Page *page, const Axes *axes)
+{
+    Stroke stroke = {.color = axes->color, .width = FRAME_WIDTH * page->point};
+    draw_below(page, axes);
+    draw_left(page, axes);
+    shape_outline(page->canvas, &stroke, &axes->box);
+}

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A frame with two linear axes: ticks, numbers, names. Called by the figures.
+#ifndef AMONTONS_RENDER_AXES_H
+#define AMONTONS_RENDER_AXES_H
+
+#include "render/page.h"
+#include "render/ticks.h"
+
+enum { AXIS_LABEL_SIZE = 96 };
+
+typedef struct Axis {
+    double low, high;   // ends, in the data's unit
+    double factor;   // numbers shown are the data's times this
+    char label[AXIS_LABEL_SIZE];   // name and unit, with text.h's marks; may be empty
+} Axis;
+
+typedef struct Axes {
+    Box box;   // the frame, whole pixels
+    Axis x, y;
+    double number_size;   // points: numbers at ticks
+    Color color;   // of the frame
+} Axes;
+
+// Where (x, y) of the data lies on the picture.
+Point axes_place(const Axes *axes, double x, double y);
+
+// Points to the left of the frame that numbers and name of `y` take.
+double axes_left_margin(const Page *page, const Axes *axes);
+double axes_bottom_margin(const Axes *axes);   // likewise below, for `x`
+double axes_top_margin(const Axes *axes);   // likewise above: half a number, a power of ten
+
+// Frame, ticks (outwards, left and below), numbers and names. Draw it after the data.
+void axes_draw(const Page *page, const Axes *axes);
+
+#endif

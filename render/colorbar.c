@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "render/colorbar.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { TICKS_MAX = 6 };
+
+static const double BAR_WIDTH = 7;   // points
+static const double TICK_LENGTH = 2.2;   // points
+static const double NUMBER_GAP = 1.6;   // points
+static const double LABEL_GAP = 3;   // points
+static const double EDGE_GAP = 1.5;   // points
+static const double PATCH_GAP = 5;   // points: bar to the neutral patch below it
+static const double PATCH_HEIGHT = 7;   // points
+
+// Whole powers of ten, or a linear scale's ticks.
+static Ticks bar_ticks(const Colorbar *bar)
+{
+    if (!bar->powers) return ticks_choose(bar->low, bar->high, TICKS_MAX);
+    Ticks ticks = {.step = 1, .minor = 1, .first = (int64_t)ceil(bar->low - 1e-9)};
+    ticks.count = (int32_t)(floor(bar->high + 1e-9) - (double)ticks.first) + 1;
+    return ticks;
+}
+
+static void bar_label(const Colorbar *bar, const Ticks *ticks, int32_t k, char *label)
+{
+    if (bar->powers)
+        snprintf(label, TICK_LABEL_SIZE, "10^{%.0f}", tick_value(ticks, k));
+    else
+        tick_label(ticks, k, label);
+}
+
+static double numbers_width(const Page *page, const Colorbar *bar)
+{
+    Ticks ticks = bar_ticks(bar);
+    double size = NUMBER_SIZE * page->point, widest = 0;
+    char label[TICK_LABEL_SIZE];
+    for (int32_t k = 0; k < ticks.count; ++k) {
+        bar_label(bar, &ticks, k, label);
+        widest = fmax(widest, text_width(page->text, size, label));
+    }
+    if (bar->neutral) widest = fmax(widest, text_width(page->text, size, bar->neutral));
+    return widest / page->point;
+}
+
+double colorbar_width(const Page *page, const Colorbar *bar)
+{
+    return BAR_WIDTH + TICK_LENGTH + NUMBER_GAP + numbers_width(page, bar) + LABEL_GAP +
+           1.35 * LABEL_SIZE + EDGE_GAP;
+}
+
+static void patch_draw(const Page *page, const Colorbar *bar, const Box *patch)
+{
+    TextStyle style = {.size = NUMBER_SIZE * page->point, .color = INK, .up = 0.5};
+    Stroke stroke = {.color = INK, .width = FRAME_WIDTH * page->point};
+    Point place = {patch->right + (TICK_LENGTH + NUMBER_GAP) * page->point,
+                   (patch->top + patch->bottom) / 2};
+    shape_fill(page->canvas, bar->neutral_color, patch);
+    shape_outline(page->canvas, &stroke, patch);
+    text_draw(page->text, &style, place, bar->neutral);
+}
+
+static void scale_draw(const Page *page, const Colorbar *bar, const Box *colors)
+{
+    Ticks ticks = bar_ticks(bar);
+    TextStyle style = {.size = NUMBER_SIZE * page->point, .color = INK, .up = 0.5};
+    Stroke stroke = {.color = INK, .width = FRAME_WIDTH * page->point};
+    double out = colors->right + TICK_LENGTH * page->point;
+    char label[TICK_LABEL_SIZE];
+    for (int32_t k = 0; k < ticks.count; ++k) {
+        double up = (tick_value(&ticks, k) - bar->low) / (bar->high - bar->low);
+        double y = colors->bottom - up * (colors->bottom - colors->top);
+        shape_segment(page->canvas, &stroke, (Point){colors->right, y}, (Point){out, y});
+        bar_label(bar, &ticks, k, label);
+        text_draw(page->text, &style, (Point){out + NUMBER_GAP * page->point, y}, label);
+    }
+    style =
+        (TextStyle){.size = LABEL_SIZE * page->point, .color = INK, .across = 0.5, .rising = true};
+    style.up = 1;
+    out += (NUMBER_GAP + numbers_width(page, bar) + LABEL_GAP) * page->point;
+    text_draw(page->text, &style, (Point){out, (colors->top + colors->bottom) / 2}, bar->label);
+}
+
+void colorbar_draw(const Page *page, const Colorbar *bar, const Box *box)
+{
+    Stroke stroke = {.color = INK, .width = FRAME_WIDTH * page->point};
+    Box colors = *box, patch;
+    float values[MAP_SIZE];
+    colors.right = round(colors.left + BAR_WIDTH * page->point);
+    if (bar->neutral) {
+        patch = colors;
+        patch.top = round(patch.bottom - PATCH_HEIGHT * page->point);
+        colors.bottom = round(patch.top - PATCH_GAP * page->point);
+        patch_draw(page, bar, &patch);
+    }
+    for (int32_t row = 0; row < MAP_SIZE; ++row) {
+        float down = (float)row / (MAP_SIZE - 1);
+        values[row] = bar->falling ? down : 1 - down;
+    }
+    canvas_heat(page->canvas, &colors, values, 1, MAP_SIZE);
+    shape_outline(page->canvas, &stroke, &colors);
+    scale_draw(page, bar, &colors);
+}

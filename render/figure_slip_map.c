@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Figure 1(c): |slip rate| / V on a logarithmic scale, against U and x. What slips slower than the
+// range shows is neutral: stick.
+#include "render/figures.h"
+
+#include "base/memory.h"
+#include "render/map_page.h"
+#include "render/zoom.h"
+
+#include <math.h>
+
+static const double DECADE_LOW = -1;   // quasi-static slip is about V: 10^0
+static const double DECADE_HIGH_MIN = 2;   // at least this range is shown
+static const double DECADE_HIGH_MAX = 8;
+static const double MARK_WIDTH = 9;   // points: room for the name l_c
+static const Color STICK = {0.90f, 0.90f, 0.91f, 1};
+
+// |slip rate| / V at all steps and nodes, [rows * nodes]; its largest finite one in *largest.
+static double *rates_make(const ResultView *view, double *largest, Error *err)
+{
+    int64_t count = view->rows * view->nodes;
+    double V = fabs(view->number[NUMBER_ROD_VELOCITY]);
+    double *rates = NULL;
+    *largest = 0;
+    if (!(V > 0)) FAIL(err, ERROR_INPUT, "the result does not say how fast the rod moves");
+    TRY(rates = NEW_ARRAY(double, count, err));
+    for (int64_t k = 0; k < count; ++k) {
+        rates[k] = fabs(view->slip_rate[k]) / V;
+        if (isfinite(rates[k])) *largest = fmax(*largest, rates[k]);
+    }
+cleanup:
+    return rates;
+}
+
+// From slip rates over V to places in the colour map.
+static void grid_to_levels(PixelGrid *grid, const Colorbar *bar)
+{
+    int64_t count = (int64_t)grid->rows * grid->columns;
+    for (int64_t k = 0; k < count; ++k) {
+        double level = (log10((double)grid->values[k]) - bar->low) / (bar->high - bar->low);
+        if (isnan(grid->values[k]))
+            grid->values[k] = HEAT_MISSING;
+        else
+            grid->values[k] = level < 0 ? HEAT_BELOW : (float)fmin(level, 1);
+    }
+}
+
+static void critical_length_draw(const Page *page, const Axes *axes, double length)
+{
+    Stroke stroke = {.color = INK, .width = 0.6 * page->point, .dash = 3 * page->point};
+    stroke.space = 2 * page->point;
+    Point from = axes_place(axes, axes->x.low, length), to = axes_place(axes, axes->x.high, length);
+    TextStyle style = {.size = NUMBER_SIZE * page->point, .color = INK, .up = 0.5};
+    shape_segment(page->canvas, &stroke, from, to);
+    text_draw(page->text, &style, (Point){to.x + 1.6 * page->point, to.y}, "~{l}_{c}");
+}
+
+// What the contact-density map enlarges.
+static void zoom_draw(const Page *page, const ResultView *view, const Axes *axes)
+{
+    Zoom zoom = zoom_choose(view);
+    Stroke stroke = {.color = ZOOM_DENSITY, .width = 0.8 * page->point};
+    if (!zoom.found) return;
+    Point from = axes_place(axes, zoom.U_low, axes->y.high);
+    Point to = axes_place(axes, zoom.U_high, axes->y.low);
+    Box box = {from.x, from.y, to.x, to.y};
+    shape_outline(page->canvas, &stroke, &box);
+}
+
+bool figure_slip_map(const Page *page, ResultView *view, Error *err)
+{
+    double low = 0, high = 0, largest = 0, length = view->number[NUMBER_L_C];
+    double *rates = NULL;
+    MapPage map = {.bar = {.low = DECADE_LOW,
+                           .powers = true,
+                           .label = "slip rate / ~{V}",
+                           .neutral = "stick",
+                           .neutral_color = STICK}};
+    TRY(result_view_read_slip_rate(view, err));
+    rates = rates_make(view, &largest, err);
+    TRY(rates);
+    map.bar.high = fmin(fmax(ceil(log10(fmax(largest, 1))), DECADE_HIGH_MIN), DECADE_HIGH_MAX);
+    if (isfinite(length)) map.mark_width = MARK_WIDTH;
+    result_view_range(view, &low, &high);
+    map_page_layout(page, view, low, high, &map);
+    TRY(map_page_fill(view, rates, &map, err));
+    grid_to_levels(&map.grid, &map.bar);
+    map_page_draw_field(page, view, &map);
+    zoom_draw(page, view, &map.axes);
+    if (isfinite(length)) critical_length_draw(page, &map.axes, length);
+    map_page_draw_frame(page, &map);
+cleanup:
+    memory_free(rates);
+    map_page_destroy(&map);
+    return error_is_clean(err);
+}

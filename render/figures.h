@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The three figures, after figure 1(b), (c) and (d) of the paper. Each draws one whole picture on
+// a fresh page. Called by render.c.
+#ifndef AMONTONS_RENDER_FIGURES_H
+#define AMONTONS_RENDER_FIGURES_H
+
+#include "render/axes.h"
+#include "render/result_view.h"
+
+// The view may read more of the result, hence not const.
+typedef bool (*FigureFunction)(const Page *page, ResultView *view, Error *err);
+
+// F_T/F_N against U with its peaks, mu_S, mu_M, mu_K, and an inset of the precursors.
+bool figure_force(const Page *page, ResultView *view, Error *err);
+// Slip rate over V, logarithmic, against U and x.
+bool figure_slip_map(const Page *page, ResultView *view, Error *err);
+// Contact density max(0, 1 - |slip rate| / v_c), 0 where open, in the last precursors.
+bool figure_contact_density(const Page *page, ResultView *view, Error *err);
+
+// An axis of lengths from low to high: "~{U} / ~{L}_{0}", or in SI "~{U} (mm)".
+Axis figure_length_axis(const ResultView *view, const char *symbol, double low, double high);
+
+#endif

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "render/map_page.h"
+
+#include "base/memory.h"
+#include "render/colormap.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static const double BAR_GAP = 6;   // points: frame to colour bar
+static const double HATCH_SPACING = 4;   // points
+static const double FRONT_WIDTH = 0.6;   // points
+
+static const Color HATCH_COLOR = {0.72f, 0.72f, 0.74f, 1};
+
+Axis figure_length_axis(const ResultView *view, const char *symbol, double low, double high)
+{
+    static const struct {
+        double metres;
+        const char *name;
+    } unit[] = {{1, "m"}, {1e-3, "mm"}, {1e-6, "\u00b5m"}, {1e-9, "nm"}};
+    Axis axis = {.low = low, .high = high, .factor = 1};
+    if (!view->si) {
+        snprintf(axis.label, sizeof axis.label, "~{%s} / ~{L}_{0}", symbol);
+        return axis;
+    }
+    int32_t k = 0;
+    double largest = fmax(fabs(low), fabs(high));
+    while (k < 3 && largest < 0.9999 * unit[k].metres) ++k;
+    axis.factor = 1 / unit[k].metres;
+    snprintf(axis.label, sizeof axis.label, "~{%s} (%s)", symbol, unit[k].name);
+    return axis;
+}
+
+// The block where its length is known, all contact nodes in any case.
+static void extent_of_x(const ResultView *view, double *low, double *high)
+{
+    double first = view->x[0], last = view->x[view->nodes - 1];
+    double length = view->number[NUMBER_LENGTH];
+    *low = fmin(0, first);
+    *high = isfinite(length) && length > 0 ? fmax(length, last) : last;
+    if (!(*high > *low)) *high = *low + 1;   // one node at 0
+}
+
+void map_page_layout(const Page *page, const ResultView *view, double U_low, double U_high,
+                     MapPage *map)
+{
+    double x_low = 0, x_high = 0, point = page->point;
+    uint8_t colors[3 * MAP_SIZE];
+    Axes *axes = &map->axes;
+    extent_of_x(view, &x_low, &x_high);
+    axes->x = figure_length_axis(view, "U", U_low, U_high);
+    axes->y = figure_length_axis(view, "x", x_low, x_high);
+    axes->number_size = NUMBER_SIZE;
+    axes->color = INK;
+    axes->box.top = round(axes_top_margin(axes) * point);
+    axes->box.bottom = round(canvas_height(page->canvas) - axes_bottom_margin(axes) * point);
+    axes->box.left = round(axes_left_margin(page, axes) * point);
+    axes->box.right = round(canvas_width(page->canvas) -
+                            (BAR_GAP + map->mark_width + colorbar_width(page, &map->bar)) * point);
+    colormap_fill(colors);
+    canvas_set_map(page->canvas, colors, map->bar.neutral_color);
+    map->grid = (PixelGrid){.U_low = U_low,
+                            .U_high = U_high,
+                            .x_low = x_low,
+                            .x_high = x_high,
+                            .columns = (int32_t)(axes->box.right - axes->box.left),
+                            .rows = (int32_t)(axes->box.bottom - axes->box.top)};
+}
+
+static SpaceTime view_space_time(const ResultView *view, const double *values)
+{
+    return (SpaceTime){.rows = view->rows,
+                       .U = view->U,
+                       .nodes = view->nodes,
+                       .x = view->x,
+                       .pad = view->pad,
+                       .values = values};
+}
+
+bool map_page_fill(const ResultView *view, const double *values, MapPage *map, Error *err)
+{
+    SpaceTime data = view_space_time(view, values);
+    if (map->grid.columns < 2 || map->grid.rows < 2)
+        FAIL(err, ERROR_INPUT, "the picture is too small for its axes");
+    TRY(space_time_to_pixels(&data, &map->grid, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// Hatches [low, high] of x over all U.
+static void gap_draw(const Page *page, const Axes *axes, double low, double high)
+{
+    Stroke hatch = {.color = HATCH_COLOR, .width = 0.4 * page->point};
+    Point from = axes_place(axes, axes->x.low, high), to = axes_place(axes, axes->x.high, low);
+    Box box = {from.x, from.y, to.x, to.y};
+    if (box.bottom - box.top < 1) return;
+    shape_hatch(page->canvas, &hatch, &box, HATCH_SPACING * page->point);
+}
+
+void map_page_draw_field(const Page *page, const ResultView *view, const MapPage *map)
+{
+    const Axes *axes = &map->axes;
+    SpaceTime data = view_space_time(view, NULL);
+    double covered = axes->y.low, from = 0, to = 0;
+    canvas_heat(page->canvas, &axes->box, map->grid.values, map->grid.columns, map->grid.rows);
+    for (int32_t i = 0; i < view->nodes; ++i) {
+        node_extent(&data, i, &from, &to);
+        if (from > covered) gap_draw(page, axes, covered, from);
+        covered = fmax(covered, to);
+    }
+    if (axes->y.high > covered) gap_draw(page, axes, covered, axes->y.high);
+}
+
+bool map_page_draw_front(const Page *page, const ResultView *view, const MapPage *map, Error *err)
+{
+    Stroke stroke = {.color = INK, .width = FRONT_WIDTH * page->point};
+    Point *line = NULL;
+    int64_t count = 0;
+    TRY(line = NEW_ARRAY(Point, view->rows, err));
+    for (int64_t row = 0; row < view->rows; ++row)
+        line[count++] = axes_place(&map->axes, view->U[row], view->front[row]);
+    canvas_clip(page->canvas, &map->axes.box);
+    shape_line(page->canvas, &stroke, line, count);
+    canvas_clip(page->canvas, NULL);
+cleanup:
+    memory_free(line);
+    return error_is_clean(err);
+}
+
+void map_page_draw_frame(const Page *page, const MapPage *map)
+{
+    Box bar = map->axes.box;
+    bar.left = round(bar.right + (BAR_GAP + map->mark_width) * page->point);
+    axes_draw(page, &map->axes);
+    colorbar_draw(page, &map->bar, &bar);
+}
+
+void map_page_destroy(MapPage *map)
+{
+    pixel_grid_destroy(&map->grid);
+}

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What the two maps of U against x share: the frame, the field itself with the gaps between pads,
+// lines on it, the colour bar. Called by figure_slip_map and figure_contact_density.
+#ifndef AMONTONS_RENDER_MAP_PAGE_H
+#define AMONTONS_RENDER_MAP_PAGE_H
+
+#include "render/colorbar.h"
+#include "render/figures.h"
+#include "render/space_time.h"
+
+typedef struct MapPage {
+    Axes axes;
+    PixelGrid grid;   // as large as the frame; owned
+    Colorbar bar;
+    double mark_width;   // points between frame and bar kept for a mark's name
+} MapPage;
+
+// Places the frame for U from low to high and all x; map->bar and map->mark_width are given.
+void map_page_layout(const Page *page, const ResultView *view, double U_low, double U_high,
+                     MapPage *map);
+
+// Fills map->grid with the largest of `values` [rows * nodes] at each pixel.
+bool map_page_fill(const ResultView *view, const double *values, MapPage *map, Error *err);
+
+// Draws the grid, whose values are now 0 to 1 of the colour map or a HeatLevel, and the pads' gaps.
+void map_page_draw_field(const Page *page, const ResultView *view, const MapPage *map);
+// The front l(U) as a thin line.
+bool map_page_draw_front(const Page *page, const ResultView *view, const MapPage *map, Error *err);
+// Frame, axes and bar: last.
+void map_page_draw_frame(const Page *page, const MapPage *map);
+void map_page_destroy(MapPage *map);   // zeroed is fine
+
+#endif

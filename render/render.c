@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The module's entry: which figures, one context for all, a fresh canvas and a file for each.
+#include "render/render.h"
+
+#include "base/memory.h"
+#include "render/context.h"
+#include "render/figures.h"
+#include "render/png_file.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { NAMES_SIZE = 200, WIDTH_DEFAULT = 1720 };   // pixels: 20 a millimetre of a journal's column
+
+typedef enum FigureId {
+#define X(symbol, name, title) symbol,
+    RENDER_FIGURES(X) FIGURE_COUNT
+#undef X
+} FigureId;
+
+typedef struct Figure {
+    const char *name, *title;
+    double height_over_width;
+    FigureFunction draw;
+} Figure;
+
+static Figure figure_get(FigureId id)
+{
+    static const char *const name_title[FIGURE_COUNT][2] = {
+#define X(symbol, name, title) {name, title},
+        RENDER_FIGURES(X)
+#undef X
+    };
+    Figure figure = {.name = name_title[id][0], .title = name_title[id][1]};
+    switch (id) {
+    case FIGURE_FORCE:
+        figure.height_over_width = 0.80;
+        figure.draw = figure_force;
+        break;
+    case FIGURE_SLIP_MAP:
+        figure.height_over_width = 0.62;
+        figure.draw = figure_slip_map;
+        break;
+    case FIGURE_CONTACT_DENSITY:
+    case FIGURE_COUNT:
+        figure.height_over_width = 0.62;
+        figure.draw = figure_contact_density;
+        break;
+    }
+    return figure;
+}
+
+static bool figure_find(const char *name, Figure *figure, Error *err)
+{
+    char names[NAMES_SIZE] = "";
+    for (int32_t k = 0; k < FIGURE_COUNT; ++k) {
+        *figure = figure_get((FigureId)k);
+        if (strcmp(figure->name, name) == 0) return true;
+        size_t used = strlen(names);
+        snprintf(names + used, sizeof names - used, "%s%s", k > 0 ? ", " : "", figure->name);
+    }
+    FAIL(err, ERROR_INPUT, "there is no figure called \"%s\"; known are: %s", name, names);
+cleanup:
+    return false;
+}
+
+static bool figure_save(const RenderRequest *request, const Figure *figure, const Canvas *canvas,
+                        const uint8_t *pixels, Error *err)
+{
+    char path[PATH_MAX];
+    PngPicture picture = {.width = canvas_width(canvas),
+                          .height = canvas_height(canvas),
+                          .pixels = pixels,
+                          .pixels_per_metre = canvas_width(canvas) / (1e-3 * COLUMN_WIDTH_MM),
+                          .title = figure->title};
+    int length = snprintf(path, sizeof path, "%s/figures/%s.png", request->folder, figure->name);
+    if (length < 0 || length >= (int)sizeof path)
+        FAIL(err, ERROR_INPUT, "the result folder's path is too long");
+    TRY(png_file_write(path, &picture, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool figure_make(const RenderRequest *request, const Figure *figure, ResultView *view,
+                        Error *err)
+{
+    Page page = {0};
+    uint8_t *pixels = NULL;
+    int32_t width = request->width > 0 ? request->width : WIDTH_DEFAULT;
+    int32_t height = request->height > 0 ? request->height
+                                         : (int32_t)lround(width * figure->height_over_width);
+    page.point = width / COLUMN_WIDTH_POINTS;
+    page.canvas = canvas_create(width, height, err);
+    TRY(page.canvas);
+    page.text = text_create(page.canvas, err);
+    TRY(page.text);
+    TRY(figure->draw(&page, view, err));
+    TRY(canvas_read(page.canvas, &pixels, err));
+    TRY(figure_save(request, figure, page.canvas, pixels, err));
+cleanup:
+    error_context(err, "figure %s", figure->name);
+    text_destroy(page.text);
+    canvas_destroy(page.canvas);
+    memory_free(pixels);
+    return error_is_clean(err);
+}
+
+static bool folder_make(const char *result, Error *err)
+{
+    char folder[PATH_MAX];
+    int length = snprintf(folder, sizeof folder, "%s/figures", result);
+    if (length < 0 || length >= (int)sizeof folder)
+        FAIL(err, ERROR_INPUT, "the result folder's path is too long");
+    if (mkdir(folder, 0777) != 0 && errno != EEXIST)
+        FAIL(err, ERROR_FILE, "cannot make the folder %s: %s", folder, strerror(errno));
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool request_check(const RenderRequest *request, Error *err)
+{
+    struct stat about;
+    Figure figure;
+    for (int32_t k = 0; k < request->figure_count; ++k)
+        TRY(figure_find(request->figures[k], &figure, err));
+    if (stat(request->folder, &about) != 0)
+        FAIL(err, ERROR_INPUT, "cannot find the result folder %s: %s", request->folder,
+             strerror(errno));
+    if (!S_ISDIR(about.st_mode)) FAIL(err, ERROR_INPUT, "%s is not a folder", request->folder);
+cleanup:
+    return error_is_clean(err);
+}
+
+__attribute__((visibility("default"))) bool amontons_render(const RenderRequest *request,
+                                                            Error *err)
+{
+    ResultView view = {0};
+    RenderContext *context = NULL;
+    int32_t count = request->figure_count > 0 ? request->figure_count : FIGURE_COUNT;
+    TRY(request_check(request, err));
+    TRY(result_view_open(request->folder, &view, err));
+    TRY(folder_make(request->folder, err));
+    context = context_create(err);
+    TRY(context);
+    for (int32_t k = 0; k < count; ++k) {
+        Figure figure = figure_get((FigureId)k);
+        if (request->figure_count > 0) TRY(figure_find(request->figures[k], &figure, err));
+        TRY(figure_make(request, &figure, &view, err));
+    }
+cleanup:
+    context_destroy(context);
+    result_view_close(&view);
+    return error_is_clean(err);
+}

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Lines, boxes and marks as triangles on a canvas. Called by axes and the figures.
+#ifndef AMONTONS_RENDER_SHAPES_H
+#define AMONTONS_RENDER_SHAPES_H
+
+#include "render/canvas.h"
+
+typedef struct Stroke {
+    Color color;
+    double width;   // pixels
+    double dash, space;   // lengths along the line, pixels; dash 0: solid
+} Stroke;
+
+// Through [count] points, joined and ended round; a point that is not finite breaks the line.
+void shape_line(Canvas *canvas, const Stroke *stroke, const Point *points, int64_t count);
+void shape_segment(Canvas *canvas, const Stroke *stroke, Point from, Point to);
+void shape_outline(Canvas *canvas, const Stroke *stroke, const Box *box);   // corners square
+void shape_fill(Canvas *canvas, Color color, const Box *box);
+void shape_disc(Canvas *canvas, Color color, Point centre, double radius);
+// Slanting lines `spacing` pixels apart over `box`: where there is nothing to show.
+void shape_hatch(Canvas *canvas, const Stroke *stroke, const Box *box, double spacing);
+
+#endif

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// From values at accepted steps and contact nodes to values at pixels of U against x. Numbers only;
+// called by the map figures.
+//
+// Steps lie very unevenly in U: thousands inside a rapid event that is thinner than a pixel, none
+// for many pixels while nothing happens. A column of pixels takes the largest value of the steps
+// inside it, so no event is lost; one without a step takes the step that ends behind it, as an
+// implicit step holds its end's value. A node stands for the part of its pad that is nearest to it.
+#ifndef AMONTONS_RENDER_SPACE_TIME_H
+#define AMONTONS_RENDER_SPACE_TIME_H
+
+#include "base/error.h"
+
+// All borrowed.
+typedef struct SpaceTime {
+    int64_t rows;   // accepted steps
+    const double *U;   // [rows] not falling; rows that are not finite are passed over
+    int32_t nodes;
+    const double *x;   // [nodes] ascending
+    const double *pad;   // [nodes] between nodes of different pads is a gap
+    const double *values;   // [rows * nodes] the larger, the more to be seen; NaN: none
+} SpaceTime;
+
+typedef struct PixelGrid {
+    double U_low, U_high;   // what the columns span
+    double x_low, x_high;   // what the rows span, x_high at the top
+    int32_t columns, rows;
+    float *values;   // [rows * columns] first row at the top; NaN: none; owned
+} PixelGrid;
+
+// Fills grid->values; the other members are given.
+bool space_time_to_pixels(const SpaceTime *data, PixelGrid *grid, Error *err);
+void pixel_grid_destroy(PixelGrid *grid);   // zeroed is fine
+
+// The part of its pad that node i stands for: from half-way to its neighbours, ends at pad ends.
+void node_extent(const SpaceTime *data, int32_t i, double *from, double *to);
+
+#endif

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "render/ticks.h"
+
+#include <math.h>
+#include <stdio.h>
+
+// Numbers from 0.01 to 9999 need no power of ten beside the axis.
+enum { EXPONENT_LOW = -2, EXPONENT_HIGH = 3, DECIMALS_MAX = 12 };
+
+// A tick this close to the end of the axis, in steps, still belongs to it.
+static const double END_SLACK = 1e-6;
+
+Ticks ticks_choose(double low, double high, int32_t wanted)
+{
+    Ticks ticks = {0};
+    double range = high - low, largest = fmax(fabs(low), fabs(high));
+    if (!(range > 1e-12 * largest) || !isfinite(range) || wanted < 1) return ticks;
+    double power = floor(log10(range / wanted));
+    double mantissa = range / wanted / pow(10, power);
+    int32_t nice = mantissa <= 1 + 1e-9   ? 1
+                   : mantissa <= 2 + 1e-9 ? 2
+                   : mantissa <= 5 + 1e-9 ? 5
+                                          : 10;
+    if (nice == 10) {
+        nice = 1;
+        power += 1;
+    }
+    ticks.step = nice * pow(10, power);
+    ticks.minor = nice == 2 ? 4 : 5;
+    ticks.first = (int64_t)ceil(low / ticks.step - END_SLACK);
+    ticks.count = (int32_t)(floor(high / ticks.step + END_SLACK) - (double)ticks.first) + 1;
+    int32_t magnitude = (int32_t)floor(log10(largest) + 1e-9);
+    if (magnitude < EXPONENT_LOW || magnitude > EXPONENT_HIGH) ticks.exponent = magnitude;
+    ticks.decimals = ticks.exponent - (int32_t)power;
+    if (ticks.decimals < 0) ticks.decimals = 0;
+    if (ticks.decimals > DECIMALS_MAX) ticks.decimals = DECIMALS_MAX;
+    return ticks;
+}
+
+double tick_value(const Ticks *ticks, int32_t k)
+{
+    return (double)(ticks->first + k) * ticks->step;
+}
+
+void tick_label(const Ticks *ticks, int32_t k, char label[TICK_LABEL_SIZE])
+{
+    double value = tick_value(ticks, k) / pow(10, ticks->exponent);
+    const char *sign = ticks->first + k < 0 ? "\u2212" : "";
+    snprintf(label, TICK_LABEL_SIZE, "%s%.*f", sign, ticks->decimals, fabs(value));
+}

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Where an axis has its ticks and what stands beside them. Numbers only; called by axes.
+#ifndef AMONTONS_RENDER_TICKS_H
+#define AMONTONS_RENDER_TICKS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+enum { TICK_LABEL_SIZE = 32 };
+
+// Ticks at first * step, (first + 1) * step, ...: `count` of them.
+typedef struct Ticks {
+    double step;   // 1, 2 or 5 times a power of ten
+    int64_t first;   // multiple of the step
+    int32_t count;
+    int32_t minor;   // intervals of minor ticks in a step
+    int32_t decimals;   // of a label
+    int32_t exponent;   // labels are to be multiplied by ten to this; 0 for handy numbers
+} Ticks;
+
+// About `wanted` ticks (never more than wanted + 1) from low to high. None where the range is
+// empty or not finite.
+Ticks ticks_choose(double low, double high, int32_t wanted);
+double tick_value(const Ticks *ticks, int32_t k);
+// "0.25", "−3": without the power of ten, minus sign U+2212.
+void tick_label(const Ticks *ticks, int32_t k, char label[TICK_LABEL_SIZE]);
+
+#endif
