@@ -2,6 +2,7 @@
 #include "render/shapes.h"
 
 #include <math.h>
+#include <stddef.h>
 
 enum { DISC_SIDES_MIN = 8, DISC_SIDES_MAX = 64 };
 
