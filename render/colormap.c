@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Made from a smooth path in CIELAB (CIE 15:2004, white D65) through a few stations, walked at
 // constant speed and turned to sRGB (IEC 61966-2-1). The stations are ours: lightness falls in
-// equal steps while the hue goes from yellow through red to violet, with as much chroma as sRGB
+// equal steps while the hue goes from yellowish white through red to violet, with as much chroma as sRGB
 // still holds.
 #include "render/colormap.h"
 
@@ -17,8 +17,8 @@ typedef struct Station {
     double lightness, chroma, hue;   // CIELAB; hue in degrees
 } Station;
 
-static const Station STATION[STATIONS] = {{91, 46, 95}, {77, 62, 74},  {61, 72, 50},
-                                          {45, 66, 24}, {29, 52, 352}, {14, 36, 310}};
+static const Station STATION[STATIONS] = {{96, 20, 97}, {80, 56, 76},  {63, 72, 51},
+                                          {46, 66, 24}, {29, 52, 352}, {14, 36, 310}};
 
 static Lab station_place(int32_t k)
 {

@@ -18,7 +18,7 @@ static const double INSET_HEIGHT = 0.285;   // of the frame's height
 static const double INSET_WIDTH = 0.72;   // of the frame's width
 static const double INSET_RIGHT = 0.03;   // of the frame's width: its distance from the right
 static const double LEVEL_MARGIN = 15;   // points: names of the levels, right of the frame
-static const double PEAK_RADIUS = 1.7;   // points
+static const double PEAK_RADIUS = 1.4;   // points
 static const double THIN_DISTANCE = 0.3;   // pixels: nearer points of a curve add nothing
 
 static const Color CURVE_COLOR = {0.05f, 0.27f, 0.55f, 1};
@@ -118,21 +118,18 @@ static void peaks_draw(const Page *page, const ResultView *view, const Axes *axe
         const ViewPeak *peak = &view->peaks[k];
         if (!isfinite(peak->U) || !isfinite(peak->mu)) continue;
         Point place = axes_place(axes, peak->U, peak->mu);
-        shape_disc(page->canvas, ZOOM_FORCE, place, radius);
+        shape_disc(page->canvas, INK, place, radius);
         if (!peak->counts) shape_disc(page->canvas, PAPER, place, 0.6 * radius);
     }
 }
 
+// The inset's frame has the same colour.
 static void outline_draw(const Page *page, const Axes *axes, const Axes *inset)
 {
     Stroke stroke = {.color = ZOOM_FORCE, .width = 0.5 * page->point};
     Point from = axes_place(axes, inset->x.low, inset->y.high);
     Point to = axes_place(axes, inset->x.high, inset->y.low);
     Box box = {from.x, from.y, to.x, to.y};
-    shape_segment(page->canvas, &stroke, (Point){box.left, box.top},
-                  (Point){inset->box.left, inset->box.bottom});
-    shape_segment(page->canvas, &stroke, (Point){box.right, box.top},
-                  (Point){inset->box.right, inset->box.bottom});
     shape_outline(page->canvas, &stroke, &box);
 }
 

@@ -13,7 +13,8 @@ static const double DECADE_LOW = -1;   // quasi-static slip is about V: 10^0
 static const double DECADE_HIGH_MIN = 2;   // at least this range is shown
 static const double DECADE_HIGH_MAX = 8;
 static const double MARK_WIDTH = 9;   // points: room for the name l_c
-static const Color STICK = {0.90f, 0.90f, 0.91f, 1};
+static const double ZOOM_BAR = 1.8;   // points: height of the bar that marks the zoom
+static const Color STICK = {0.84f, 0.85f, 0.87f, 1};
 
 // |slip rate| / V at all steps and nodes, [rows * nodes]; its largest finite one in *largest.
 static double *rates_make(const ResultView *view, double *largest, Error *err)
@@ -55,16 +56,15 @@ static void critical_length_draw(const Page *page, const Axes *axes, double leng
     text_draw(page->text, &style, (Point){to.x + 1.6 * page->point, to.y}, "~{l}_{c}");
 }
 
-// What the contact-density map enlarges.
+// A bar above the frame, in the colour of the contact-density map's frame: what that one enlarges.
 static void zoom_draw(const Page *page, const ResultView *view, const Axes *axes)
 {
     Zoom zoom = zoom_choose(view);
-    Stroke stroke = {.color = ZOOM_DENSITY, .width = 0.8 * page->point};
+    double foot = axes->box.top - 0.8 * page->point;
     if (!zoom.found) return;
-    Point from = axes_place(axes, zoom.U_low, axes->y.high);
-    Point to = axes_place(axes, zoom.U_high, axes->y.low);
-    Box box = {from.x, from.y, to.x, to.y};
-    shape_outline(page->canvas, &stroke, &box);
+    Point from = axes_place(axes, zoom.U_low, 0), to = axes_place(axes, zoom.U_high, 0);
+    Box bar = {from.x, foot - ZOOM_BAR * page->point, fmax(to.x, from.x + page->point), foot};
+    shape_fill(page->canvas, ZOOM_DENSITY, &bar);
 }
 
 bool figure_slip_map(const Page *page, ResultView *view, Error *err)

@@ -10,6 +10,7 @@
 static const double BAR_GAP = 6;   // points: frame to colour bar
 static const double HATCH_SPACING = 4;   // points
 static const double FRONT_WIDTH = 0.6;   // points
+static const double COLUMN_WIDTH = 0.4;   // points: what is thinner would not be seen in print
 
 static const Color HATCH_COLOR = {0.72f, 0.72f, 0.74f, 1};
 
@@ -58,13 +59,16 @@ void map_page_layout(const Page *page, const ResultView *view, double U_low, dou
     axes->box.left = round(axes_left_margin(page, axes) * point);
     axes->box.right = round(canvas_width(page->canvas) -
                             (BAR_GAP + map->mark_width + colorbar_width(page, &map->bar)) * point);
+    int32_t column = (int32_t)fmax(1, round(COLUMN_WIDTH * point));   // pixels
+    int32_t columns = (int32_t)(axes->box.right - axes->box.left) / column;
+    axes->box.right = axes->box.left + columns * column;
     colormap_fill(colors);
     canvas_set_map(page->canvas, colors, map->bar.neutral_color);
     map->grid = (PixelGrid){.U_low = U_low,
                             .U_high = U_high,
                             .x_low = x_low,
                             .x_high = x_high,
-                            .columns = (int32_t)(axes->box.right - axes->box.left),
+                            .columns = columns,
                             .rows = (int32_t)(axes->box.bottom - axes->box.top)};
 }
 

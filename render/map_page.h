@@ -10,7 +10,7 @@
 
 typedef struct MapPage {
     Axes axes;
-    PixelGrid grid;   // as large as the frame; owned
+    PixelGrid grid;   // fills the frame; its columns are some pixels wide; owned
     Colorbar bar;
     double mark_width;   // points between frame and bar kept for a mark's name
 } MapPage;

@@ -39,6 +39,8 @@ def history_rows():
         bounded = bounded_starts(slide, start)
         quiet = np.linspace(start, slide, 120)[1:-1]
         for U in quiet:
+            if any(0 <= U - U0 <= 1.0e-5 for U0 in bounded):
+                continue
             rows.append((U, "slow", None, slow_reach(U, start, slide)))
         for U0 in bounded:
             reach = slow_reach(U0, start, slide) * 1.15
@@ -55,6 +57,12 @@ def history_rows():
 
 def slow_reach(U, start, slide):
     return REACH_CRITICAL * np.clip((U - start) / (slide - start), 0, 1) ** 0.8
+
+
+def front_position(U, kind, phase, reach):
+    if kind == "slow":
+        return reach
+    return max(reach / 1.15 if kind == "bounded" else REACH_CRITICAL, reach * min(1, 1.6 * phase))
 
 
 def rate_profile(kind, phase, reach, x):
@@ -100,7 +108,7 @@ def make(folder, nodes=81, pads=1, units="normalised", tables=True, name="histor
         "series/time": time, "series/rod_displacement": U, "series/mu": mu,
         "series/rod_force": mu * PRESSURE, "series/normal_force": np.full_like(mu, PRESSURE),
         "series/step_size": np.diff(time, prepend=0),
-        "series/front": np.array([row[3] for row in kinds]),
+        "series/front": np.array([front_position(*row) for row in kinds]),
         "series/max_slip_rate": rate.max(axis=1), "series/certified": (rate.max(axis=1) < V * 2),
         "series/energy_error": np.zeros_like(mu),
         "interface/slip_rate": rate, "interface/slip": slip, "interface/pressure": pressure,
