@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The README's two tables are what the tables of the code say. When one differs, this writes the
+// README with the right tables beside it in the build folder, so that mending is one copy.
+#include "io/result_file.h"
+#include "run/scene_keys.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef void (*TableWriter)(FILE *out);
+
+// The README, zero-terminated; freed by the caller.
+static char *read_readme(void)
+{
+    const char *source = getenv("AMONTONS_SOURCE");
+    char path[4096];
+    snprintf(path, sizeof path, "%s/README.md", source ? source : ".");
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    char *text = NULL;
+    size_t size = 0;
+    ssize_t length = getdelim(&text, &size, '\0', file);
+    fclose(file);
+    assert_true(length > 0);
+    return text;
+}
+
+// What a writer writes, without line ends at its end; freed by the caller.
+static char *written_by(TableWriter writer)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    writer(out);
+    fclose(out);
+    while (size > 0 && text[size - 1] == '\n') text[--size] = '\0';
+    return text;
+}
+
+// `text` with what stands between <!-- name --> and <!-- /name --> replaced by `table`.
+static char *with_table(const char *text, const char *name, const char *table)
+{
+    char open_mark[64], close_mark[64];
+    snprintf(open_mark, sizeof open_mark, "<!-- %s -->\n", name);
+    snprintf(close_mark, sizeof close_mark, "\n<!-- /%s -->", name);
+    const char *start = strstr(text, open_mark);
+    assert_non_null(start);
+    start += strlen(open_mark);
+    const char *end = strstr(start, close_mark);
+    assert_non_null(end);
+    char *whole = NULL;
+    assert_true(asprintf(&whole, "%.*s%s%s", (int)(start - text), text, table, end) > 0);
+    return whole;
+}
+
+static void check_table(const char *name, TableWriter writer)
+{
+    char *readme = read_readme();
+    char *table = written_by(writer);
+    assert_true(strlen(table) > 500);
+    char *right = with_table(readme, name, table);
+    bool same = strcmp(readme, right) == 0;
+    char path[80];
+    snprintf(path, sizeof path, "README-%s.md", name);
+    FILE *file = same ? NULL : fopen(path, "w");
+    if (file) {
+        fputs(right, file);
+        fclose(file);
+        printf("the README's table \"%s\" is out of date; a right one is %s here\n", name, path);
+    }
+    free(right);
+    free(table);
+    free(readme);
+    assert_true(same);
+}
+
+static void test_history_table(void **state)
+{
+    (void)state;
+    check_table("history", result_file_describe);
+}
+
+static void test_key_table(void **state)
+{
+    (void)state;
+    check_table("keys", scene_write_reference);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_history_table),
+        cmocka_unit_test(test_key_table),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
