@@ -12,6 +12,8 @@ from pathlib import Path
 SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
 COMPILE = ["cc", "-std=c17", "-D_GNU_SOURCE", "-Wall", "-Wextra", "-Wshadow", "-Wconversion",
            "-Wstrict-prototypes", "-Werror", "-fsyntax-only", "-x", "c", "-"]
+HDF5_FLAGS = subprocess.run(["pkg-config", "--cflags", "hdf5-serial"], capture_output=True,
+                            text=True).stdout.split()   # for io/array_disk.h
 
 
 def headers(root):
@@ -24,8 +26,8 @@ def headers(root):
 def compile_alone(root, include):
     """What the compiler says about a file that includes `include` twice and nothing else."""
     text = f'#include "{include}"\n#include "{include}"\n'
-    done = subprocess.run([*COMPILE, f"-I{root / 'src'}", f"-I{root}"], input=text, text=True,
-                          capture_output=True)
+    done = subprocess.run([*COMPILE, f"-I{root / 'src'}", f"-I{root}", *HDF5_FLAGS], input=text,
+                          text=True, capture_output=True)
     return done.stderr if done.returncode else ""
 
 
