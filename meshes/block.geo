@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A rectangular block on a flat substrate, its lower left corner at the origin. gmsh's y is the z of
-// amontons: the contact line is y = 0, and the rod pushes the face x = 0 towards +x.
+// A rectangular block on a flat substrate, its lower left corner at the origin. gmsh's y is the z
+// of amontons: the contact line is y = 0, and the rod pushes the face x = 0 towards +x.
 //
 //               top
 //           4---------3
@@ -23,9 +23,10 @@ DefineConstant[
     incomplete = 0,         // 1: order 2 gives Q8 in place of Q9
     layout = "regular",     // "regular": nx x nz cells, a triangle being half a cell
                             // "alternate": as regular, but the diagonals of triangles alternate
-                            // "free": unstructured; nx and nz cells on the sides only
-    grade_x = 1,            // a middle cell is so many times as long as one at the ends x = 0, length
-    grade_z = 1             // the top cell is so many times as high as the one at the contact
+                            // "free": unstructured; nx and nz cells on the sides only, which
+                            // must be even for quads
+    grade_x = 1,            // length of the middle cell over that of the end cells, about
+    grade_z = 1             // height of the top cell over that of the cell at the contact
 ];
 
 // --- what is allowed ----------------------------------------------------------------------------
@@ -56,6 +57,11 @@ EndIf
 If (StrCmp(layout, "regular") != 0 && StrCmp(layout, "alternate") != 0 &&
     StrCmp(layout, "free") != 0)
     Error(StrCat("layout must be regular, alternate or free, found ", layout));
+    Abort;
+EndIf
+If (StrCmp(layout, "free") == 0 && StrCmp(shape, "quad") == 0 &&
+    (nx != 2 * Floor(nx / 2) || nz != 2 * Floor(nz / 2)))
+    Error("nx and nz must be even for a free layout of quads, found %g and %g", nx, nz);
     Abort;
 EndIf
 

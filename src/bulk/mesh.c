@@ -15,10 +15,6 @@
 // is 1e-16 of it; an element of aspect ratio 1e4 still has 2e-5 of it.
 static const double AREA_TOLERANCE = 1e-12;
 
-// A contact node counts as on z = 0, and two nodes as in one place, within this times the block's
-// extent: coordinates computed by gmsh are exact to about 1e-12 of it.
-static const double PLACE_TOLERANCE = 1e-9;
-
 void mesh_destroy(Mesh *mesh)
 {
     MeshFile file = {.position = mesh->position,
@@ -47,11 +43,6 @@ static void take_over(MeshFile *file, const char *path, Mesh *mesh)
                    .groups = file->groups};
     snprintf(mesh->path, sizeof mesh->path, "%s", path);
     *file = (MeshFile){0};
-}
-
-static double extent(const Mesh *mesh)
-{
-    return fmax(mesh->x_max - mesh->x_min, mesh->z_max - mesh->z_min);
 }
 
 static void find_extent(Mesh *mesh)
@@ -182,8 +173,8 @@ static void reverse_element(ElementKind kind, int32_t *nodes)
     for (int32_t a = 0; a < count; a++) nodes[a] = old[order[kind][a]];
 }
 
-// A mesh that is clockwise throughout is a reversed surface and is turned round; a clockwise element
-// among others is a mistake.
+// A mesh that is clockwise throughout is a reversed surface and is turned round; a clockwise
+// element among others is a mistake.
 static bool check_orientation(Mesh *mesh, Error *err)
 {
     int32_t clockwise = 0, first_bad = -1;
@@ -248,20 +239,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// --- curves -------------------------------------------------------------------------------------
-
-static int compare_places(const void *a, const void *b, void *position)
-{
-    const double *first = (const double *)position + 2 * *(const int32_t *)a;
-    const double *second = (const double *)position + 2 * *(const int32_t *)b;
-    if (first[0] != second[0]) return first[0] < second[0] ? -1 : 1;
-    return (first[1] > second[1]) - (first[1] < second[1]);
-}
-
-static void sort_by_place(const Mesh *mesh, int32_t *nodes, int32_t count)
-{
-    qsort_r(nodes, (size_t)count, sizeof *nodes, compare_places, mesh->position);
-}
+// --- building -----------------------------------------------------------------------------------
 
 bool mesh_build(MeshFile *file, const char *path, Mesh *mesh, Error *err)
 {
@@ -272,216 +250,7 @@ bool mesh_build(MeshFile *file, const char *path, Mesh *mesh, Error *err)
     TRY(check_orientation(mesh, err));
     TRY(check_curves(mesh, err));
     for (int32_t g = 0; g < mesh->group_count; g++)
-        sort_by_place(mesh, mesh->groups[g].nodes, mesh->groups[g].node_count);
+        mesh_sort_nodes(mesh, mesh->groups[g].nodes, mesh->groups[g].node_count);
 cleanup:
     return error_is_clean(err);
-}
-
-bool mesh_curve(const Mesh *mesh, const char *name, MeshCurve *curve, Error *err)
-{
-    MeshFile view = {.group_count = mesh->group_count, .groups = mesh->groups};
-    *curve = (MeshCurve){0};
-    const MeshGroup *group = mesh_file_group(&view, mesh->path, name, 1, err);
-    if (!group) goto cleanup;
-    if (group->edge_count == 0)
-        FAIL(err, ERROR_INPUT, "%s: group '%s' is empty: its curve has no edges in the mesh",
-             mesh->path, name);
-    *curve = (MeshCurve){.name = group->name,
-                         .edge_count = group->edge_count,
-                         .nodes_per_edge = group->nodes_per_edge,
-                         .edge_nodes = group->edge_nodes,
-                         .node_count = group->node_count,
-                         .nodes = group->nodes};
-cleanup:
-    return error_is_clean(err);
-}
-
-// --- contact ------------------------------------------------------------------------------------
-
-void mesh_contact_destroy(MeshContact *contact)
-{
-    memory_free(contact->curves);
-    memory_free(contact->nodes);
-    memory_free(contact->curve_of);
-    *contact = (MeshContact){0};
-}
-
-static bool is_contact_name(const char *name)
-{
-    return strcmp(name, "contact") == 0 || strncmp(name, "contact_", strlen("contact_")) == 0;
-}
-
-static int compare_starts(const void *a, const void *b, void *position)
-{
-    const MeshCurve *first = a, *second = b;
-    return compare_places(&first->nodes[0], &second->nodes[0], position);
-}
-
-// Fills contact->curves from the names, or from every curve that is called a contact.
-static bool pick_curves(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], int32_t count,
-                        MeshContact *contact, Error *err)
-{
-    int32_t most = count > mesh->group_count ? count : mesh->group_count;
-    if (!(contact->curves = NEW_ARRAY(MeshCurve, most, err))) goto cleanup;
-    for (int32_t k = 0; k < count; k++)
-        TRY(mesh_curve(mesh, names[k], &contact->curves[contact->curve_count++], err));
-    if (count > 0) goto cleanup;
-    for (int32_t g = 0; g < mesh->group_count; g++)
-        if (mesh->groups[g].dimension == 1 && is_contact_name(mesh->groups[g].name))
-            TRY(mesh_curve(mesh, mesh->groups[g].name, &contact->curves[contact->curve_count++],
-                           err));
-    MeshCurve none;
-    if (contact->curve_count == 0) TRY(mesh_curve(mesh, "contact", &none, err));
-    qsort_r(contact->curves, (size_t)contact->curve_count, sizeof *contact->curves, compare_starts,
-            mesh->position);
-cleanup:
-    return error_is_clean(err);
-}
-
-static bool check_flat(const Mesh *mesh, const MeshCurve *curve, Error *err)
-{
-    int32_t worst = curve->nodes[0];
-    for (int32_t k = 1; k < curve->node_count; k++)
-        if (fabs(mesh->position[2 * curve->nodes[k] + 1]) > fabs(mesh->position[2 * worst + 1]))
-            worst = curve->nodes[k];
-    if (fabs(mesh->position[2 * worst + 1]) > PLACE_TOLERANCE * extent(mesh))
-        FAIL(err, ERROR_INPUT,
-             "%s: contact group '%s' is not flat at z = 0: node %lld at x = %g has z = %g",
-             mesh->path, curve->name, (long long)mesh->node_number[worst],
-             mesh->position[2 * worst], mesh->position[2 * worst + 1]);
-cleanup:
-    return error_is_clean(err);
-}
-
-// Each edge of the contact is on one element only and on one contact curve only.
-static bool check_boundary(const Mesh *mesh, const MeshContact *contact, Error *err)
-{
-    MeshEdges table = {0};
-    int32_t *claimed = NULL;   // by edge of the table: 1 + the curve that has it
-    TRY(mesh_edges_build(mesh, &table, err));
-    if (!(claimed = NEW_ARRAY(int32_t, table.first[mesh->node_count], err))) goto cleanup;
-    for (int32_t c = 0; c < contact->curve_count; c++) {
-        const MeshCurve *curve = &contact->curves[c];
-        for (int32_t k = 0; k < curve->edge_count; k++) {
-            const int32_t *nodes = curve->edge_nodes + k * curve->nodes_per_edge;
-            const MeshEdge *edge = mesh_edges_find(&table, nodes[0], nodes[1]);
-            double x = mesh->position[2 * nodes[0]];
-            if (edge->elements != 1)
-                FAIL(err, ERROR_INPUT,
-                     "%s: contact group '%s' runs inside the block at x = %g, not on its edge",
-                     mesh->path, curve->name, x);
-            int32_t *claim = &claimed[edge - table.edges];
-            if (*claim)
-                FAIL(err, ERROR_INPUT,
-                     "%s: contact groups '%s' and '%s' both have the edge at x = %g", mesh->path,
-                     contact->curves[*claim - 1].name, curve->name, x);
-            *claim = c + 1;
-        }
-    }
-cleanup:
-    memory_free(claimed);
-    mesh_edges_destroy(&table);
-    return error_is_clean(err);
-}
-
-// Merges the nodes of the curves; a shared one keeps the first curve.
-static bool merge_nodes(const Mesh *mesh, MeshContact *contact, Error *err)
-{
-    int32_t *owner = NULL;   // by mesh node: 1 + curve
-    int32_t total = 0;
-    for (int32_t c = 0; c < contact->curve_count; c++) total += contact->curves[c].node_count;
-    if (!(owner = NEW_ARRAY(int32_t, mesh->node_count, err))) goto cleanup;
-    if (!(contact->nodes = NEW_ARRAY(int32_t, total, err))) goto cleanup;
-    if (!(contact->curve_of = NEW_ARRAY(int32_t, total, err))) goto cleanup;
-    for (int32_t c = 0; c < contact->curve_count; c++)
-        for (int32_t k = 0; k < contact->curves[c].node_count; k++) {
-            int32_t i = contact->curves[c].nodes[k];
-            if (owner[i]) continue;
-            owner[i] = c + 1;
-            contact->nodes[contact->node_count++] = i;
-        }
-    sort_by_place(mesh, contact->nodes, contact->node_count);
-    for (int32_t k = 0; k < contact->node_count; k++)
-        contact->curve_of[k] = owner[contact->nodes[k]] - 1;
-cleanup:
-    memory_free(owner);
-    return error_is_clean(err);
-}
-
-static bool check_places(const Mesh *mesh, const MeshContact *contact, Error *err)
-{
-    double tolerance = PLACE_TOLERANCE * extent(mesh);
-    if (mesh->z_min < -tolerance)
-        FAIL(err, ERROR_INPUT,
-             "%s: the block reaches down to z = %g, below the substrate at z = 0 that group '%s' "
-             "touches",
-             mesh->path, mesh->z_min, contact->curves[0].name);
-    for (int32_t k = 1; k < contact->node_count; k++) {
-        int32_t a = contact->nodes[k - 1], b = contact->nodes[k];
-        if (mesh->position[2 * b] - mesh->position[2 * a] <= tolerance)
-            FAIL(
-                err, ERROR_INPUT,
-                "%s: nodes %lld and %lld of contact group '%s' are both at x = %g: the mesh is not "
-                "glued together there",
-                mesh->path, (long long)mesh->node_number[a], (long long)mesh->node_number[b],
-                contact->curves[contact->curve_of[k]].name, mesh->position[2 * b]);
-    }
-cleanup:
-    return error_is_clean(err);
-}
-
-bool mesh_contact(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], int32_t name_count,
-                  MeshContact *contact, Error *err)
-{
-    *contact = (MeshContact){0};
-    TRY(pick_curves(mesh, names, name_count, contact, err));
-    for (int32_t c = 0; c < contact->curve_count; c++)
-        TRY(check_flat(mesh, &contact->curves[c], err));
-    TRY(check_boundary(mesh, contact, err));
-    TRY(merge_nodes(mesh, contact, err));
-    TRY(check_places(mesh, contact, err));
-cleanup:
-    return error_is_clean(err);
-}
-
-// --- summary ------------------------------------------------------------------------------------
-
-static double element_area(const Mesh *mesh, int32_t e)
-{
-    double position[ELEMENT_NODES_MAX][2], centre[2], area = 0;
-    ElementKind kind = mesh->kind[e];
-    gather(mesh, e, position, centre);
-    Quadrature rule = shape_quadrature(kind);
-    for (int32_t q = 0; q < rule.count; q++) {
-        ShapeValues shape = shape_at(kind, rule.point[q][0], rule.point[q][1]);
-        area += rule.weight[q] * shape_jacobian(kind, &shape, (const double(*)[2])position, NULL);
-    }
-    return area;
-}
-
-MeshSummary mesh_summarise(const Mesh *mesh)
-{
-    MeshSummary summary = {.edge_min = INFINITY, .aspect_worst = -1};
-    for (int32_t e = 0; e < mesh->element_count; e++) {
-        ElementKind kind = mesh->kind[e];
-        const int32_t *nodes = mesh->element_nodes + mesh->first_node[e];
-        int32_t corners = kind == ELEMENT_T3 || kind == ELEMENT_T6 ? 3 : 4;
-        double shortest = INFINITY, longest = 0;
-        for (int32_t k = 0; k < corners; k++) {
-            const double *from = mesh->position + 2 * nodes[k];
-            const double *to = mesh->position + 2 * nodes[(k + 1) % corners];
-            double length = hypot(to[0] - from[0], to[1] - from[1]);
-            shortest = fmin(shortest, length);
-            longest = fmax(longest, length);
-        }
-        summary.element_counts[kind]++;
-        summary.area += element_area(mesh, e);
-        summary.edge_min = fmin(summary.edge_min, shortest);
-        summary.edge_max = fmax(summary.edge_max, longest);
-        if (longest / shortest > summary.aspect_max) {
-            summary.aspect_max = longest / shortest;
-            summary.aspect_worst = e;
-        }
-    }
-    return summary;
 }

@@ -30,6 +30,9 @@ typedef struct Mesh {
     double z_min, z_max;
 } Mesh;
 
+// Puts nodes [count] in order of ascending x, then z.
+void mesh_sort_nodes(const Mesh *mesh, int32_t *nodes, int32_t count);
+
 // A named curve. Borrows from the mesh, owns nothing.
 typedef struct MeshCurve {
     const char *name;
@@ -63,7 +66,7 @@ bool mesh_curve(const Mesh *mesh, const char *name, MeshCurve *curve, Error *err
 
 // The contact line from curves called `names` [name_count]; no names: every curve called "contact"
 // or "contact_...", in the order of their first nodes' x. Each must lie on z = 0 and on the block's
-// edge, no two on the same edge, and the block above them: ERROR_INPUT names the group and the node.
+// edge, no two on the same edge, and the block above them: ERROR_INPUT names group and node.
 bool mesh_contact(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], int32_t name_count,
                   MeshContact *contact, Error *err);
 void mesh_contact_destroy(MeshContact *contact);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Buckets by the lower end: a bucket holds the few edges of one node, so finding one is a short scan
-// and building the table is linear in the mesh.
+// Buckets by the lower end: a bucket holds the few edges of one node, so finding one is a short
+// scan and building the table is linear in the mesh.
 #include "bulk/mesh_edges.h"
 
 #include "base/memory.h"

@@ -158,7 +158,8 @@ bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t p
     MeshRawReader read = (MeshRawReader)module_function("gmsh", "amontons_gmsh_read", err);
     if (!read) goto cleanup;
     TRY(read(&request, &raw, err));
-    TRY(mesh_raw_convert(&raw, path, version, mesh, err));
+    raw.version = version;
+    TRY(mesh_raw_convert(&raw, path, mesh, err));
 cleanup:
     mesh_raw_destroy(&raw);
     return error_is_clean(err);

@@ -10,19 +10,46 @@
 
 enum { ARGUMENT_SIZE = 64, MESH_ADAPT_QUADS = 8 };
 
-// gmsh's first error of this session, or what it was doing when it has none.
-static void fail_with_log(const MeshRawRequest *request, const char *doing, Error *err)
+// gmsh's first error of this session, NULL: none. `log`: what gmshLoggerGet gave.
+static const char *first_error(char **log, size_t count)
 {
     static const char mark[] = "Error: ";
-    char **log = NULL;
+    for (size_t k = 0; k < count; k++)
+        if (strncmp(log[k], mark, sizeof mark - 1) == 0) return log[k] + sizeof mark - 1;
+    return NULL;
+}
+
+// Two `Physical Curve("top")` in a .geo: gmsh says "Physical curve 4 already exists", without the
+// name. Finds that name; false when the error is another one.
+static bool find_repeated_name(const char *error, char name[GROUP_NAME_SIZE])
+{
+    static const char *const words[] = {"point", "curve", "surface"};
+    char word[16];
+    int number = 0, status = 0;
+    char *found = NULL;
+    if (sscanf(error, "Physical %15s %d already exists", word, &number) != 2) return false;
+    for (int dimension = 0; dimension < 3; dimension++)
+        if (strcmp(word, words[dimension]) == 0)
+            gmshModelGetPhysicalName(dimension, number, &found, &status);
+    snprintf(name, GROUP_NAME_SIZE, "%s", found ? found : "");
+    gmshFree(found);
+    return name[0] != '\0';
+}
+
+static void fail_with_log(const MeshRawRequest *request, const char *doing, Error *err)
+{
+    char **log = NULL, name[GROUP_NAME_SIZE];
     size_t count = 0;
     int status = 0;
-    const char *first = NULL;
     gmshLoggerGet(&log, &count, &status);
-    for (size_t k = 0; k < count && !first; k++)
-        if (strncmp(log[k], mark, sizeof mark - 1) == 0) first = log[k] + sizeof mark - 1;
-    error_set(err, ERROR_INPUT, __FILE__, __LINE__, "%s: gmsh failed while %s: %s", request->path,
-              doing, first ? first : "it does not say why");
+    const char *error = first_error(log, count);
+    if (error && find_repeated_name(error, name))
+        error_set(err, ERROR_INPUT, __FILE__, __LINE__,
+                  "%s: the physical name '%s' is used twice (give all its curves in one group)",
+                  request->path, name);
+    else
+        error_set(err, ERROR_INPUT, __FILE__, __LINE__, "%s: gmsh failed while %s: %s",
+                  request->path, doing, error ? error : "it does not say why");
     for (size_t k = 0; k < count; k++) gmshFree(log[k]);
     gmshFree(log);
 }
@@ -94,6 +121,8 @@ static bool gmsh_load(const MeshRawRequest *request, Error *err)
              "%s: sets Mesh.Algorithm = 8, which crashes gmsh 4.8; use 6, and for quadrilaterals "
              "Mesh.RecombinationAlgorithm = 3 with it",
              request->path);
+    // Meshing threads that throw would end the program: let them log, and look at the log.
+    gmshOptionSetNumber("General.AbortOnError", 0, &status);
     gmshModelMeshGenerate(2, &status);
     if (status || gmsh_complained()) fail_with_log(request, "meshing it", err);
 cleanup:

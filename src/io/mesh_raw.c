@@ -3,6 +3,7 @@
 #include "io/mesh_raw.h"
 
 #include "base/memory.h"
+#include "io/raw_elements.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,23 +13,6 @@
 // A mesh counts as plane when |y3| stays below this times its extent: what round-off leaves of a
 // coordinate of 0 after a rotation in a CAD program.
 static const double PLANE_TOLERANCE = 1e-9;
-
-enum { GMSH_POINT = 15, GMSH_LINE_2 = 1, GMSH_LINE_3 = 8, KIND_LIST_SIZE = 64 };
-
-// One element: where it stands in the raw blocks.
-typedef struct RawElement {
-    int64_t number;
-    const int64_t *nodes;   // its node tags, in the block
-    int32_t count;   // of nodes
-    int32_t kind;   // ElementKind; -1 for points and lines
-    int32_t copies;   // how often the file gives it
-    int32_t groups;   // in how many physical groups its entity is
-} RawElement;
-
-typedef struct RawElements {
-    int32_t count;
-    RawElement *items;   // [count]; owned
-} RawElements;
 
 // Raw nodes by ascending tag.
 typedef struct NodeTable {
@@ -51,150 +35,6 @@ void mesh_raw_destroy(MeshRaw *raw)
     memory_free(raw->node_dimension);
     memory_free(raw->node_position);
     *raw = (MeshRaw){0};
-}
-
-// --- elements -----------------------------------------------------------------------------------
-
-static int32_t kind_of_type(int32_t gmsh_type)
-{
-#define X(kind, nodes, edge_nodes, type, name)                                                     \
-    if (gmsh_type == (type)) return kind;
-    ELEMENT_KINDS(X)
-#undef X
-    return -1;
-}
-
-static bool group_holds(const RawGroup *group, const RawBlock *block)
-{
-    if (group->dimension != block->dimension) return false;
-    for (int32_t k = 0; k < group->entity_count; k++)
-        if (abs(group->entities[k]) == block->entity) return true;
-    return false;
-}
-
-// In how many physical groups of its dimension a block is.
-static int32_t groups_of_block(const MeshRaw *raw, const RawBlock *block)
-{
-    int32_t count = 0;
-    for (int32_t k = 0; k < raw->group_count; k++) count += group_holds(&raw->groups[k], block);
-    return count;
-}
-
-static bool has_surface_group(const MeshRaw *raw)
-{
-    for (int32_t k = 0; k < raw->group_count; k++)
-        if (raw->groups[k].dimension == 2) return true;
-    return false;
-}
-
-static int compare_numbers(const void *a, const void *b)
-{
-    const RawElement *first = a, *second = b;
-    return (first->number > second->number) - (first->number < second->number);
-}
-
-static int compare_nodes(const void *a, const void *b)
-{
-    const RawElement *first = a, *second = b;
-    if (first->count != second->count) return first->count < second->count ? -1 : 1;
-    for (int32_t k = 0; k < first->count; k++)
-        if (first->nodes[k] != second->nodes[k]) return first->nodes[k] < second->nodes[k] ? -1 : 1;
-    return compare_numbers(a, b);
-}
-
-// Format 2.2 writes an element once for each of its physical groups: keeps the first copy.
-static void drop_copies(RawElements *elements)
-{
-    int32_t kept = 0;
-    qsort(elements->items, (size_t)elements->count, sizeof *elements->items, compare_nodes);
-    for (int32_t k = 0; k < elements->count; k++) {
-        const RawElement *item = &elements->items[k];
-        RawElement *last = kept > 0 ? &elements->items[kept - 1] : NULL;
-        if (last && item->count == last->count &&
-            memcmp(item->nodes, last->nodes, (size_t)item->count * sizeof *item->nodes) == 0)
-            last->copies++;
-        else
-            elements->items[kept++] = *item;
-    }
-    elements->count = kept;
-}
-
-static bool append_block(RawElements *elements, const RawBlock *block, int32_t groups, Error *err)
-{
-    int64_t total = elements->count + block->count;
-    if (total > INT32_MAX / ELEMENT_NODES_MAX)
-        FAIL(err, ERROR_INPUT, "%lld elements are too many", (long long)total);
-    RawElement *items = memory_resize(elements->items, elements->count, total, sizeof *items, err);
-    if (!items) goto cleanup;
-    elements->items = items;
-    for (int64_t k = 0; k < block->count; k++)
-        items[elements->count++] =
-            (RawElement){.number = block->number[k],
-                         .nodes = block->nodes + k * block->nodes_per_element,
-                         .count = block->nodes_per_element,
-                         .kind = kind_of_type(block->gmsh_type),
-                         .copies = 1,
-                         .groups = groups};
-cleanup:
-    return error_is_clean(err);
-}
-
-static void sort_elements(RawElements *elements, bool may_repeat)
-{
-    if (may_repeat) drop_copies(elements);
-    for (int32_t k = 1; k < elements->count; k++)
-        if (elements->items[k - 1].number > elements->items[k].number) {
-            qsort(elements->items, (size_t)elements->count, sizeof *elements->items,
-                  compare_numbers);
-            break;
-        }
-}
-
-static void list_kinds(char list[KIND_LIST_SIZE])
-{
-    int length = 0;
-#define X(kind, nodes, edge_nodes, gmsh, name)                                                     \
-    length += snprintf(list + length, KIND_LIST_SIZE - (size_t)length, "%s%s", length ? ", " : "", \
-                       name);
-    ELEMENT_KINDS(X)
-#undef X
-}
-
-// The elements of the body: of the physical surfaces, or of every surface where there are none.
-static bool pick_surface(const MeshRaw *raw, const char *path, RawElements *picked, Error *err)
-{
-    bool by_group = has_surface_group(raw), may_repeat = false;
-    int64_t others = 0;
-    char allowed[KIND_LIST_SIZE];
-    list_kinds(allowed);
-    for (int32_t k = 0; k < raw->block_count; k++) {
-        const RawBlock *block = &raw->blocks[k];
-        if (block->dimension == 3)
-            FAIL(err, ERROR_INPUT,
-                 "%s: holds %lld volume elements (%s); a plane mesh of %s is wanted", path,
-                 (long long)block->count, block->type_name, allowed);
-        int32_t groups = block->dimension == 2 ? groups_of_block(raw, block) : 0;
-        if (block->dimension != 2 || (by_group && groups == 0)) {
-            others += block->count;
-            continue;
-        }
-        if (kind_of_type(block->gmsh_type) < 0)
-            FAIL(err, ERROR_INPUT,
-                 "%s: element %lld is of a kind that is not supported, %s; allowed are %s", path,
-                 (long long)(block->count ? block->number[0] : 0), block->type_name, allowed);
-        may_repeat = may_repeat || groups > 1;
-        TRY(append_block(picked, block, groups, err));
-    }
-    if (picked->count == 0)
-        FAIL(
-            err, ERROR_INPUT,
-            "%s: has no surface elements%s (%lld nodes, %lld other elements); was it meshed in 2D, "
-            "and is the surface in a physical group?",
-            path, by_group ? " in its physical surfaces" : "", (long long)raw->node_count,
-            (long long)others);
-    sort_elements(picked, may_repeat);
-cleanup:
-    return error_is_clean(err);
 }
 
 // --- nodes --------------------------------------------------------------------------------------
@@ -298,7 +138,7 @@ static void mark_curves(const MeshRaw *raw, NodeTable *table)
 {
     for (int32_t k = 0; k < raw->block_count; k++) {
         const RawBlock *block = &raw->blocks[k];
-        if (block->dimension != 1 || groups_of_block(raw, block) == 0) continue;
+        if (block->dimension != 1 || raw_block_groups(raw, block) == 0) continue;
         for (int64_t i = 0; i < block->count * block->nodes_per_element; i++) {
             int32_t at = table_find(table, block->nodes[i]);
             if (at >= 0) table->index[at] = 0;
@@ -428,46 +268,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Format 2.2 says group and entity of each element; gmsh keeps the group by entity only. Where two
-// groups share an entity number by accident, gmsh would give each the edges of both.
-static bool check_copies(const char *path, const MeshGroup *group, const RawElements *elements,
-                         Error *err)
-{
-    for (int32_t k = 0; k < elements->count; k++)
-        if (elements->items[k].copies < elements->items[k].groups)
-            FAIL(
-                err, ERROR_INPUT,
-                "%s: group '%s' (%d) shares an elementary number with another group, so gmsh "
-                "cannot "
-                "tell whose element %lld is; give each group its own (the second tag of an element "
-                "in format 2.2), or save as format 4.1",
-                path, group->name, group->number, (long long)elements->items[k].number);
-cleanup:
-    return error_is_clean(err);
-}
-
-// The points or edges of a group.
-static bool pick_group(const MeshRaw *raw, const char *path, const RawGroup *from,
-                       const MeshGroup *group, RawElements *picked, Error *err)
-{
-    for (int32_t k = 0; k < raw->block_count; k++) {
-        const RawBlock *block = &raw->blocks[k];
-        if (!group_holds(from, block)) continue;
-        if (block->gmsh_type != GMSH_POINT && block->gmsh_type != GMSH_LINE_2 &&
-            block->gmsh_type != GMSH_LINE_3)
-            FAIL(err, ERROR_INPUT,
-                 "%s: group '%s' has elements of a kind that is not supported, %s", path,
-                 group->name, block->type_name);
-        TRY(append_block(picked, block, groups_of_block(raw, block), err));
-    }
-    sort_elements(picked, true);
-cleanup:
-    return error_is_clean(err);
-}
-
-static bool convert_group(const MeshRaw *raw, const char *path, double version,
-                          const NodeTable *table, const RawGroup *from, MeshGroup *group,
-                          Error *err)
+static bool convert_group(const MeshRaw *raw, const char *path, const NodeTable *table,
+                          const RawGroup *from, MeshGroup *group, Error *err)
 {
     RawElements elements = {0};
     *group = (MeshGroup){.dimension = from->dimension, .number = from->number};
@@ -476,8 +278,9 @@ static bool convert_group(const MeshRaw *raw, const char *path, double version,
     else
         snprintf(group->name, sizeof group->name, "%d", from->number);
     if (from->dimension >= 2) goto cleanup;
-    TRY(pick_group(raw, path, from, group, &elements, err));
-    if (version > 0 && version < 4) TRY(check_copies(path, group, &elements, err));
+    TRY(raw_pick_group(raw, path, from, group->name, &elements, err));
+    if (raw->version > 0 && raw->version < 4)
+        TRY(raw_check_copies(path, group->name, &elements, err));
     if (from->dimension == 1) TRY(store_group_edges(path, &elements, table, group, err));
     TRY(store_group_nodes(&elements, table, group, err));
 cleanup:
@@ -485,13 +288,13 @@ cleanup:
     return error_is_clean(err);
 }
 
-static bool convert_groups(const MeshRaw *raw, const char *path, double version,
-                           const NodeTable *table, MeshFile *mesh, Error *err)
+static bool convert_groups(const MeshRaw *raw, const char *path, const NodeTable *table,
+                           MeshFile *mesh, Error *err)
 {
     if (!(mesh->groups = NEW_ARRAY(MeshGroup, raw->group_count, err))) goto cleanup;
     for (int32_t k = 0; k < raw->group_count; k++) {
         MeshGroup *group = &mesh->groups[mesh->group_count++];
-        TRY(convert_group(raw, path, version, table, &raw->groups[k], group, err));
+        TRY(convert_group(raw, path, table, &raw->groups[k], group, err));
         for (const MeshGroup *other = mesh->groups; other < group; other++)
             if (strcmp(other->name, group->name) == 0)
                 FAIL(err, ERROR_INPUT,
@@ -505,20 +308,19 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool mesh_raw_convert(const MeshRaw *raw, const char *path, double version, MeshFile *mesh,
-                      Error *err)
+bool mesh_raw_convert(const MeshRaw *raw, const char *path, MeshFile *mesh, Error *err)
 {
     RawElements surface = {0};
     NodeTable table = {0};
     *mesh = (MeshFile){0};
-    TRY(pick_surface(raw, path, &surface, err));
+    TRY(raw_pick_surface(raw, path, &surface, err));
     TRY(table_build(raw, path, &table, err));
     TRY(mark_elements(&surface, path, &table, err));
     TRY(mark_orphans(raw, &table, err));
     mark_curves(raw, &table);
     TRY(number_nodes(raw, path, &table, mesh, err));
     TRY(store_elements(&surface, &table, mesh, err));
-    TRY(convert_groups(raw, path, version, &table, mesh, err));
+    TRY(convert_groups(raw, path, &table, mesh, err));
 cleanup:
     table_destroy(&table);
     memory_free(surface.items);

@@ -28,6 +28,7 @@ typedef struct RawGroup {
 } RawGroup;
 
 typedef struct MeshRaw {
+    double version;                      // of the .msh format, 2.2 or 4.1; 0: a .geo
     int64_t node_count;
     int64_t *node_number;                // [node_count] tags; owned
     uint8_t *node_dimension;             // [node_count] of the entity the node is on; owned
@@ -54,9 +55,8 @@ bool amontons_gmsh_read(const MeshRawRequest *request, MeshRaw *raw, Error *err)
 void mesh_raw_destroy(MeshRaw *raw);
 
 // Picks the surface elements (where physical surfaces exist: theirs, as gmsh does when it saves a
-// mesh), the nodes and the groups. Nodes and elements are ordered by gmsh's tags, so that a .geo and
-// the .msh made from it give the same arrays. `version`: of the .msh format, 0 for a .geo.
-bool mesh_raw_convert(const MeshRaw *raw, const char *path, double version, MeshFile *mesh,
-                      Error *err);
+// mesh), the nodes and the groups. Nodes and elements are ordered by gmsh's tags, so that a .geo
+// and the .msh made from it give the same arrays. Errors (ERROR_INPUT) name `path`.
+bool mesh_raw_convert(const MeshRaw *raw, const char *path, MeshFile *mesh, Error *err);
 
 #endif
