@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The one C++ file: VTK's XML writers behind one C function. Nothing thrown passes its border.
+// Double arrays are handed to VTK as they are, without a copy.
+extern "C" {
+#include "io/field_file_module.h"
+}
+
+#include <vtkCallbackCommand.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkFloatArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkTypeInt64Array.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLPolyDataWriter.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+#include <vtkZLibDataCompressor.h>
+
+#include <exception>
+#include <string>
+
+namespace
+{
+
+constexpr int compression_level = 1;   // level 9 is 80 times slower and saves next to nothing
+constexpr int caller_keeps = 1;   // VTK must not free the array ("save")
+
+// VTK's array over the caller's values, which it reads and never changes.
+template <typename Array, typename Value>
+vtkSmartPointer<Array> borrow(const Value *values, int64_t count, int components)
+{
+    using Stored = typename Array::ValueType;   // long long where int64_t is long
+    static_assert(sizeof(Stored) == sizeof(Value), "the same bytes under another name");
+    auto array = vtkSmartPointer<Array>::New();
+    array->SetNumberOfComponents(components);
+    array->SetArray(reinterpret_cast<Stored *>(const_cast<Value *>(values)), count, caller_keeps);
+    return array;
+}
+
+vtkSmartPointer<vtkDataArray> make_array(const FieldArray &field, int64_t count)
+{
+    const int64_t size = count * field.components;
+    vtkSmartPointer<vtkDataArray> array;
+    if (field.single_precision) {
+        auto single = vtkSmartPointer<vtkFloatArray>::New();
+        single->SetNumberOfComponents(field.components);
+        single->SetNumberOfTuples(count);
+        for (int64_t k = 0; k < size; k++) single->SetValue(k, static_cast<float>(field.values[k]));
+        array = single;
+    } else {
+        array = borrow<vtkDoubleArray>(field.values, size, field.components);
+    }
+    array->SetName(field.name);
+    return array;
+}
+
+// Points, fields and time: what both kinds of grid have.
+void fill(vtkPointSet *set, const FieldGrid &grid)
+{
+    vtkNew<vtkPoints> points;
+    points->SetData(borrow<vtkDoubleArray>(grid.points, 3 * grid.point_count, 3));
+    set->SetPoints(points);
+    for (int32_t k = 0; k < grid.point_array_count; k++)
+        set->GetPointData()->AddArray(make_array(grid.point_arrays[k], grid.point_count));
+    for (int32_t k = 0; k < grid.cell_array_count; k++)
+        set->GetCellData()->AddArray(make_array(grid.cell_arrays[k], grid.cell_count));
+    vtkNew<vtkDoubleArray> time;
+    time->SetName("TimeValue");
+    time->InsertNextValue(grid.time);
+    set->GetFieldData()->AddArray(time);
+}
+
+vtkSmartPointer<vtkCellArray> make_cells(const FieldGrid &grid)
+{
+    auto cells = vtkSmartPointer<vtkCellArray>::New();
+    cells->SetData(borrow<vtkTypeInt64Array>(grid.offsets, grid.cell_count + 1, 1),
+                   borrow<vtkTypeInt64Array>(grid.connectivity, grid.offsets[grid.cell_count], 1));
+    return cells;
+}
+
+void keep_first(vtkObject *, unsigned long, void *message, void *text)
+{
+    auto *kept = static_cast<std::string *>(message);
+    if (kept->empty() && text) *kept = static_cast<const char *>(text);
+}
+
+bool write(vtkXMLWriter *writer, vtkDataObject *data, const FieldOutput &output, Error *err)
+{
+    std::string message;
+    vtkNew<vtkCallbackCommand> observer;   // with one, VTK does not print its errors
+    observer->SetCallback(keep_first);
+    observer->SetClientData(&message);
+    vtkNew<vtkZLibDataCompressor> compressor;
+    compressor->SetCompressionLevel(compression_level);
+    compressor->AddObserver("ErrorEvent", observer);
+    writer->AddObserver("ErrorEvent", observer);
+    writer->SetCompressor(compressor);
+    writer->SetDataModeToAppended();
+    writer->EncodeAppendedDataOff();
+    writer->SetHeaderTypeToUInt64();
+    writer->WriteToOutputStringOn();
+    writer->SetInputDataObject(data);
+    if (writer->Write() != 1 || !message.empty()) {
+        error_set(err, ERROR_LIBRARY, __FILE__, __LINE__, "VTK cannot write the grid: %s",
+                  message.empty() ? "it gives no reason" : message.c_str());
+        return false;
+    }
+    const std::string bytes = writer->GetOutputString();
+    return output.sink(output.context, bytes.data(), static_cast<int64_t>(bytes.size()), err);
+}
+
+bool encode(const FieldGrid &grid, const FieldOutput &output, Error *err)
+{
+    if (output.format == FIELD_VTP) {
+        vtkNew<vtkPolyData> lines;
+        fill(lines, grid);
+        lines->SetLines(make_cells(grid));
+        vtkNew<vtkXMLPolyDataWriter> writer;
+        return write(writer, lines, output, err);
+    }
+    vtkNew<vtkUnstructuredGrid> cells;
+    fill(cells, grid);
+    cells->SetCells(borrow<vtkUnsignedCharArray>(grid.cell_types, grid.cell_count, 1),
+                    make_cells(grid));
+    vtkNew<vtkXMLUnstructuredGridWriter> writer;
+    return write(writer, cells, output, err);
+}
+
+}   // namespace
+
+extern "C" __attribute__((visibility("default"))) bool
+amontons_vtk_encode(const FieldGrid *grid, const FieldOutput *output, Error *err)
+{
+    try {
+        return encode(*grid, *output, err);
+    } catch (const std::exception &thrown) {
+        error_set(err, ERROR_LIBRARY, __FILE__, __LINE__, "VTK failed: %s", thrown.what());
+    } catch (...) {
+        error_set(err, ERROR_LIBRARY, __FILE__, __LINE__, "VTK failed for an unknown reason");
+    }
+    return false;
+}

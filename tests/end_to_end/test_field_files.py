@@ -1,0 +1,162 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What our writers store, read by programs that are not ours: VTK's Python reader, meshio, h5py.
+
+The unit tests of io/field_file and io/result_file write their files into AMONTONS_TEST_OUTPUT; the
+values come from formulas that both sides know, so every comparison is exact.
+"""
+import os
+import subprocess
+import tempfile
+import unittest
+import xml.etree.ElementTree
+
+import h5py
+import meshio
+import numpy
+import vtk
+from vtk.util.numpy_support import vtk_to_numpy
+
+TESTS = os.path.join(os.environ["AMONTONS_BIN"], "..", "tests")
+
+K = numpy.arange(25)
+POINTS = numpy.stack([0.1 * (K % 5), 0.1 * (K // 5), 0.0 * K], axis=1)
+VECTORS = ((K + 1) / 3.0)[:, None] + numpy.arange(3.0)
+SCALARS = 1.0 / (K + 7)
+CELL_VALUES = -1.0 / (numpy.arange(5) + 3)
+CELLS = [
+    ("quad", 9, [0, 1, 6, 5]),
+    ("quad8", 23, [1, 3, 13, 11, 2, 8, 12, 6]),
+    ("quad9", 28, [10, 12, 22, 20, 11, 17, 21, 15, 16]),
+    ("triangle", 5, [3, 4, 9]),
+    ("triangle6", 22, [12, 14, 24, 13, 19, 18]),
+]
+LINES = [[0, 1], [1, 2], [2, 3], [3, 4]]
+SERIES, STEPS, NODES = 15, 300, 5
+
+
+def read_with_vtk(reader, path):
+    failures = []
+    reader.AddObserver("ErrorEvent", lambda *_: failures.append(path))
+    reader.SetFileName(path)
+    reader.Update()
+    assert not failures, failures
+    return reader.GetOutput()
+
+
+def arrays_of(attributes):
+    return {
+        attributes.GetArrayName(k): vtk_to_numpy(attributes.GetArray(k))
+        for k in range(attributes.GetNumberOfArrays())
+    }
+
+
+class FieldFiles(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory(prefix="amontons_fields_")
+        environment = dict(os.environ, AMONTONS_TEST_OUTPUT=cls.folder.name)
+        for program in ("test_io_field_file", "test_io_result_file"):
+            subprocess.run([os.path.join(TESTS, program)], env=environment, check=True,
+                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def same(self, found, expected):
+        self.assertEqual(found.shape, expected.shape)
+        self.assertEqual(found.dtype, expected.dtype)
+        numpy.testing.assert_array_equal(found, expected)
+
+    def check_point_arrays(self, arrays, count):
+        self.assertEqual(set(arrays), {"displacement", "velocity_single", "von_mises"})
+        self.same(arrays["displacement"], VECTORS[:count])
+        self.same(arrays["velocity_single"], VECTORS[:count].astype(numpy.float32))
+        self.same(arrays["von_mises"].ravel(), SCALARS[:count])
+
+    def test_bulk_with_vtk(self):
+        grid = read_with_vtk(vtk.vtkXMLUnstructuredGridReader(), self.path("bulk.vtu"))
+        self.same(vtk_to_numpy(grid.GetPoints().GetData()), POINTS)
+        self.assertEqual(grid.GetNumberOfCells(), len(CELLS))
+        for k, (_, number, nodes) in enumerate(CELLS):
+            cell = grid.GetCell(k)
+            self.assertEqual(cell.GetCellType(), number)
+            self.assertEqual([cell.GetPointId(n) for n in range(cell.GetNumberOfPoints())], nodes)
+        self.check_point_arrays(arrays_of(grid.GetPointData()), 25)
+        self.same(arrays_of(grid.GetCellData())["plastic"], CELL_VALUES)
+        self.assertEqual(arrays_of(grid.GetFieldData())["TimeValue"].tolist(), [1.0 / 3.0])
+
+    def test_bulk_with_meshio(self):
+        mesh = meshio.read(self.path("bulk.vtu"))
+        self.same(mesh.points, POINTS)
+        self.assertEqual([block.type for block in mesh.cells], [name for name, _, _ in CELLS])
+        for block, (_, _, nodes) in zip(mesh.cells, CELLS):
+            self.assertEqual(block.data.tolist(), [nodes])
+        self.check_point_arrays(mesh.point_data, 25)
+        self.same(numpy.concatenate(mesh.cell_data["plastic"]).ravel(), CELL_VALUES)
+
+    def test_interface_with_vtk(self):
+        lines = read_with_vtk(vtk.vtkXMLPolyDataReader(), self.path("interface.vtp"))
+        self.same(vtk_to_numpy(lines.GetPoints().GetData()), POINTS[:5])
+        self.assertEqual(lines.GetNumberOfLines(), 4)
+        self.assertEqual(lines.GetNumberOfCells(), 4)
+        for k, nodes in enumerate(LINES):
+            cell = lines.GetCell(k)
+            self.assertEqual([cell.GetPointId(0), cell.GetPointId(1)], nodes)
+        self.check_point_arrays(arrays_of(lines.GetPointData()), 5)
+        self.same(arrays_of(lines.GetCellData())["plastic"], CELL_VALUES[:4])
+        self.assertEqual(arrays_of(lines.GetFieldData())["TimeValue"].tolist(), [1e-7])
+
+    def test_collection(self):
+        root = xml.etree.ElementTree.parse(self.path("fields.pvd")).getroot()
+        self.assertEqual(root.attrib["type"], "Collection")
+        rows = [(float(e.attrib["timestep"]), e.attrib["part"], e.attrib["name"], e.attrib["file"])
+                for e in root.find("Collection")]
+        self.assertEqual(rows, [
+            (0.0, "0", "bulk", "fields/bulk_0000.vtu"),
+            (0.0, "1", "interface", "fields/interface_0000.vtp"),
+            (1.0 / 3.0, "0", "bulk", 'fields/a&b "<1>".vtu'),
+            (1.0 / 3.0, "1", "interface", "fields/interface_0001.vtp"),
+        ])
+
+    def test_history_with_h5py(self):
+        with h5py.File(self.path("history.h5"), "r") as history:
+            self.assertEqual(history.attrs["title"], "Figure 1")
+            self.assertEqual(history.attrs["units"], "normalised")
+            self.assertEqual(history.attrs["critical_velocity"], 3.4e-4)
+            self.assertEqual(history.attrs["mu_macroscopic"], 0.25)
+            self.assertNotIn("critical_length", history.attrs)
+            self.same(history["nodes/x"][:], numpy.linspace(0.0, 1.0, NODES))
+            self.same(history["nodes/pad"][:], numpy.array([0, 0, 1, 1, 2], dtype=numpy.int32))
+            self.same(history["peaks/U"][:], numpy.array([0.001, 0.0025, 0.004]))
+            self.assertEqual(history["events/kind"].shape, (0,))
+            self.assertNotIn("reach", history["events"])
+            step, node = numpy.arange(STEPS)[:, None], numpy.arange(NODES)[None, :]
+            found = {}
+            for group in ("series", "interface"):
+                for name, dataset in history[group].items():
+                    found[group + "/" + name] = dataset[:].astype(float)
+                    self.assertIsInstance(dataset.attrs["unit"], str)
+                    self.assertGreater(len(dataset.attrs["description"]), 3)
+            self.assertEqual(len(found), SERIES)
+            # Each series is one of the 15 patterns, and no two are the same one.
+            patterns = {((7 * s + 3 * step + node) % 250).astype(float).tobytes(): s
+                        for s in range(SERIES)}
+            scalars = {((7 * s + 3 * step[:, 0]) % 250).astype(float).tobytes(): s
+                       for s in range(SERIES)}
+            seen = {name: (patterns if values.ndim == 2 else scalars)[values.tobytes()]
+                    for name, values in found.items()}
+            self.assertEqual(sorted(seen.values()), list(range(SERIES)))
+            self.assertEqual(seen["series/time"], 0)
+            self.assertEqual(history["interface/slip_rate"].dtype, numpy.float32)
+            self.assertEqual(history["interface/status"].dtype, numpy.uint8)
+            self.assertEqual(history["interface/slip"].compression, "gzip")
+            self.assertTrue(history["interface/slip"].shuffle)
+
+
+if __name__ == "__main__":
+    unittest.main()
