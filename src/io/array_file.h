@@ -36,8 +36,8 @@ typedef struct ArraySeries {
 } ArraySeries;
 bool array_file_add_series(ArrayFile *file, const ArraySeries *series, Error *err);
 
-// Appends `rows` rows of doubles, [rows * width], converted to the stored type (integers: the nearest
-// that fits, 0 for NaN). Cheap for single rows, and allocates no arrays.
+// Appends `rows` rows of doubles, [rows * width], converted to the stored type (integers: the
+// nearest that fits, 0 for NaN). Cheap for single rows, and allocates no arrays.
 bool array_file_append(ArrayFile *file, const char *name, const double *values, int64_t rows,
                        Error *err);
 bool array_file_flush(ArrayFile *file, Error *err);   // whoever reads now finds all appended so far
