@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The style that a machine can check: clang-format, lengths of files, functions and lines, number
-of arguments, the licence line."""
+of arguments, the licence line, and what the library never does (prints, exits, allocates by
+itself, keeps state in a function)."""
 import difflib
 import os
 import re
@@ -75,6 +76,21 @@ def faults(path):
     return found
 
 
+# What no file of the library does, and the one place that may.
+HABITS = [
+    ("prints or ends the program", r"src/cli/",
+     r"\b(printf|puts|putchar|perror|exit|_exit|abort)\(|\bfprintf\(\s*(stderr|stdout)"),
+    ("allocates by itself", r"src/base/memory\.c",
+     r"\b(malloc|calloc|realloc|aligned_alloc|strdup|strndup|asprintf)\("),
+    ("keeps state in a function", None, r"(?m)^[ \t]+static (?!const )[^(]*?[;=]"),
+]
+
+
+def bad_habits(name, text):
+    return [what for what, place, pattern in HABITS
+            if re.search(pattern, text) and not (place and re.match(place, name))]
+
+
 class Style(unittest.TestCase):
     def test_limits(self):
         files = c_files(SOURCE)
@@ -82,6 +98,28 @@ class Style(unittest.TestCase):
         for path in files:
             with self.subTest(str(path.relative_to(SOURCE))):
                 self.assertEqual(faults(path), [])
+
+    def test_habits(self):
+        for path in [f for f in c_files(SOURCE) if f.suffix != ".h"]:
+            name = str(path.relative_to(SOURCE))
+            if not name.startswith("tests/"):
+                with self.subTest(name):
+                    self.assertEqual(bad_habits(name, path.read_text()), [])
+
+    def test_sees_bad_habits(self):
+        for line, place, count in [
+                ("    printf(\"%d\", a);", "src/run/a.c", 1), ("    exit(1);", "render/a.c", 1),
+                ("    fprintf(stderr, \"x\");", "src/io/a.c", 1),
+                ("    fprintf(out, \"x\");", "src/io/a.c", 0), ("    exit(1);", "src/cli/a.c", 0),
+                ("    snprintf(a, 3, \"b\");", "src/io/a.c", 0),
+                ("    double *a = malloc(8);", "src/bulk/a.c", 1),
+                ("    void *a = aligned_alloc(64, 64);", "src/base/memory.c", 0),
+                ("    static int32_t calls = 0;", "src/io/a.c", 1),
+                ("    static char buffer[9];", "src/io/a.c", 1),
+                ("    static const double a[] = {1};", "src/io/a.c", 0),
+                ("static Module *opened;", "src/base/module.c", 0)]:
+            with self.subTest(line):
+                self.assertEqual(len(bad_habits(place, f"int a;\n\n{line}\n")), count)
 
     def test_licence_of_the_rest(self):
         """Scripts, build files and meshes name the licence in their first three lines."""

@@ -113,7 +113,8 @@ class PassThrough(Project):
         self.run_launcher("demo")
 
     def test_arguments_status_folder(self):
-        done = self.run_launcher("run", "a b.yaml", "--set", "", cwd=self.folder, PROGRAM_STATUS="2")
+        done = self.run_launcher("run", "a b.yaml", "--set", "", cwd=self.folder,
+                                 PROGRAM_STATUS="2")
         self.assertEqual(done.stdout, f"[run][a b.yaml][--set][]{self.folder}\n")
         self.assertEqual(done.returncode, 2)
         self.assertEqual((self.calls(), done.stderr), ([], ""))

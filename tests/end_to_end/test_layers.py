@@ -19,7 +19,7 @@ OWN_INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
 
 
 def allowed(folder, include):
-    """Whether a file in `folder` ("bulk", ..., "render", "" for amontons.h) may include `include`."""
+    """Whether a file in `folder` ("bulk", "render", "" for amontons.h) may include `include`."""
     if include in ("amontons.h", "run/scene.h", "render/render.h") and folder in LAYERS[:5]:
         return False
     if folder == "":
