@@ -110,5 +110,7 @@ bool amontons_render_result(const char *folder, const char *const *figures, int3
                             Error *err);
 // Says in text what a mesh (.msh, .geo), a scene (.yaml) or a result folder holds.
 bool amontons_info(const char *path, FILE *out, Error *err);
+// The index of the one of `names` that a mistyped `word` probably means; -1: none is near.
+int32_t amontons_nearest_name(const char *word, const char *const *names, int32_t count);
 
 #endif

@@ -1,5 +1,96 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-int main(void)
+// Finds the command that the first word asks for.
+#include "cli/commands.h"
+
+#include <stdio.h>
+#include <string.h>
+
+typedef struct Command {
+    const char *name;
+    int (*run)(int argc, char **argv);
+    const char *arguments;
+    const char *sentence;
+} Command;
+
+static const Command commands[] = {
+    {"render", command_render, "RESULT", "draws the pictures of a stored result again"},
+    {"info", command_info, "FILE", "says what a mesh, a scene or a result holds"},
+};
+
+enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
+
+static int print_help(void)
 {
+    printf("usage: amontons COMMAND [OPTION ...] [ARGUMENT ...]\n"
+           "\n"
+           "When and how an elastic block pushed by a rod starts to slide.\n"
+           "\n");
+    for (int32_t k = 0; k < COMMAND_COUNT; k++)
+        printf("  %-7s %-8s %s\n", commands[k].name, commands[k].arguments, commands[k].sentence);
+    printf("\n"
+           "  amontons help COMMAND     more about a command (also: amontons COMMAND --help)\n"
+           "  amontons info keys        every key that a scene may have\n"
+           "  amontons --version        the version\n"
+           "\n"
+           "A first simulation, with a coarse mesh so that it ends soon:\n"
+           "\n"
+           "  amontons run validation/paper/fig1.yaml --set mesh.set.nx=20 --set mesh.set.nz=20 "
+           "-o first\n"
+           "\n"
+           "Exit status: 0 done, 1 the computation failed, 2 the input is wrong.\n");
     return 0;
+}
+
+static const Command *find_command(const char *name)
+{
+    for (int32_t k = 0; k < COMMAND_COUNT; k++)
+        if (strcmp(commands[k].name, name) == 0) return &commands[k];
+    return NULL;
+}
+
+static int report_unknown(const char *name)
+{
+    const char *names[COMMAND_COUNT];
+    for (int32_t k = 0; k < COMMAND_COUNT; k++) names[k] = commands[k].name;
+    int32_t nearest = amontons_nearest_name(name, names, COMMAND_COUNT);
+    if (nearest >= 0)
+        return report_misuse("unknown command `%s`; did you mean `%s`? (`amontons --help` lists "
+                             "the commands)",
+                             name, names[nearest]);
+    return report_misuse("unknown command `%s` (`amontons --help` lists the commands)", name);
+}
+
+// `amontons help COMMAND` is `amontons COMMAND --help`.
+static int help_on(const char *name)
+{
+    const Command *command = find_command(name);
+    if (!command) return report_unknown(name);
+    char word[] = "--help";
+    char *words[] = {(char *)name, word, NULL};
+    return command->run(2, words);
+}
+
+static int run_command(int argc, char **argv)
+{
+    const char *word = argc > 1 ? argv[1] : NULL;
+    if (!word) return report_misuse("what shall be done? `amontons --help` lists the commands");
+    if (strcmp(word, "--version") == 0 || strcmp(word, "-V") == 0) {
+        printf("amontons %s\n", AMONTONS_VERSION);
+        return 0;
+    }
+    bool wants_help = strcmp(word, "help") == 0 || strcmp(word, "--help") == 0 ||
+                      strcmp(word, "-h") == 0 || strcmp(word, "-?") == 0;
+    if (wants_help) return argc > 2 ? help_on(argv[2]) : print_help();
+    const Command *command = find_command(word);
+    if (!command) return report_unknown(word);
+    return command->run(argc - 1, argv + 1);
+}
+
+int main(int argc, char **argv)
+{
+    int status = run_command(argc, argv);
+    bool written = fflush(stdout) == 0 && !ferror(stdout);
+    if (written || status != 0) return status;
+    fprintf(stderr, "amontons: error: cannot write to standard output\n");
+    return 1;
 }

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cli/closing.h"
+
+#include <dirent.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static void print_answers(const RunSummary *summary)
+{
+    if (isnan(summary->mu_M))
+        printf("  mu_M            none: mu had no peak in this run\n");
+    else
+        printf("  mu_M            %.4f +- %.4f, from %d of %d peaks\n", summary->mu_M,
+               summary->mu_M_spread, summary->peaks_counted, summary->peaks);
+    printf("  precursors      %d quasi-static, %d bounded rapid, %d leading rapid\n",
+           summary->quasi_static, summary->bounded, summary->leading);
+    if (isnan(summary->critical_length))
+        printf("  critical length not reached: no slow slip turned fast\n");
+    else
+        printf("  critical length %.3f of the block's length\n", summary->critical_length);
+    printf("  largest errors  energy %.1e, moment %.1e, contact %.1e (relative)\n",
+           summary->energy_error, summary->moment_error, summary->complementarity_error);
+    const RunCounters *counters = &summary->counters;
+    printf("  steps           %lld accepted, %lld repeated (%lld: could have grown, %lld: no "
+           "solution)\n",
+           (long long)counters->accepted,
+           (long long)(counters->rejected + counters->unsolved_retries),
+           (long long)counters->rejected_uncertified, (long long)counters->unsolved_retries);
+    printf("  time taken      %.1f s (solving %.1f, output %.1f)\n", summary->seconds_total,
+           summary->seconds_solve, summary->seconds_output);
+}
+
+static int is_picture(const struct dirent *entry)
+{
+    const char *dot = strrchr(entry->d_name, '.');
+    return dot && strcmp(dot, ".png") == 0;
+}
+
+static void print_pictures(const char *folder)
+{
+    char figures[AMONTONS_PATH_SIZE + 16];
+    struct dirent **entries = NULL;
+    snprintf(figures, sizeof figures, "%s/figures", folder);
+    int count = scandir(figures, &entries, is_picture, alphasort);
+    for (int i = 0; i < count; i++) {
+        printf("  figures/%s\n", entries[i]->d_name);
+        free(entries[i]);
+    }
+    if (count >= 0) free(entries);
+}
+
+static void print_file(const char *folder, const char *name, const char *sentence)
+{
+    char path[AMONTONS_PATH_SIZE + 32];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    if (access(path, F_OK) == 0) printf("  %-15s %s\n", name, sentence);
+}
+
+void closing_print(const char *title, const RunSummary *summary)
+{
+    printf("%s%sdone\n", title, *title ? ": " : "");
+    print_answers(summary);
+    if (!*summary->folder) return;
+    char fields[80];
+    snprintf(fields, sizeof fields, "%d times of the whole block; open it in ParaView",
+             summary->field_files);
+    printf("Results in %s:\n", summary->folder);
+    print_file(summary->folder, "run.json", "scene, answers, errors and timing in numbers");
+    print_file(summary->folder, "history.h5", "time series, and the interface at every step");
+    if (summary->field_files > 0) print_file(summary->folder, "fields.pvd", fields);
+    if (summary->figures > 0) print_pictures(summary->folder);
+}

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The last lines of `amontons run`: what was found, and where it lies.
+#ifndef AMONTONS_CLI_CLOSING_H
+#define AMONTONS_CLI_CLOSING_H
+
+#include "amontons.h"
+
+void closing_print(const char *title, const RunSummary *summary);
+
+#endif

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cli/commands.h"
+
+#include <stdio.h>
+
+enum { FIGURES_MAX = 32 };
+
+typedef struct RenderOptions {
+    const char *folder;
+    const char *figures[FIGURES_MAX];
+    int32_t figure_count;
+    bool too_many;
+} RenderOptions;
+
+static error_t take_option(int key, char *word, struct argp_state *state)
+{
+    RenderOptions *options = state->input;
+    switch (key) {
+    case 'f':
+        if (options->figure_count == FIGURES_MAX)
+            options->too_many = true;
+        else
+            options->figures[options->figure_count++] = word;
+        return 0;
+    case ARGP_KEY_ARG:
+        if (options->folder)   // --figure force slip-map: the further words are names too
+            return options->figure_count ? take_option('f', word, state)
+                                         : (options->too_many = true, 0);
+        options->folder = word;
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+int command_render(int argc, char **argv)
+{
+    static const struct argp_option known[] = {
+        {"figure", 'f', "NAME", 0,
+         "Draw only this picture: force, slip-map or contact-density. "
+         "May be given several times",
+         0},
+        {0}};
+    static const struct argp argp = {
+        .options = known,
+        .parser = take_option,
+        .args_doc = "RESULT",
+        .doc = "Draws the pictures of the result folder RESULT again, from its stored history "
+               "alone: nothing is solved. They go to RESULT/figures/NAME.png."
+               "\vWithout --figure all pictures are drawn. Example:\n\n"
+               "  amontons render fig1-result --figure force"};
+    RenderOptions options = {0};
+    Error err = {0};
+    options_parse(&argp, argc, argv, "amontons render", &options);
+    if (!options.folder)
+        return report_misuse("render needs a result folder, as in `amontons render fig1-result`");
+    if (options.too_many)
+        return report_misuse("render takes one result folder, and at most 32 pictures");
+    if (!amontons_render_result(options.folder, options.figures, options.figure_count, &err))
+        return report_error(&err);
+    printf("pictures drawn: %s/figures\n", options.folder);
+    return 0;
+}

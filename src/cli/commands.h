@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The commands of the program; main.c finds the one that is asked for. Each takes the words from
+// its own name on and returns the program's exit status: 0 done, 1 failed, 2 wrong input.
+#ifndef AMONTONS_CLI_COMMANDS_H
+#define AMONTONS_CLI_COMMANDS_H
+
+#include "amontons.h"
+
+#include <argp.h>
+
+int command_run(int argc, char **argv);
+int command_render(int argc, char **argv);
+int command_info(int argc, char **argv);
+
+// argp_parse with our exit status for wrong options; `--help` ends the program.
+void options_parse(const struct argp *argp, int argc, char **argv, const char *name, void *input);
+
+// Prints "amontons: error: ..." and gives the exit status that belongs to it.
+int report_error(const Error *err);
+int report_misuse(const char *format, ...) __attribute__((format(printf, 1, 2)));   // status 2
+
+#endif

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What all commands share in reading options and reporting errors.
+#include "cli/commands.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+void options_parse(const struct argp *argp, int argc, char **argv, const char *name, void *input)
+{
+    argp_err_exit_status = error_exit_status(ERROR_INPUT);
+    argv[0] = (char *)name;   // argp shows it, and does not write to it
+    argp_parse(argp, argc, argv, 0, NULL, input);
+}
+
+int report_error(const Error *err)
+{
+    fflush(stdout);
+    fprintf(stderr, "amontons: error: %s\n", err->message);
+    return error_exit_status(err->code);
+}
+
+int report_misuse(const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    fflush(stdout);
+    fprintf(stderr, "amontons: error: ");
+    vfprintf(stderr, format, arguments);
+    fprintf(stderr, "\n");
+    va_end(arguments);
+    return error_exit_status(ERROR_INPUT);
+}

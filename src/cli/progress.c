@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cli/progress.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+enum {
+    WIDTH_DEFAULT = 80,
+    WIDTH_MAX = 160,
+    STATE_WIDTH = 58,   // of the text beside the bar; the bar's length must not flicker with it
+    BAR_MIN = 6,
+    BAR_MAX = 40,
+};
+
+static const double draw_interval = 0.1;   // s: the eye sees no more, and a terminal costs time
+
+static double seconds_between(const struct timespec *from, const struct timespec *to)
+{
+    return (double)(to->tv_sec - from->tv_sec) + 1e-9 * (double)(to->tv_nsec - from->tv_nsec);
+}
+
+static int32_t terminal_width(void)
+{
+    struct winsize size = {0};
+    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return WIDTH_DEFAULT;
+    return size.ws_col < WIDTH_MAX ? size.ws_col : WIDTH_MAX;
+}
+
+// "1:05", "2:03:40"; "-:--" while nothing can be said.
+static void format_left(double fraction, double elapsed, char *text, size_t size)
+{
+    if (fraction < 1e-3 || elapsed < 0.2) {
+        snprintf(text, size, "-:--");
+        return;
+    }
+    double left = elapsed * (1 - fraction) / fraction;
+    long seconds = left < 3.6e6 ? (long)(left + 0.5) : 3600000;
+    if (seconds >= 3600)
+        snprintf(text, size, "%ld:%02ld:%02ld", seconds / 3600, seconds / 60 % 60, seconds % 60);
+    else
+        snprintf(text, size, "%ld:%02ld", seconds / 60, seconds % 60);
+}
+
+// "U 0.00123/0.006  mu 0.2034  dt 0.012  3 events  0:12 left"
+static void format_state(const StepView *view, double elapsed, char *text, size_t size)
+{
+    char left[32], end[32] = "";
+    format_left(view->fraction, elapsed, left, sizeof left);
+    if (view->fraction > 0) snprintf(end, sizeof end, "/%.4g", view->U / view->fraction);
+    snprintf(text, size, "U %.4g%s  mu %.4f  dt %.2g  %d event%s  %s left", view->U, end, view->mu,
+             view->step_size, view->events, view->events == 1 ? "" : "s", left);
+}
+
+static void draw_bar(const StepView *view, const char *state)
+{
+    int32_t width = terminal_width() - 1, percent = (int32_t)(100 * view->fraction);
+    int32_t bar = width - STATE_WIDTH - (int32_t)strlen("[] 100 %  ");
+    char line[2 * WIDTH_MAX], marks[BAR_MAX + 3] = "";
+    if (bar > BAR_MAX) bar = BAR_MAX;
+    if (bar >= BAR_MIN) {
+        int32_t filled = (int32_t)(view->fraction * bar);
+        marks[0] = '[';
+        memset(marks + 1, '.', (size_t)bar);
+        memset(marks + 1, '#', (size_t)(filled < bar ? filled : bar));
+        marks[bar + 1] = ']';
+    }
+    snprintf(line, sizeof line, "%s %3d %%  %s", marks, percent, state);
+    fprintf(stderr, "\r%.*s\033[K", width, line);
+    fflush(stderr);
+}
+
+Progress progress_begin(bool quiet)
+{
+    Progress progress = {.style = PROGRESS_LINES};
+    if (quiet) progress.style = PROGRESS_QUIET;
+    if (!quiet && isatty(STDERR_FILENO)) progress.style = PROGRESS_BAR;
+    if (progress.style == PROGRESS_BAR) {
+        fprintf(stderr, "preparing: mesh, matrices, relaxation ...");
+        fflush(stderr);
+        progress.bar_stands = true;
+    }
+    return progress;
+}
+
+void progress_step(const StepView *view, void *context)
+{
+    Progress *progress = context;
+    char state[WIDTH_MAX];
+    struct timespec now;
+    if (progress->style == PROGRESS_QUIET) return;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    if (!progress->running) progress->started = now;
+    double elapsed = seconds_between(&progress->started, &now);
+    if (progress->style == PROGRESS_BAR) {
+        if (progress->running && seconds_between(&progress->drawn, &now) < draw_interval) return;
+        format_state(view, elapsed, state, sizeof state);
+        draw_bar(view, state);
+        progress->drawn = now;
+        progress->bar_stands = true;
+    } else if ((int32_t)(10 * view->fraction) > progress->tenths) {
+        progress->tenths = (int32_t)(10 * view->fraction);
+        format_state(view, elapsed, state, sizeof state);
+        fprintf(stderr, "%3d %%  %s\n", 10 * progress->tenths, state);
+    }
+    progress->running = true;
+}
+
+void progress_end(Progress *progress)
+{
+    if (progress->bar_stands) {
+        fprintf(stderr, "\r\033[K");
+        fflush(stderr);
+    }
+    progress->bar_stands = false;
+}

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// How far a run is: a bar on a terminal, a line about every tenth otherwise, on standard error.
+#ifndef AMONTONS_CLI_PROGRESS_H
+#define AMONTONS_CLI_PROGRESS_H
+
+#include "amontons.h"
+
+#include <time.h>
+
+typedef enum ProgressStyle { PROGRESS_QUIET, PROGRESS_LINES, PROGRESS_BAR } ProgressStyle;
+
+typedef struct Progress {
+    ProgressStyle style;
+    struct timespec started;   // at the first step
+    struct timespec drawn;   // the bar, last
+    bool running;   // a step was seen
+    bool bar_stands;   // the cursor is in the line of the bar
+    int32_t tenths;   // lines: of the way already told
+} Progress;
+
+Progress progress_begin(bool quiet);   // looks whether standard error is a terminal
+
+void progress_step(const StepView *view, void *progress);   // a StepCallback
+
+// Clears the bar, so that something else can be printed.
+void progress_end(Progress *progress);
+
+#endif
