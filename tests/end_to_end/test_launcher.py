@@ -120,7 +120,12 @@ class PassThrough(Project):
         self.assertEqual((self.calls(), done.stderr), ([], ""))
 
     def test_help_is_the_programs(self):
-        self.assertIn("[--help]", self.run_launcher("--help").stdout)
+        """... and says that the launcher has two words more."""
+        for word in ("--help", "-h", "help"):
+            said = self.run_launcher(word).stdout
+            self.assertIn("[--help]", said)
+            self.assertRegex(said, "amontons demo.*amontons test")
+        self.assertEqual(self.run_launcher("help", "run").stdout, f"[help][run]{self.root}\n")
 
     def test_from_anywhere(self):
         link = self.folder / "am"
