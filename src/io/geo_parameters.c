@@ -10,6 +10,7 @@
 #include <errno.h>
 #include <libgen.h>
 #include <limits.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -221,6 +222,13 @@ bool geo_parameters_check(const GeoParameters *known, const char *path, const Me
         if (!item->is_text && is_text)
             FAIL(err, ERROR_INPUT, "%s: parameter '%s' is a number, found the text '%s'", path,
                  item->name, given[k].text);
+        if (strpbrk(given[k].text, "\"\n\\"))
+            FAIL(err, ERROR_INPUT,
+                 "%s: the text of parameter '%s' holds a quote, a backslash or a "
+                 "line end",
+                 path, item->name);
+        if (!is_text && !isfinite(given[k].value))
+            FAIL(err, ERROR_INPUT, "%s: parameter '%s' is not a finite number", path, item->name);
         for (int32_t j = 0; j < k; j++)
             if (strcmp(given[j].name, given[k].name) == 0)
                 FAIL(err, ERROR_INPUT, "%s: parameter '%s' is given twice", path, item->name);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The parameters a .geo takes: the names in its DefineConstant[ ... ] lists. Read from the text,
-// because gmsh passes over a -setnumber that nothing listens to. Called by io/mesh_file, cli/info.
+// because gmsh would pass over a value that nothing listens to. Called by io/mesh_file, cli/info.
 #ifndef AMONTONS_IO_GEO_PARAMETERS_H
 #define AMONTONS_IO_GEO_PARAMETERS_H
 
@@ -24,8 +24,8 @@ typedef struct GeoParameters {
 bool geo_parameters_read(const char *path, GeoParameters *known, Error *err);
 void geo_parameters_destroy(GeoParameters *known);
 
-// ERROR_INPUT for one of `given` [given_count] that the .geo does not know, is given twice, or has
-// the other type; lists those it knows.
+// ERROR_INPUT for one of `given` [given_count] that the .geo does not know (lists those it knows),
+// is given twice, has the other type, is not finite, or has a text that gmsh cannot quote.
 bool geo_parameters_check(const GeoParameters *known, const char *path, const MeshParameter *given,
                           int32_t given_count, Error *err);
 

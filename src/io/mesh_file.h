@@ -50,7 +50,7 @@ typedef struct MeshFile {
     MeshGroup *groups;            // [group_count] by dimension, then by number; owned
 } MeshFile;
 
-// One -setnumber (or -setstring) of a .geo: `DefineConstant[ nx = 80 ]` takes the value given here.
+// A value for one name of a .geo: `DefineConstant[ nx = 80 ]` takes what is given here instead.
 typedef struct MeshParameter {
     char name[GROUP_NAME_SIZE];
     double value;

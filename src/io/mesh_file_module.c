@@ -4,11 +4,15 @@
 #include "base/memory.h"
 #include "io/mesh_raw.h"
 
+#include <errno.h>
 #include <gmshc.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
-enum { ARGUMENT_SIZE = 64, MESH_ADAPT_QUADS = 8 };
+enum { SCRIPT_NAME_SIZE = 40, MESH_ADAPT_QUADS = 8 };
 
 // gmsh's first error of this session, NULL: none. `log`: what gmshLoggerGet gave.
 static const char *first_error(char **log, size_t count)
@@ -65,36 +69,16 @@ static bool gmsh_complained(void)
     return complained;
 }
 
-// Starts gmsh with the parameters as its command line: that is what DefineConstant listens to.
-static bool gmsh_begin(const MeshRawRequest *request, Error *err)
+static bool gmsh_begin(Error *err)
 {
-    int32_t count = 3 * request->parameter_count + 1;
-    char **argv = NULL;
-    char(*texts)[ARGUMENT_SIZE] = NULL;
+    char name[] = "gmsh", *argv[] = {name, NULL};
     int status = 0;
-    if (!(argv = NEW_ARRAY(char *, count + 1, err))) goto cleanup;
-    if (!(texts = memory_array(count, sizeof *texts, err))) goto cleanup;
-    snprintf(texts[0], ARGUMENT_SIZE, "gmsh");
-    for (int32_t k = 0; k < request->parameter_count; k++) {
-        const MeshParameter *parameter = &request->parameters[k];
-        char(*three)[ARGUMENT_SIZE] = texts + 3 * k + 1;
-        bool is_text = parameter->text[0] != '\0';
-        snprintf(three[0], ARGUMENT_SIZE, "%s", is_text ? "-setstring" : "-setnumber");
-        snprintf(three[1], ARGUMENT_SIZE, "%s", parameter->name);
-        if (is_text)
-            snprintf(three[2], ARGUMENT_SIZE, "%s", parameter->text);
-        else
-            snprintf(three[2], ARGUMENT_SIZE, "%.17g", parameter->value);
-    }
-    for (int32_t k = 0; k < count; k++) argv[k] = texts[k];
-    gmshInitialize(count, argv, 0, &status);
+    gmshInitialize(1, argv, 0, &status);
     if (status) FAIL(err, ERROR_LIBRARY, "gmsh does not start (status %d)", status);
     gmshOptionSetNumber("General.Terminal", 0, &status);
     gmshOptionSetNumber("General.NumThreads", 1, &status);
     gmshLoggerStart(&status);
 cleanup:
-    memory_free(texts);
-    memory_free(argv);
     return error_is_clean(err);
 }
 
@@ -105,15 +89,52 @@ static void gmsh_end(void)
     gmshFinalize(&status);
 }
 
+// A script in memory that sets the parameters and includes the .geo: DefineConstant leaves alone
+// what has a value. (-setnumber would do, but gmsh keeps it for every later session of the
+// process.) Returns its descriptor, -1 on failure; `name` becomes the name to open it by.
+static int open_script(const MeshRawRequest *request, char name[SCRIPT_NAME_SIZE], Error *err)
+{
+    char *path = realpath(request->path, NULL);
+    int script = memfd_create("parameters.geo", MFD_CLOEXEC);
+    if (!path || script < 0)
+        FAIL(err, ERROR_FILE, "%s: its parameters cannot be set: %s", request->path,
+             strerror(errno));
+    if (strchr(path, '"'))
+        FAIL(err, ERROR_INPUT, "%s: gmsh cannot include a file with a quote in its path", path);
+    for (int32_t k = 0; k < request->parameter_count; k++) {
+        const MeshParameter *parameter = &request->parameters[k];
+        if (parameter->text[0])
+            dprintf(script, "%s = \"%s\";\n", parameter->name, parameter->text);
+        else
+            dprintf(script, "%s = %.17g;\n", parameter->name, parameter->value);
+    }
+    dprintf(script, "Include \"%s\";\n", path);
+    snprintf(name, SCRIPT_NAME_SIZE, "/proc/self/fd/%d", script);
+cleanup:
+    free(path);
+    return script;
+}
+
+static bool gmsh_open(const MeshRawRequest *request, Error *err)
+{
+    char name[SCRIPT_NAME_SIZE];
+    int status = 0, script = -1;
+    if (request->parameter_count > 0) {
+        script = open_script(request, name, err);
+        TRY(error_is_clean(err));
+    }
+    gmshOpen(script >= 0 ? name : request->path, &status);
+    if (status || gmsh_complained()) fail_with_log(request, "reading it", err);
+cleanup:
+    if (script >= 0) close(script);
+    return error_is_clean(err);
+}
+
 static bool gmsh_load(const MeshRawRequest *request, Error *err)
 {
     int status = 0;
     double algorithm = 0;
-    gmshOpen(request->path, &status);
-    if (status || gmsh_complained()) {
-        fail_with_log(request, "reading it", err);
-        goto cleanup;
-    }
+    TRY(gmsh_open(request, err));
     if (!request->generate) goto cleanup;
     gmshOptionGetNumber("Mesh.Algorithm", &algorithm, &status);
     if (status == 0 && algorithm == MESH_ADAPT_QUADS)
@@ -274,7 +295,7 @@ __attribute__((visibility("default"))) bool amontons_gmsh_read(const MeshRawRequ
 {
     bool begun = false;
     *raw = (MeshRaw){0};
-    TRY(begun = gmsh_begin(request, err));
+    TRY(begun = gmsh_begin(err));
     TRY(gmsh_load(request, err));
     for (int dimension = 0; dimension <= 3; dimension++) TRY(fetch_nodes(dimension, raw, err));
     TRY(fetch_all_elements(raw, err));
