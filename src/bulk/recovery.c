@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Strains are taken at the nodes of each element. On a regular mesh the mean over the elements at an
+// inner node is a central difference, one order better than each of them.
+#include "bulk/recovery.h"
+
+#include "base/memory.h"
+#include "bulk/element.h"
+
+#include <math.h>
+#include <string.h>
+
+bool nodal_stress_create(const Mesh *mesh, NodalStress *stress, Error *err)
+{
+    int64_t count = mesh->node_count;
+    *stress = (NodalStress){.node_count = mesh->node_count};
+    stress->elastic = NEW_ARRAY(double, 3 * count, err);
+    stress->total = NEW_ARRAY(double, 3 * count, err);
+    stress->von_mises = NEW_ARRAY(double, count, err);
+    stress->shares = NEW_ARRAY(int32_t, count, err);
+    return error_is_clean(err);
+}
+
+void nodal_stress_destroy(NodalStress *stress)
+{
+    memory_free(stress->elastic);
+    memory_free(stress->total);
+    memory_free(stress->von_mises);
+    memory_free(stress->shares);
+    *stress = (NodalStress){0};
+}
+
+typedef struct Strains {
+    double strain[3], rate[3];   // xx, zz, 2 xz
+} Strains;
+
+static Strains strains_at(const Mesh *mesh, int32_t e, const double point[2],
+                          const double *displacement, const double *velocity)
+{
+    const int32_t *element = mesh->element_nodes + mesh->first_node[e];
+    int32_t nodes = mesh->first_node[e + 1] - mesh->first_node[e];
+    double position[ELEMENT_NODES_MAX][2], b[3][ELEMENT_DOFS_MAX];
+    for (int32_t a = 0; a < nodes; a++)
+        memcpy(position[a], mesh->position + 2 * element[a], sizeof position[a]);
+    element_strain_matrix(mesh->kind[e], (const double(*)[2])position, point, b);
+    Strains found = {0};
+    for (int32_t a = 0; a < nodes; a++) {
+        for (int d = 0; d < 2; d++) {
+            int32_t dof = 2 * element[a] + d;
+            for (int r = 0; r < 3; r++) {
+                found.strain[r] += b[r][2 * a + d] * displacement[dof];
+                found.rate[r] += b[r][2 * a + d] * velocity[dof];
+            }
+        }
+    }
+    return found;
+}
+
+static double von_mises(const double stress[3], double out_of_plane)
+{
+    double xx = stress[0], zz = stress[1], xz = stress[2], yy = out_of_plane;
+    return sqrt(0.5 * ((xx - yy) * (xx - yy) + (yy - zz) * (yy - zz) + (zz - xx) * (zz - xx)) +
+                3 * xz * xz);
+}
+
+void nodal_stress_recover(const Mesh *mesh, const Material *material, const double *displacement,
+                          const double *velocity, NodalStress *stress)
+{
+    double elastic[3][3], viscous[3][3];
+    material_elastic(material, elastic);
+    material_viscous(material, viscous);
+    size_t nodes = (size_t)stress->node_count;
+    memset(stress->elastic, 0, 3 * nodes * sizeof(double));
+    memset(stress->total, 0, 3 * nodes * sizeof(double));
+    memset(stress->von_mises, 0, nodes * sizeof(double));
+    memset(stress->shares, 0, nodes * sizeof(int32_t));
+    for (int32_t e = 0; e < mesh->element_count; e++) {
+        const int32_t *element = mesh->element_nodes + mesh->first_node[e];
+        int32_t count = mesh->first_node[e + 1] - mesh->first_node[e];
+        for (int32_t a = 0; a < count; a++) {
+            double point[2];
+            shape_node(mesh->kind[e], a, &point[0], &point[1]);
+            Strains at = strains_at(mesh, e, point, displacement, velocity);
+            int32_t node = element[a];
+            for (int r = 0; r < 3; r++) {
+                double held = 0, damped = 0;
+                for (int c = 0; c < 3; c++) {
+                    held += elastic[r][c] * at.strain[c];
+                    damped += viscous[r][c] * at.rate[c];
+                }
+                stress->elastic[3 * node + r] += held;
+                stress->total[3 * node + r] += held + damped;
+            }
+            // Until the mean is taken the array holds the out-of-plane stress.
+            stress->von_mises[node] += material_out_of_plane(material, at.strain, at.rate);
+            stress->shares[node]++;
+        }
+    }
+    for (int32_t node = 0; node < stress->node_count; node++) {
+        double share = 1.0 / stress->shares[node];
+        for (int r = 0; r < 3; r++) {
+            stress->elastic[3 * node + r] *= share;
+            stress->total[3 * node + r] *= share;
+        }
+        stress->von_mises[node] =
+            von_mises(stress->total + 3 * node, share * stress->von_mises[node]);
+    }
+}

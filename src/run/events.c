@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "run/events.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+// Against the rod's velocity. Quasi-static slip stays below 1 in parameter set A (bounded events
+// reach 3 to 6, leading ones 90), so 2 and 1 leave room on both sides.
+static const double RATE_START = 2, RATE_STOP = 1;
+enum { FIRST_ROOM = 64 };
+
+const char *event_name(EventKind kind)
+{
+    static const char *const names[] = {
+#define X(symbol, name) name,
+        EVENT_KINDS(X)
+#undef X
+    };
+    return names[kind];
+}
+
+bool events_create(const Interface *interface, double rate_scale, Events *events, Error *err)
+{
+    *events = (Events){.rate_start = RATE_START * rate_scale,
+                       .rate_stop = RATE_STOP * rate_scale,
+                       .rapid = -1,
+                       .slow = -1,
+                       .room = FIRST_ROOM};
+    events->list = NEW_ARRAY(Event, FIRST_ROOM, err);
+    events->slipped = NEW_ARRAY(uint8_t, interface->contact_count, err);
+    return error_is_clean(err);
+}
+
+void events_destroy(Events *events)
+{
+    memory_free(events->list);
+    memory_free(events->slipped);
+    *events = (Events){0};
+}
+
+static bool start_event(Events *events, EventKind kind, const Observation *seen, int32_t *index,
+                        Error *err)
+{
+    if (events->count == events->room) {
+        Event *longer = memory_resize(events->list, events->room, 2 * (int64_t)events->room,
+                                      sizeof(Event), err);
+        if (!longer) goto cleanup;
+        events->list = longer;
+        events->room *= 2;
+    }
+    *index = events->count++;
+    events->kinds[kind]++;
+    events->list[*index] = (Event){.kind = kind,
+                                   .U_start = seen->U,
+                                   .t_start = seen->t,
+                                   .front_start = seen->front,
+                                   .reach = seen->front,
+                                   .front_speed = NAN};
+cleanup:
+    return error_is_clean(err);
+}
+
+static void extend_event(Event *event, const Observation *seen, double reach)
+{
+    event->U_stop = seen->U;
+    event->t_stop = seen->t;
+    event->reach = fmax(event->reach, reach);
+    event->peak_slip_rate = fmax(event->peak_slip_rate, seen->max_slip_rate);
+}
+
+static void end_slow(Events *events)
+{
+    if (events->slow < 0) return;
+    Event *event = &events->list[events->slow];
+    double duration = event->t_stop - event->t_start;
+    if (duration > 0 && event->reach > event->front_start)
+        event->front_speed = (event->reach - event->front_start) / duration;
+    events->slow = -1;
+}
+
+// The x up to which every node has slipped in this event; all: the last one too.
+static double mark_slipped(Events *events, const Observation *seen, bool *all)
+{
+    const Interface *interface = seen->interface;
+    double reach = interface->x[0];
+    *all = true;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        if (seen->state->status[i] != CONTACT_STICK) events->slipped[i] = 1;
+        if (!events->slipped[i]) *all = false;
+        if (*all) reach = interface->x[i];
+    }
+    return reach;
+}
+
+// The farthest node that slips fast.
+static double fast_front(const Events *events, const Observation *seen)
+{
+    const Interface *interface = seen->interface;
+    for (int32_t i = interface->contact_count - 1; i >= 0; i--) {
+        if (fabs(seen->state->slip_rate[interface_tangent(i)]) > events->rate_start)
+            return interface->x[i];
+    }
+    return NAN;
+}
+
+static void follow_rapid(Events *events, const Observation *seen)
+{
+    Event *event = &events->list[events->rapid];
+    bool all = false;
+    double before = event->reach, reach = mark_slipped(events, seen, &all);
+    extend_event(event, seen, reach);
+    double front = fast_front(events, seen), elapsed = seen->t - events->fast_t_start;
+    if (front > events->fast_front_start && event->reach > before && elapsed > 0)
+        event->front_speed = (front - events->fast_front_start) / elapsed;
+    if (all && event->kind != EVENT_LEADING) {
+        events->kinds[event->kind]--;
+        events->kinds[EVENT_LEADING]++;
+        event->kind = EVENT_LEADING;
+        events->crossed = true;
+        end_slow(events);
+    }
+}
+
+bool events_record(void *self, const Observation *seen, Error *err)
+{
+    Events *events = self;
+    events->began = events->ended = events->crossed = false;
+    if (events->rapid < 0 && seen->max_slip_rate > events->rate_start) {
+        TRY(start_event(events, EVENT_BOUNDED, seen, &events->rapid, err));
+        events->began = true;
+        memset(events->slipped, 0, (size_t)seen->interface->contact_count);
+        events->fast_front_start = fast_front(events, seen);
+        events->fast_t_start = seen->t;
+    }
+    if (events->rapid >= 0) {
+        follow_rapid(events, seen);
+        if (seen->max_slip_rate < events->rate_stop) {
+            events->rapid = -1;
+            events->ended = true;
+        }
+        goto cleanup;
+    }
+    bool slips = seen->front > seen->interface->x[0] && seen->max_slip_rate > 0;
+    if (events->slow < 0 && slips)
+        TRY(start_event(events, EVENT_QUASI_STATIC, seen, &events->slow, err));
+    if (events->slow >= 0) extend_event(&events->list[events->slow], seen, seen->front);
+cleanup:
+    return error_is_clean(err);
+}
+
+void events_close(Events *events, const Observation *last)
+{
+    if (events->rapid >= 0) extend_event(&events->list[events->rapid], last, 0);
+    events->rapid = -1;
+    end_slow(events);
+}

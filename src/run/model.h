@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// From a scene to the parts that step: mesh, material, law, operators, step control. The one place
+// that translates the scene's words into the definitions of the layers below.
+#ifndef AMONTONS_RUN_MODEL_H
+#define AMONTONS_RUN_MODEL_H
+
+#include "run/simulation.h"
+
+// Each needs the ones before it.
+bool model_read_mesh(Simulation *simulation, Error *err);
+bool model_assemble(Simulation *simulation, Error *err);   // material, bulk, loads, interface
+bool model_prepare_steps(Simulation *simulation, Error *err);
+bool model_relax(Simulation *simulation, Error *err);   // to t = 0, the rod in place
+
+#endif

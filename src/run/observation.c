@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "run/observation.h"
+
+#include <math.h>
+
+static double slip_front(const Interface *interface, const State *state)
+{
+    double front = interface->x[0];
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        if (state->status[i] == CONTACT_STICK) break;
+        front = interface->x[i];
+    }
+    return front;
+}
+
+// Moments about the origin, x F_z - z F_x, of everything but inertia; and of inertia.
+typedef struct Moments {
+    double forces, inertia;
+} Moments;
+
+static Moments sum_moments(const StepControl *control, const Mesh *mesh)
+{
+    const Bulk *bulk = control->scheme.system->bulk;
+    const Interface *interface = control->scheme.interface;
+    const State *state = &control->now;
+    Moments sum = {0};
+    for (int32_t node = 0; node < mesh->node_count; node++) {
+        double x = mesh->position[2 * node], z = mesh->position[2 * node + 1];
+        const double *load = bulk->load + 2 * node, *a = state->acceleration + 2 * node;
+        sum.forces += x * load[1] - z * load[0];
+        sum.inertia += bulk->mass[2 * node] * (x * a[1] - z * a[0]);
+    }
+    for (int32_t i = 0; i < interface->contact_count; i++)
+        sum.forces += interface->x[i] * state->reaction[interface_normal(i)];
+    for (int32_t j = 0; j < interface->rod_count; j++)
+        sum.forces -= interface->rod_z[j] * state->reaction[interface_rod(interface, j)];
+    return sum;
+}
+
+Observation observe(const StepControl *control, const Mesh *mesh, const ObservationScales *scales)
+{
+    const Sdirk2 *scheme = &control->scheme;
+    const Interface *interface = scheme->interface;
+    const State *state = &control->now;
+    Observation seen = {.state = state,
+                        .interface = interface,
+                        .t = state->time,
+                        .U = scheme->rod->velocity * state->time,
+                        .step_size = control->counters.accepted > 0 ? control->last_step : 0,
+                        .rod_force = rod_force(interface, state->reaction),
+                        .front = slip_front(interface, state),
+                        .certified = control->certified};
+    seen.mu = seen.rod_force / scales->load;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        seen.normal_force += state->reaction[interface_normal(i)];
+        seen.max_slip_rate = fmax(seen.max_slip_rate, fabs(state->slip_rate[interface_tangent(i)]));
+    }
+    Moments moments = sum_moments(control, mesh);
+    double moment_scale = scales->load * scales->length;
+    seen.moment_error = fabs(moments.forces - moments.inertia) / moment_scale;
+    seen.moment_static_error = fabs(moments.forces) / moment_scale;
+    seen.energy_imbalance = energy_imbalance(&control->ledger);
+    double turnover = energy_turnover(&control->ledger);
+    seen.energy_error = turnover > 0 ? fabs(seen.energy_imbalance) / turnover : 0;
+    if (control->counters.accepted > 0) {
+        // The scheme still holds the bounds of the accepted step's last stage.
+        ContactProblem problem = {.interface = interface,
+                                  .law = scheme->law,
+                                  .rod_kind = scheme->rod->kind,
+                                  .bound = scheme->bound};
+        ContactResidual residual = contact_residual(&problem, state->slip_rate, state->reaction,
+                                                    scales->load / interface->contact_count,
+                                                    scales->slip_velocity);
+        seen.contact_error = contact_residual_max(&residual);
+        seen.equation_error = control->outcome.residual / scales->load;
+    }
+    return seen;
+}

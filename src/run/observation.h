@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What is read off an accepted step, once, for everybody who records: forces, front, rates, and how
+// well the step keeps its balances. Made by run/simulation, taken by the recorders.
+#ifndef AMONTONS_RUN_OBSERVATION_H
+#define AMONTONS_RUN_OBSERVATION_H
+
+#include "contact/contact_check.h"
+#include "stepping/step_control.h"
+
+typedef struct Observation {
+    const State *state;   // not owned
+    const Interface *interface;   // not owned
+    double t, U;   // time, length
+    double step_size;   // of the step that ended here; 0 at the start
+    double rod_force;   // F_T, force/width
+    double normal_force;   // resultant of the contact pressure, force/width
+    double mu;   // F_T / F_N, F_N the applied load
+    double front;   // x to which slip reaches without a gap from the trailing edge
+    double max_slip_rate;   // velocity
+    bool certified;
+    double energy_imbalance;   // energy/width, since the start
+    double energy_error;   // the same, relative to the energy turned over
+    double moment_error;   // of all forces and inertia about the origin, relative to F_N L
+    double moment_static_error;   // the same without inertia
+    double contact_error;   // largest violation of the contact conditions, relative
+    double equation_error;   // largest residual of M a + C v + K u = f + r, relative to F_N
+} Observation;
+
+// What the observation is measured against.
+typedef struct ObservationScales {
+    double load;   // F_N, force/width
+    double length;   // L, length
+    double slip_velocity;   // velocity
+} ObservationScales;
+
+Observation observe(const StepControl *control, const Mesh *mesh, const ObservationScales *scales);
+
+#endif

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "run/report.h"
+
+#include "io/json_writer.h"
+#include "run/scene_keys.h"
+
+#include <stdio.h>
+
+static void write_steps(JsonWriter *json, const RunCounters *counters)
+{
+    json_begin_object(json, "steps");
+    json_integer(json, "accepted", counters->accepted);
+    json_integer(json, "rejected", counters->rejected);
+    json_integer(json, "rejected_uncertified", counters->rejected_uncertified);
+    json_integer(json, "unsolved_retries", counters->unsolved_retries);
+    json_integer(json, "factorisations", counters->factorisations);
+    json_integer(json, "solves", counters->solves);
+    json_integer(json, "contact_solves", counters->contact_solves);
+    json_integer(json, "contact_iterations", counters->contact_iterations);
+    json_integer(json, "contact_fallbacks", counters->contact_fallbacks);
+    json_integer(json, "certificates", counters->certificates);
+    json_integer(json, "loop_allocations", counters->loop_allocations);
+    json_end(json);
+}
+
+static void write_rungs(JsonWriter *json, const Ladder *ladder)
+{
+    json_begin_list(json, "rungs");
+    for (int32_t k = 0; ladder && k < ladder->rung_count; k++) {
+        if (ladder->accepted[k] == 0) continue;
+        json_begin_object(json, NULL);
+        json_number(json, "dt", ladder_step(ladder, k));
+        json_integer(json, "accepted", ladder->accepted[k]);
+        json_end(json);
+    }
+    json_end(json);
+}
+
+static void write_timing(JsonWriter *json, const RunTiming *timing)
+{
+    json_begin_object(json, "timing_s");
+    json_number(json, "mesh", timing->mesh);
+    json_number(json, "reduce", timing->reduce);
+    json_number(json, "relax", timing->relax);
+    json_number(json, "solve", timing->solve);
+    json_number(json, "output", timing->output);
+    json_number(json, "total", timing->total);
+    json_end(json);
+}
+
+static void write_model(JsonWriter *json, const RunModel *model)
+{
+    json_begin_object(json, "model");
+    json_integer(json, "contact_nodes", model->contact_nodes);
+    json_integer(json, "rod_nodes", model->rod_nodes);
+    json_integer(json, "elements", model->elements);
+    json_integer(json, "full_dofs", model->full_dofs);
+    json_integer(json, "reduced_dofs", model->reduced_dofs);
+    json_boolean(json, "from_cache", false);
+    json_number(json, "length", model->length);
+    json_number(json, "height", model->height);
+    json_integer(json, "relaxation_steps", model->relaxation_steps);
+    json_end(json);
+}
+
+static void write_events(JsonWriter *json, const Events *events)
+{
+    json_begin_list(json, "events");
+    for (int32_t k = 0; k < events->count; k++) {
+        const Event *event = &events->list[k];
+        json_begin_object(json, NULL);
+        json_text(json, "kind", event_name(event->kind));
+        json_number(json, "U_start", event->U_start);
+        json_number(json, "U_stop", event->U_stop);
+        json_number(json, "t_start", event->t_start);
+        json_number(json, "t_stop", event->t_stop);
+        json_number(json, "front_start", event->front_start);
+        json_number(json, "reach", event->reach);
+        json_number(json, "peak_slip_rate", event->peak_slip_rate);
+        json_number(json, "front_speed", event->front_speed);
+        json_end(json);
+    }
+    json_end(json);
+}
+
+static void write_results(JsonWriter *json, const RunReport *report)
+{
+    const PeaksSummary *summary = report->summary;
+    double length = report->model->length;
+    json_begin_object(json, "results");
+    json_number(json, "mu_M", summary->mu_M);
+    json_number(json, "mu_M_spread", summary->spread);
+    json_integer(json, "mu_M_peaks", summary->counted);
+    json_boolean(json, "periodic", summary->periodic);
+    json_number(json, "mu_max", report->peaks->mu_max);
+    json_number(json, "l_sc_over_L", summary->subcritical_length / length);
+    json_number(json, "l_c_over_L", summary->critical_length / length);
+    json_begin_list(json, "peaks");
+    for (int32_t k = 0; k < report->peaks->count; k++) {
+        const Peak *peak = &report->peaks->list[k];
+        json_begin_object(json, NULL);
+        json_number(json, "U", peak->U);
+        json_number(json, "mu", peak->mu);
+        json_boolean(json, "counts", peak->counts);
+        json_number(json, "l_sc_over_L", peak->front_uncertified / length);
+        json_number(json, "l_c_over_L", peak->front / length);
+        json_end(json);
+    }
+    json_end(json);
+    write_events(json, report->events);
+    json_end(json);
+}
+
+static void write_errors(JsonWriter *json, const RunErrors *errors)
+{
+    json_begin_object(json, "errors");
+    json_number(json, "energy", errors->energy);
+    json_number(json, "complementarity", errors->complementarity);
+    json_number(json, "moment", errors->moment);
+    json_number(json, "moment_quasi_static", errors->moment_quasi_static);
+    json_number(json, "equation", errors->equation);
+    json_number(json, "reduction", 0);   // the full mesh is solved
+    json_end(json);
+}
+
+bool report_write(const char *folder, const RunReport *report, Error *err)
+{
+    char path[AMONTONS_PATH_SIZE + 16];
+    snprintf(path, sizeof path, "%s/run.json", folder);
+    JsonWriter *json = json_create(path, err);
+    if (!json) return false;
+    json_begin_object(json, NULL);
+    json_text(json, "status", report->failure ? "failed" : "done");
+    if (report->failure) {
+        json_text(json, "failure", error_name(report->failure->code));
+        json_text(json, "message", report->failure->message);
+    }
+    json_text(json, "version", AMONTONS_VERSION);
+    scene_write_json(report->scene, json, "scene");
+    write_steps(json, report->counters);
+    write_rungs(json, report->ladder);
+    write_timing(json, report->timing);
+    write_model(json, report->model);
+    write_results(json, report);
+    write_errors(json, report->errors);
+    json_end(json);
+    return json_finish(json, err);
+}

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// run.json: what was asked, what was done, what came out and how far it can be trusted. One object,
+// written last, atomically. Keys that DESIGN section 5 names keep their names.
+#ifndef AMONTONS_RUN_REPORT_H
+#define AMONTONS_RUN_REPORT_H
+
+#include "amontons.h"
+#include "run/peaks.h"
+#include "run/scene.h"
+
+// The largest of each kind of error over a run's accepted steps, relative (run/observation).
+typedef struct RunErrors {
+    double energy, complementarity, moment, equation;
+    double moment_quasi_static;   // without inertia, over frames in which nothing is fast
+} RunErrors;
+
+typedef struct RunTiming {
+    double mesh, reduce, relax, solve, output, total;   // s
+} RunTiming;
+
+typedef struct RunModel {
+    int32_t contact_nodes, rod_nodes, full_dofs, reduced_dofs, elements;
+    double length, height;
+    int64_t relaxation_steps;
+} RunModel;
+
+// Nothing is owned.
+typedef struct RunReport {
+    const Scene *scene;
+    const Error *failure;   // NULL: done
+    const RunCounters *counters;
+    const Ladder *ladder;   // NULL: the run never came to it
+    const RunTiming *timing;
+    const RunModel *model;
+    const RunErrors *errors;
+    const Peaks *peaks;
+    const PeaksSummary *summary;
+    const Events *events;
+} RunReport;
+
+bool report_write(const char *folder, const RunReport *report, Error *err);
+
+#endif

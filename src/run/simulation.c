@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// mesh -> bulk and interface -> steps prepared -> relaxed -> recorders -> steps -> results.
+#include "run/simulation.h"
+
+#include "base/clock.h"
+#include "base/dense.h"
+#include "base/memory.h"
+#include "run/model.h"
+#include "run/result_folder.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+// A frame counts as quasi-static for the moment balance when nothing in the bulk moves faster than
+// this many times the rod.
+static const double QUASI_STATIC_SPEED = 2;
+
+static bool writes_results(const Simulation *simulation)
+{
+    return simulation->folder[0] != 0;
+}
+
+static bool report_step(void *self, const Observation *seen, Error *err)
+{
+    (void)err;
+    Simulation *simulation = self;
+    if (!simulation->options.on_step) return true;
+    const int32_t *kinds = simulation->events.kinds;
+    StepView view = {.t = seen->t,
+                     .U = seen->U,
+                     .mu = seen->mu,
+                     .step_size = seen->step_size,
+                     .front = seen->front,
+                     .max_slip_rate = seen->max_slip_rate,
+                     .fraction = fmin(seen->t / simulation->t_end, 1),
+                     .certified = seen->certified,
+                     .events = kinds[EVENT_BOUNDED] + kinds[EVENT_LEADING],
+                     .slidings = kinds[EVENT_LEADING]};
+    simulation->options.on_step(&view, simulation->options.context);
+    return true;
+}
+
+static bool open_history(Simulation *simulation, Error *err)
+{
+    const Scene *scene = &simulation->scene;
+    WaveSpeeds speeds = material_speeds(&simulation->material);
+    ResultHead head = {.title = scene->title,
+                       .units = scene->units == UNITS_SI ? "si" : "normalised",
+                       .version = AMONTONS_VERSION,
+                       .numbers = {[NUMBER_LENGTH] = simulation->model.length,
+                                   [NUMBER_PRESSURE] = scene->load.pressure,
+                                   [NUMBER_LOAD] = simulation->scales.load,
+                                   [NUMBER_ROD_VELOCITY] = scene->rod.velocity,
+                                   [NUMBER_CRITICAL_VELOCITY] = simulation->law.critical_velocity,
+                                   [NUMBER_MU_STATIC] = simulation->law.mu_static,
+                                   [NUMBER_MU_KINETIC] = simulation->law.mu_kinetic,
+                                   [NUMBER_C_LONGITUDINAL] = speeds.longitudinal,
+                                   [NUMBER_C_SHEAR] = speeds.shear,
+                                   [NUMBER_C_RAYLEIGH] = speeds.rayleigh,
+                                   [NUMBER_MU_M] = NAN,
+                                   [NUMBER_L_C] = NAN}};
+    TRY(history_create(simulation->folder, &head, &simulation->interface, &simulation->law,
+                       &simulation->history, err));
+    recorders_add(&simulation->recorders, &simulation->history, history_record);
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool open_fields(Simulation *simulation, Error *err)
+{
+    const Scene *scene = &simulation->scene;
+    FieldsDef def = {.every_U = scene->output.fields_every_U,
+                     .every_t = scene->output.fields_every_t,
+                     .at_events = scene->output.fields_at_events};
+    TRY(fields_create(&def, simulation->folder, &simulation->mesh, &simulation->interface,
+                      &simulation->fields, err));
+    simulation->fields.material = &simulation->material;
+    simulation->fields.law = &simulation->law;
+    simulation->fields.events = &simulation->events;
+    recorders_add(&simulation->recorders, &simulation->fields, fields_record);
+cleanup:
+    return error_is_clean(err);
+}
+
+// Events come first: the others read them.
+static bool open_recorders(Simulation *simulation, Error *err)
+{
+    const Scene *scene = &simulation->scene;
+    TRY(events_create(&simulation->interface, simulation->scales.slip_velocity, &simulation->events,
+                      err));
+    recorders_add(&simulation->recorders, &simulation->events, events_record);
+    TRY(peaks_create(&simulation->events, scene->time.periodic_tolerance, &simulation->peaks, err));
+    recorders_add(&simulation->recorders, &simulation->peaks, peaks_record);
+    if (writes_results(simulation) && scene->output.history) TRY(open_history(simulation, err));
+    if (writes_results(simulation) && scene->output.fields) TRY(open_fields(simulation, err));
+    recorders_add(&simulation->recorders, simulation, report_step);
+cleanup:
+    return error_is_clean(err);
+}
+
+// Looks at the state just accepted and hands it on.
+static bool record_step(Simulation *simulation, Error *err)
+{
+    StepControl *control = &simulation->control;
+    double started = clock_seconds();
+    Observation seen = observe(control, &simulation->mesh, &simulation->scales);
+    simulation->seen = seen;
+    RunErrors *errors = &simulation->errors;
+    errors->energy = fmax(errors->energy, seen.energy_error);
+    errors->complementarity = fmax(errors->complementarity, seen.contact_error);
+    errors->equation = fmax(errors->equation, seen.equation_error);
+    if (control->counters.accepted > 0) {
+        errors->moment = fmax(errors->moment, seen.moment_error);
+        double fastest = dense_max_abs(control->now.velocity, control->now.dof_count);
+        if (fastest < QUASI_STATIC_SPEED * simulation->scales.slip_velocity)
+            errors->moment_quasi_static =
+                fmax(errors->moment_quasi_static, seen.moment_static_error);
+    }
+    TRY(recorders_record(&simulation->recorders, &seen, err));
+    if (seen.energy_error > simulation->scene.time.energy_tolerance)
+        FAIL(err, ERROR_COMPUTE,
+             "at t = %g the energy ledger does not close: %.3g of the energy turned over is "
+             "missing, "
+             "time.energy_tolerance allows %g; lower time.tolerance",
+             seen.t, seen.energy_error, simulation->scene.time.energy_tolerance);
+cleanup:
+    simulation->timing.output += clock_seconds() - started;
+    return error_is_clean(err);
+}
+
+bool amontons_simulation_create(const Scene *scene, const RunOptions *options, Simulation **out,
+                                Error *err)
+{
+    *out = NULL;
+    Simulation *simulation = NEW_ARRAY(Simulation, 1, err);
+    if (!simulation) goto cleanup;
+    *out = simulation;   // also when a stage fails: what is there can be reported and destroyed
+    simulation->scene = *scene;
+    simulation->options = *options;
+    simulation->started = clock_seconds();
+    dense_use_one_thread();
+    if (options->folder) {
+        if (snprintf(simulation->folder, sizeof simulation->folder, "%s", options->folder) >=
+            (int)sizeof simulation->folder)
+            FAIL(err, ERROR_INPUT, "the path of the result folder is too long");
+        if (!result_folder_prepare(options->folder, options->overwrite, err)) {
+            simulation->folder[0] = 0;   // not ours: not even a report goes there
+            goto cleanup;
+        }
+    }
+    TRY(model_read_mesh(simulation, err));
+    double started = clock_seconds();
+    TRY(model_assemble(simulation, err));
+    TRY(model_prepare_steps(simulation, err));
+    simulation->timing.reduce = clock_seconds() - started;
+    TRY(model_relax(simulation, err));
+    TRY(open_recorders(simulation, err));
+    TRY(record_step(simulation, err));
+    simulation->allocations_before = memory_counters().allocations;
+cleanup:
+    return error_is_clean(err);
+}
+
+bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *finished, Error *err)
+{
+    StepControl *control = &simulation->control;
+    double started = clock_seconds();
+    double remaining = simulation->t_end - control->now.time;
+    TRY(step_control_advance(control, remaining, err));
+    simulation->timing.solve += clock_seconds() - started;
+    TRY(record_step(simulation, err));
+    // What is left is less than a rung that is built: not worth a factorisation.
+    *finished = control->now.time >= simulation->t_end * (1 - 1e-9);
+    if (simulation->scene.time.until_periodic && simulation->events.crossed)
+        *finished = *finished || peaks_summarise(&simulation->peaks).periodic;
+    const Observation *seen = &simulation->seen;
+    if (view)
+        *view = (StepView){.t = seen->t,
+                           .U = seen->U,
+                           .mu = seen->mu,
+                           .step_size = seen->step_size,
+                           .front = seen->front,
+                           .max_slip_rate = seen->max_slip_rate,
+                           .fraction = fmin(seen->t / simulation->t_end, 1),
+                           .certified = seen->certified};
+cleanup:
+    return error_is_clean(err);
+}
+
+static RunCounters count_run(const Simulation *simulation)
+{
+    const StepControl *control = &simulation->control;
+    const StepCounters *steps = &control->counters;
+    const ContactSolver *solver = &control->scheme.solver;
+    return (RunCounters){.accepted = steps->accepted,
+                         .rejected = steps->rejected_error + steps->rejected_uncertified,
+                         .rejected_uncertified = steps->rejected_uncertified,
+                         .unsolved_retries = steps->unsolved,
+                         .factorisations = simulation->system.factorisations,
+                         .solves = simulation->system.solves,
+                         .contact_solves = solver->solves,
+                         .contact_iterations = solver->iterations,
+                         .contact_fallbacks = solver->fallbacks,
+                         .certificates = control->certificate.checks,
+                         .loop_allocations = simulation->allocations_before > 0
+                                                 ? memory_counters().allocations -
+                                                       simulation->allocations_before
+                                                 : 0};
+}
+
+static void summarise_run(const Simulation *simulation, const RunCounters *counters,
+                          const PeaksSummary *peaks, RunSummary *summary)
+{
+    const int32_t *kinds = simulation->events.kinds;
+    *summary = (RunSummary){.mu_M = peaks->mu_M,
+                            .mu_M_spread = peaks->spread,
+                            .peaks = simulation->peaks.count,
+                            .peaks_counted = peaks->counted,
+                            .quasi_static = kinds[EVENT_QUASI_STATIC],
+                            .bounded = kinds[EVENT_BOUNDED],
+                            .leading = kinds[EVENT_LEADING],
+                            .critical_length = peaks->critical_length / simulation->model.length,
+                            .energy_error = simulation->errors.energy,
+                            .moment_error = simulation->errors.moment,
+                            .complementarity_error = simulation->errors.complementarity,
+                            .seconds_solve = simulation->timing.solve,
+                            .seconds_output = simulation->timing.output,
+                            .seconds_total = simulation->timing.total,
+                            .counters = *counters,
+                            .field_files = simulation->fields.written,
+                            .figures = simulation->figures};
+    snprintf(summary->folder, sizeof summary->folder, "%s", simulation->folder);
+}
+
+static bool draw_figures(Simulation *simulation, Error *err)
+{
+    const SceneNames *wanted = &simulation->scene.output.figures;
+    const char *names[SCENE_LIST_MAX];
+    if (wanted->count == 0) return true;
+    for (int32_t k = 0; k < wanted->count; k++) names[k] = wanted->name[k];
+    if (!amontons_render_result(simulation->folder, names, wanted->count, err)) return false;
+    simulation->figures = wanted->count;
+    return true;
+}
+
+// Closes history, draws, reports. failure: NULL, or why the run ended early; it is reported, and what
+// was computed is kept.
+static bool finish_run(Simulation *simulation, const Error *failure, RunSummary *summary,
+                       Error *err)
+{
+    double started = clock_seconds();
+    events_close(&simulation->events, &simulation->seen);
+    PeaksSummary peaks = peaks_summarise(&simulation->peaks);
+    RunCounters counters = count_run(simulation);
+    if (simulation->history.file) {
+        TRY(history_finish(&simulation->history, &simulation->peaks, &simulation->events, &peaks,
+                           err));
+        TRY(draw_figures(simulation, err));
+    }
+    simulation->timing.output += clock_seconds() - started;
+    simulation->timing.total = clock_seconds() - simulation->started;
+    if (writes_results(simulation)) {
+        RunReport report = {.scene = &simulation->scene,
+                            .failure = failure,
+                            .counters = &counters,
+                            .ladder = &simulation->control.ladder,
+                            .timing = &simulation->timing,
+                            .model = &simulation->model,
+                            .errors = &simulation->errors,
+                            .peaks = &simulation->peaks,
+                            .summary = &peaks,
+                            .events = &simulation->events};
+        TRY(report_write(simulation->folder, &report, err));
+    }
+    summarise_run(simulation, &counters, &peaks, summary);
+cleanup:
+    return error_is_clean(err);
+}
+
+bool amontons_simulation_finish(Simulation *simulation, RunSummary *summary, Error *err)
+{
+    return finish_run(simulation, NULL, summary, err);
+}
+
+void amontons_simulation_destroy(Simulation *simulation)
+{
+    if (!simulation) return;
+    fields_destroy(&simulation->fields);
+    history_destroy(&simulation->history);
+    peaks_destroy(&simulation->peaks);
+    events_destroy(&simulation->events);
+    step_control_destroy(&simulation->control);
+    rod_destroy(&simulation->rod);
+    bulk_operator_destroy(&simulation->system);
+    interface_destroy(&simulation->interface);
+    bulk_destroy(&simulation->bulk);
+    mesh_destroy(&simulation->mesh);
+    memory_free(simulation);
+}
+
+bool amontons_run(const Scene *scene, const RunOptions *options, RunSummary *summary, Error *err)
+{
+    Simulation *simulation = NULL;
+    bool finished = false;
+    *summary = (RunSummary){.mu_M = NAN};
+    TRY(amontons_simulation_create(scene, options, &simulation, err));
+    while (!finished) {
+        TRY(amontons_simulation_step(simulation, NULL, &finished, err));
+        if (options->stop && *options->stop)
+            FAIL(err, ERROR_INTERRUPT,
+                 "stopped at U = %g (t = %g); what was computed is kept in %s", simulation->seen.U,
+                 simulation->seen.t, simulation->folder);
+    }
+    TRY(amontons_simulation_finish(simulation, summary, err));
+cleanup:
+    if (simulation && !error_is_clean(err)) {
+        Error second = {0};   // the first error is the one that counts
+        finish_run(simulation, err, summary, &second);
+    }
+    amontons_simulation_destroy(simulation);
+    return error_is_clean(err);
+}

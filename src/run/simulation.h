@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// One simulation: the list of stages, and nothing else. amontons.h declares what the caller sees of
+// it; this is what its stages share.
+#ifndef AMONTONS_RUN_SIMULATION_H
+#define AMONTONS_RUN_SIMULATION_H
+
+#include "amontons.h"
+#include "run/fields.h"
+#include "run/history.h"
+#include "run/recorder.h"
+#include "run/report.h"
+#include "run/scene.h"
+
+struct Simulation {
+    Scene scene;
+    RunOptions options;
+    char folder[AMONTONS_PATH_SIZE];   // empty: nothing is written
+    Mesh mesh;
+    Material material;
+    FrictionLaw law;
+    Bulk bulk;
+    Interface interface;
+    BulkOperator system;
+    Rod rod;
+    StepControl control;
+    ObservationScales scales;
+    Observation seen;   // the last accepted step
+    Events events;
+    Peaks peaks;
+    History history;
+    Fields fields;
+    Recorders recorders;
+    double t_end;   // time
+    RunTiming timing;
+    RunModel model;
+    RunErrors errors;
+    double started;   // wall clock, s
+    int64_t allocations_before;   // memory_counters() when the time loop began
+    int32_t figures;   // drawn
+};
+
+#endif
