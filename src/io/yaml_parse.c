@@ -22,8 +22,11 @@ static bool take_scalar(YamlBuilder *builder, struct fy_token *token, Error *err
     size_t length = 0;
     const char *text = token ? fy_token_get_text(token, &length) : "";
     if (!text) FAIL(err, ERROR_MEMORY, "no memory for the texts of %s", builder->document->name);
-    bool quoted = token && fy_token_scalar_style(token) != FYSS_PLAIN;
-    TRY(yaml_build_scalar(builder, text, length, quoted, token_position(token), err));
+    enum fy_scalar_style style = token ? fy_token_scalar_style(token) : FYSS_PLAIN;
+    bool in_quotes = style == FYSS_SINGLE_QUOTED || style == FYSS_DOUBLE_QUOTED;
+    int32_t position = token_position(token);
+    if (in_quotes && position > 0) position--;   // libfyaml's mark stands behind the quote
+    TRY(yaml_build_scalar(builder, text, length, style != FYSS_PLAIN, position, err));
 cleanup:
     return error_is_clean(err);
 }

@@ -71,6 +71,7 @@ static void test_lists_keep_their_order(void **state)
     assert_int_equal(yaml_count(document, list), 3);
     static const char *const texts[] = {"top", "rod 2", ""};
     static const bool quoted[] = {false, true, true};
+    static const int32_t columns[] = {29, 34, 43};
     int32_t k = 0;
     for (YamlNode item = yaml_first(document, list); item != YAML_NO_NODE;
          item = yaml_next(document, item), k++) {
@@ -78,6 +79,7 @@ static void test_lists_keep_their_order(void **state)
         assert_int_equal(yaml_is_quoted(document, item), quoted[k]);
         assert_int_equal(yaml_kind(document, item), YAML_SCALAR);
         assert_string_equal(yaml_key(document, item), "");
+        assert_int_equal(yaml_column(document, item), columns[k]);
     }
     assert_int_equal(k, 3);
     YamlNode item =
