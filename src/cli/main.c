@@ -13,6 +13,7 @@ typedef struct Command {
 } Command;
 
 static const Command commands[] = {
+    {"run", command_run, "SCENE", "simulates a scene into a result folder"},
     {"render", command_render, "RESULT", "draws the pictures of a stored result again"},
     {"info", command_info, "FILE", "says what a mesh, a scene or a result holds"},
 };
