@@ -2,6 +2,7 @@
 #include "io/array_disk.h"
 
 #include <errno.h>
+#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -81,7 +82,7 @@ static herr_t disk_read(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_t a
     ArrayDisk *disk = (ArrayDisk *)base;
     char *next = buffer;
     while (size > 0) {
-        ssize_t count = pread(disk->descriptor, next, size, (off_t)address);
+        ssize_t count = pread(disk->file->descriptor, next, size, (off_t)address);
         if (count < 0 && errno == EINTR) continue;
         if (count < 0) note_failure(disk, errno);
         if (count <= 0) break;
@@ -101,7 +102,7 @@ static herr_t disk_write(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_t 
     const char *next = buffer;
     if (address + size > disk->end_of_file) disk->end_of_file = address + size;
     while (size > 0 && disk->failure == 0) {
-        ssize_t count = pwrite(disk->descriptor, next, size, (off_t)address);
+        ssize_t count = pwrite(disk->file->descriptor, next, size, (off_t)address);
         if (count < 0 && errno == EINTR) continue;
         if (count <= 0) {
             note_failure(disk, count < 0 ? errno : ENOSPC);
@@ -120,12 +121,13 @@ static herr_t disk_truncate(H5FD_t *base, hid_t transfer, hbool_t closing)
     (void)transfer, (void)closing;
     ArrayDisk *disk = (ArrayDisk *)base;
     if (disk->end_of_file == disk->end_of_space || disk->failure != 0) return 0;
-    if (ftruncate(disk->descriptor, (off_t)disk->end_of_space) != 0) note_failure(disk, errno);
+    if (ftruncate(disk->file->descriptor, (off_t)disk->end_of_space) != 0)
+        note_failure(disk, errno);
     disk->end_of_file = disk->end_of_space;
     return 0;
 }
 
-bool array_disk_use(ArrayDisk *disk, int descriptor, hid_t access, hid_t *driver)
+bool array_disk_use(ArrayDisk *disk, const PartFile *file, hid_t access, hid_t *driver)
 {
     static const H5FD_class_t description = {
         .name = "amontons_disk",
@@ -146,7 +148,33 @@ bool array_disk_use(ArrayDisk *disk, int descriptor, hid_t access, hid_t *driver
         .fl_map = H5FD_FLMAP_DICHOTOMY,
     };
     DiskAddress address = {disk};
-    *disk = (ArrayDisk){.descriptor = descriptor};
+    *disk = (ArrayDisk){.file = file};
     *driver = H5FDregister(&description);
     return *driver >= 0 && H5Pset_driver(access, *driver, &address) >= 0;
+}
+
+bool array_disk_check(const ArrayDisk *disk, herr_t status, const char *what, Error *err)
+{
+    char cause[HDF5_CAUSE_SIZE];
+    // First the disk: what HDF5 says after a lost write is only a consequence.
+    if (disk->failure != 0)
+        FAIL(err, ERROR_FILE, "cannot write %s: %s", disk->file->part, strerror(disk->failure));
+    if (status < 0)
+        FAIL(err, ERROR_LIBRARY, "HDF5 cannot write %s into %s: %s", what, disk->file->part,
+             hdf5_cause(cause));
+cleanup:
+    return error_is_clean(err);
+}
+
+static herr_t keep_innermost(unsigned position, const H5E_error2_t *entry, void *cause)
+{
+    if (position == 0) snprintf(cause, HDF5_CAUSE_SIZE, "%s", entry->desc);
+    return 0;
+}
+
+const char *hdf5_cause(char cause[HDF5_CAUSE_SIZE])
+{
+    snprintf(cause, HDF5_CAUSE_SIZE, "it gives no reason");
+    H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_innermost, cause);
+    return cause;
 }

@@ -1,27 +1,36 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The file under an HDF5 file being written, as a driver of HDF5's virtual file layer. HDF5 1.10
-// does not survive a write that fails: closing afterwards can crash inside the library. So HDF5
-// never sees one. This driver keeps the first cause, drops what cannot be written, and
-// array_file asks it after every call. Called by io/array_file alone.
+// The border to HDF5's faults: the driver (virtual file layer) under an HDF5 file being written,
+// and the library's own words. HDF5 1.10 does not survive a write that fails: closing afterwards
+// can crash inside it. So HDF5 never sees one: this driver keeps the first cause, drops what cannot
+// be written, and whoever wrote asks it afterwards. Called by io/array_file and io/array_series.
 #ifndef AMONTONS_IO_ARRAY_DISK_H
 #define AMONTONS_IO_ARRAY_DISK_H
 
-#include "base/error.h"
+#include "io/part_file.h"
 
 #include <hdf5.h>
 #include <stdint.h>
 
+enum { HDF5_CAUSE_SIZE = 512 };
+
 typedef struct ArrayDisk {
-    H5FD_t base;          // HDF5's part; stands first, so that HDF5's pointer is ours
-    int descriptor;       // of the file, for reading and writing; not owned
-    int failure;          // errno of the first access that failed; 0: none
-    haddr_t end_of_space; // bytes HDF5 has handed out
-    haddr_t end_of_file;  // bytes the file has, or would have if nothing had failed
+    H5FD_t base;   // HDF5's part; stands first, so that HDF5's pointer is ours
+    const PartFile *file;   // the file; not owned
+    int failure;   // errno of the first access that failed; 0: none
+    haddr_t end_of_space;   // bytes handed out to HDF5
+    haddr_t end_of_file;   // bytes the file has, or would have if nothing had failed
 } ArrayDisk;
 
 // Makes `access` (a file access property list) use `disk`, which must stay where it is until the
 // HDF5 file is closed; `driver` is released by the caller with H5FDunregister.
 // false: HDF5 refused, and its error stack says why.
-bool array_disk_use(ArrayDisk *disk, int descriptor, hid_t access, hid_t *driver);
+bool array_disk_use(ArrayDisk *disk, const PartFile *file, hid_t access, hid_t *driver);
+
+// Ends a call that wrote `what`; `status` is HDF5's, negative for a failure. ERROR_FILE with the
+// system's reason when the disk has failed, now or before: what is lost is lost.
+bool array_disk_check(const ArrayDisk *disk, herr_t status, const char *what, Error *err);
+
+// HDF5's own words for the fault of its last call, the one nearest to the origin.
+const char *hdf5_cause(char cause[HDF5_CAUSE_SIZE]);
 
 #endif

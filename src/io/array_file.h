@@ -29,7 +29,7 @@ void array_file_abandon(ArrayFile *file);
 // slashes ("interface/slip_rate"); `unit` and `description` are stored as attributes.
 typedef struct ArraySeries {
     const char *name;
-    ArrayType type;          // as stored
+    ArrayType type;   // as stored
     int32_t width;
     const char *unit;
     const char *description;

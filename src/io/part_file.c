@@ -80,7 +80,6 @@ bool part_file_commit(PartFile *file, Error *err)
              strerror(errno));
     part_file_leave(file);   // there is no part any more: this only closes
 cleanup:
-    part_file_discard(file);
     return error_is_clean(err);
 }
 

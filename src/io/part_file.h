@@ -28,7 +28,7 @@ bool part_file_name(const char *path, char *part);
 bool part_file_create(PartFile *file, const char *path, Error *err);
 bool part_file_write(PartFile *file, const void *bytes, int64_t size, Error *err);
 
-// Onto the disk (fsync), then under the final name. After a failure the part is gone.
+// Onto the disk (fsync), then under the final name. A failure leaves it open, to discard or leave.
 bool part_file_commit(PartFile *file, Error *err);
 void part_file_discard(PartFile *file);   // closes and removes; fine when not open
 void part_file_leave(PartFile *file);     // closes and keeps `path`.part; fine when not open

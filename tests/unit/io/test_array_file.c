@@ -381,10 +381,10 @@ static void bad_use_is_named(void **state)
     int64_t rows;
     int32_t width;
     assert_false(array_file_append(file, "series/other", &value, 1, &err));
-    assert_error(&err, ERROR_FILE, "use.h5", "series/other");
+    assert_error(&err, ERROR_LIBRARY, "use.h5", "series/other");
     ArraySeries again = {"series/time", ARRAY_FLOAT64, 1, "time", "t"};
     assert_false(array_file_add_series(file, &again, &err));
-    assert_error(&err, ERROR_FILE, "series/time", "already");
+    assert_error(&err, ERROR_LIBRARY, "series/time", "already");
     assert_false(array_file_read(file, "series/other", &values, &rows, &width, &err));
     assert_null(values);
     assert_error(&err, ERROR_FILE, "use.h5", "series/other");
