@@ -112,7 +112,7 @@ static bool choose_existing(ArrayFile *file, const char *path, Error *err)
 {
     char part[PATH_MAX + 8];
     if (!part_file_name(path, part))
-        FAIL(err, ERROR_FILE, "cannot read \"%s\": the name is empty or too long", path);
+        FAIL(err, ERROR_FILE, "the name of the file to read is empty or too long: \"%s\"", path);
     snprintf(file->path, sizeof file->path, "%s", path);
     if (access(path, F_OK) == 0) goto cleanup;
     int cause = errno;

@@ -30,7 +30,7 @@ bool part_file_create(PartFile *file, const char *path, Error *err)
 {
     *file = (PartFile){0};
     if (!part_file_name(path, file->part))
-        FAIL(err, ERROR_FILE, "cannot write \"%s\": the name is empty or too long", path);
+        FAIL(err, ERROR_FILE, "the name of the file to write is empty or too long: \"%s\"", path);
     snprintf(file->path, sizeof file->path, "%s", path);
     while (!file->open) {
         file->descriptor = open(file->part, O_RDWR | O_CREAT | O_CLOEXEC, 0666);

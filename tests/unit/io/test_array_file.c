@@ -414,7 +414,7 @@ static void every_path_frees_when_memory_is_short(void **state)
         memory_fail_after(k);
         ArrayFile *file = array_file_create(path_of("short.h5"), &err);
         for (int32_t s = 0; file && s < 20; s++) {   // more than the first list of series holds
-            char name[16];
+            char name[24];
             snprintf(name, sizeof name, "series%d", s);
             ArraySeries series = {name, ARRAY_UINT8, 3, "1", ""};
             if (error_is_clean(&err)) array_file_add_series(file, &series, &err);
