@@ -307,17 +307,7 @@ cleanup:
 
 bool array_file_has(ArrayFile *file, const char *name)
 {
-    // HDF5 asks link by link: "a/b" exists only where "a" does.
-    char prefix[256];
-    size_t length = strlen(name);
-    if (length == 0 || length >= sizeof prefix) return false;
-    for (size_t k = 1; k <= length; k++) {
-        if (name[k] != '/' && name[k] != '\0') continue;
-        memcpy(prefix, name, k);
-        prefix[k] = '\0';
-        if (H5Lexists(file->id, prefix, H5P_DEFAULT) <= 0) return false;
-    }
-    return true;
+    return H5Lexists(file->id, name, H5P_DEFAULT) > 0;   // negative where a folder is missing
 }
 
 // Rows and width of a dataset of one or two dimensions.

@@ -117,6 +117,9 @@ static void a_result_comes_back(void **state)
     assert_true(result_file_number(file, NUMBER_CRITICAL_VELOCITY) == 3.4e-4);
     assert_true(result_file_number(file, NUMBER_MU_M) == 0.25);
     assert_true(isnan(result_file_number(file, NUMBER_L_C)));
+    double absent;
+    assert_false(array_file_get_number(file, result_number_name(NUMBER_L_C), &absent, &err));
+    error_clear(&err);
     char title[32];
     assert_true(result_file_text(file, "title", title, sizeof title, &err));
     assert_string_equal(title, "Figure 1");
