@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What the README tells a newcomer is so: its scene, its commands, its table of arrays, its lines
+of Python, its list of folders."""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import h5py
+
+SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
+PROGRAM = Path(os.environ.get("AMONTONS_BIN", SOURCE / "build/bin")) / "amontons"
+README = (SOURCE / "README.md").read_text()
+SCENE = SOURCE / "validation/paper/fig1.yaml"
+SMALL = ["mesh.set.nx=12", "mesh.set.nz=12", "time.until.U=4e-4", "output.fields=none",
+         "output.figures=[]"]
+
+
+def code_blocks(language):
+    return re.findall(rf"```{language}\n(.*?)```", README, re.S)
+
+
+def without_comments(text):
+    lines = [re.sub(r"\s+#.*", "", line).rstrip() for line in text.splitlines()]
+    return [line for line in lines if line and not line.startswith("#")]
+
+
+class Text(unittest.TestCase):
+    def test_scene_is_the_shipped_one(self):
+        self.assertEqual(without_comments(code_blocks("yaml")[0]),
+                         without_comments(SCENE.read_text()))
+
+    def test_names_all_top_level_entries(self):
+        tracked = subprocess.run(["git", "-C", SOURCE, "ls-files"], capture_output=True, text=True)
+        if tracked.returncode:
+            self.skipTest("not a git checkout")
+        entries = {name.split("/")[0] for name in tracked.stdout.split("\n") if name}
+        known = {"README.md", "CHANGELOG.md", "LICENSE", "CMakeLists.txt", "CMakePresets.json"}
+        listed = re.search(r"## How the project lies\n\n((?:    .*\n)+)", README)[1]
+        named = {line.split()[0].rstrip("/") for line in listed.splitlines()}
+        self.assertEqual(named, {e for e in entries if not e.startswith(".")} - known)
+
+    def test_pictures_and_files_exist(self):
+        for target in re.findall(r"\]\(([^)#]+)\)", README):
+            if "://" not in target:
+                self.assertTrue((SOURCE / target).is_file(), target)
+
+    def test_changelog_knows_the_version(self):
+        version = re.search(r"VERSION (\d+\.\d+\.\d+)", (SOURCE / "CMakeLists.txt").read_text())[1]
+        self.assertIn(f"\n## {version}", (SOURCE / "CHANGELOG.md").read_text())
+
+
+class Program(unittest.TestCase):
+    def test_commands_exist(self):
+        """Each command of the table answers --help, and knows the options the README gives it."""
+        rows = re.findall(r"^\| `\./amontons (\w+) ([^`]*)`", README, re.M)
+        self.assertGreaterEqual(len(rows), 3)
+        for command, usage in rows:
+            with self.subTest(command):
+                done = subprocess.run([PROGRAM, command, "--help"], capture_output=True, text=True)
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+                for option in re.findall(r"--?[a-z]+", usage):
+                    self.assertRegex(done.stdout, rf"(?m)(?<!\w){option}\b")
+
+    def test_exit_status_of_wrong_input(self):
+        done = subprocess.run([PROGRAM, "run", "no-such-scene.yaml"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("no-such-scene.yaml", done.stderr)
+
+
+class History(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        cls.result = Path(cls.folder.name) / "results/fig1"
+        cls.result.parent.mkdir()
+        sets = [word for value in SMALL for word in ("--set", value)]
+        done = subprocess.run([PROGRAM, "run", SCENE, "-o", cls.result, "--quiet", *sets],
+                              capture_output=True, text=True)
+        if done.returncode:
+            raise AssertionError(done.stderr)
+
+    def test_table_is_what_the_file_holds(self):
+        """Arrays, their types, shapes and units, in both directions."""
+        rows = re.findall(r"^\| `(\w+/\w+)` \| ([^|]+) \| (\w+) \| ([^|]+) \|", README, re.M)
+        self.assertGreater(len(rows), 20)
+        with h5py.File(self.result / "history.h5") as history:
+            stored = {f"{group}/{name}": item for group in history
+                      for name, item in history[group].items()}
+            self.assertEqual(set(stored), {name for name, *_ in rows})
+            sizes = {"steps": len(history["series/time"]), "nodes": len(history["nodes/x"]),
+                     "peaks": len(history["peaks/U"]), "events": len(history["events/kind"])}
+            for name, shape, kind, unit in rows:
+                with self.subTest(name):
+                    self.assertEqual(stored[name].shape,
+                                     tuple(sizes[word] for word in shape.split(", ")))
+                    self.assertEqual(stored[name].dtype, kind)
+                    held = stored[name].attrs["unit"]
+                    self.assertEqual(held.decode() if isinstance(held, bytes) else held, unit)
+
+    def test_attributes(self):
+        block = re.search(r"\| attribute of the file .*?\n\n", README + "\n\n", re.S)[0]
+        named = set(re.findall(r"^\| `(\w+)` \|", block, re.M))
+        with h5py.File(self.result / "history.h5") as history:
+            held = set(history.attrs)
+        self.assertLessEqual(held, named)
+        self.assertLessEqual(named - held, {"mu_macroscopic", "critical_length"})
+
+    def test_python_lines(self):
+        code = code_blocks("python")[0]
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True,
+                              cwd=self.folder.name)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertRegex(done.stdout, r"^largest F_T/F_N 0\.\d+ at U = 0\.000[34]")
+
+
+if __name__ == "__main__":
+    unittest.main()
