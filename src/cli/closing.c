@@ -12,6 +12,9 @@ static void print_answers(const RunSummary *summary)
 {
     if (isnan(summary->mu_M))
         printf("  mu_M            none: mu had no peak in this run\n");
+    else if (isnan(summary->mu_M_spread))
+        printf("  mu_M            %.4f, from one of %d peaks: spread not known\n", summary->mu_M,
+               summary->peaks);
     else
         printf("  mu_M            %.4f +- %.4f, from %d of %d peaks\n", summary->mu_M,
                summary->mu_M_spread, summary->peaks_counted, summary->peaks);

@@ -136,8 +136,6 @@ static int run_scene(const Scene *scene, const Options *options, const char *fol
     catch_signals();
     bool done = amontons_run(scene, &run, &summary, &err);
     progress_end(&progress);
-    if (!done && err.code == ERROR_INTERRUPT)
-        error_context(&err, "stopped; what was computed is in %s", folder);
     if (!done) return report_error(&err);
     if (!options->quiet) closing_print(amontons_scene_title(scene), &summary);
     return 0;

@@ -152,6 +152,7 @@ cleanup:
 
 void events_close(Events *events, const Observation *last)
 {
+    if (!events->list) return;   // the run failed before they were created
     if (events->rapid >= 0) extend_event(&events->list[events->rapid], last, 0);
     events->rapid = -1;
     end_slow(events);

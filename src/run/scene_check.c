@@ -130,10 +130,20 @@ static bool check_time(const Check *check)
     return true;
 }
 
+static bool check_output(const Check *check)
+{
+    const Scene *scene = check->scene;
+    if (scene->output.figures.count > 0 && !scene->output.history)
+        return blame(check, "output.figures",
+                     "pictures are drawn from the history: they need "
+                     "output.history: true");
+    return true;
+}
+
 bool scene_check(const Scene *scene, const SceneValue *sources, const YamlDocument *file,
                  Error *err)
 {
     Check check = {.scene = scene, .sources = sources, .file = file, .err = err};
     return check_required(&check) && check_friction(&check) && check_load(&check) &&
-           check_groups(&check) && check_time(&check);
+           check_groups(&check) && check_time(&check) && check_output(&check);
 }

@@ -179,6 +179,10 @@ static const BadScene bad_combinations[] = {
      "groups: {contact: [a, rod]}",
      "s.yaml:9:19: groups.contact: `rod` is groups.rod as well",
      {0}},
+    {0,
+     "output: {history: false, figures: [force]}",
+     "s.yaml:9:35: output.figures: pictures are",
+     {"output.history: true"}},
     {2, "units: si", "s.yaml:4:1: material.young: missing, which an SI scene must give", {0}},
 };
 

@@ -169,7 +169,7 @@ static void test_scenes_round_trip(void **state)
     scene_text_with(0,
                     "groups: {top: lid, contact: [foot_1, foot_2]}\n"
                     "start: {friction: off, rod: held, tolerance: 0.1}\n"
-                    "output: {history: false, fields: {every_t: 0.1, at_events: true},\n"
+                    "output: {history: true, fields: {every_t: 0.1, at_events: true},\n"
                     "         figures: [force, slip-map]}\n",
                     text);
     assert_round_trip(text);
@@ -178,7 +178,10 @@ static void test_scenes_round_trip(void **state)
                     "output: {fields: {}}",
                     text);
     assert_round_trip(text);
-    scene_text_with(5, "friction: {law: coulomb, mu_static: 0.3333333333333333}", text);
+    scene_text_with(5,
+                    "friction: {law: coulomb, mu_static: 0.3333333333333333}\n"
+                    "output: {history: false}",
+                    text);
     assert_round_trip(text);
     assert_round_trip("units: si\nmesh: {file: a.msh, set: {shape: tri, nx: 7}}\n"
                       "material: {young: 1 GPa, poisson: 0.1, density: 1, eta1: 1, eta2: 1}\n"
