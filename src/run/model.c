@@ -104,6 +104,9 @@ bool model_assemble(Simulation *simulation, Error *err)
     simulation->model.full_dofs = simulation->bulk.dof_count;
     simulation->model.reduced_dofs = simulation->bulk.dof_count;
     simulation->scales.length = simulation->model.length;
+    const Material *material = &simulation->material;
+    simulation->scales.time = simulation->model.length / material_speeds(material).longitudinal +
+                              (material->eta1 + material->eta2) / material->young;
     simulation->scales.slip_velocity = scene->rod.velocity > 0 ? scene->rod.velocity
                                                                : scene->friction.critical_velocity;
 cleanup:
@@ -154,16 +157,12 @@ cleanup:
 bool model_relax(Simulation *simulation, Error *err)
 {
     const Scene *scene = &simulation->scene;
-    const Material *material = &simulation->material;
     double started = clock_seconds();
     FrictionLaw law = simulation->law;
     if (scene->start.friction == START_FRICTION_OFF)
         simulation->law = (FrictionLaw){.kind = FRICTION_COULOMB, .mu_static = 0};
-    double crossing = simulation->model.length / material_speeds(material).longitudinal;
-    RelaxationDef def = {
-        .speed_max = scene->start.tolerance * simulation->scales.slip_velocity,
-        .duration_max = scene->start.duration_max *
-                        (crossing + (material->eta1 + material->eta2) / material->young)};
+    RelaxationDef def = {.speed_max = scene->start.tolerance * simulation->scales.slip_velocity,
+                         .duration_max = scene->start.duration_max * simulation->scales.time};
     TRY(relax(&simulation->control, &def, &simulation->model.relaxation_steps, err));
     simulation->law = law;
     simulation->rod.velocity = scene->rod.velocity;

@@ -30,6 +30,7 @@ typedef struct Observation {
 typedef struct ObservationScales {
     double load;   // F_N, force/width
     double length;   // L, length
+    double time;   // wave crossing plus viscous time, time
     double slip_velocity;   // velocity
 } ObservationScales;
 

@@ -34,7 +34,8 @@ struct Simulation {
     RunTiming timing;
     RunModel model;
     RunErrors errors;
-    double started;   // wall clock, s
+    double last_rapid;            // when the last rapid event was seen, time
+    double started;               // wall clock, s
     int64_t allocations_before;   // memory_counters() when the time loop began
     int32_t figures;   // drawn
 };
