@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Made from a smooth path in CIELAB (CIE 15:2004, white D65) through a few stations, walked at
 // constant speed and turned to sRGB (IEC 61966-2-1). The stations are ours: lightness falls in
-// equal steps while the hue goes from yellowish white through red to violet, with as much chroma as sRGB
-// still holds.
+// nearly equal steps while the hue goes from yellowish white through red to violet, with as much
+// chroma as sRGB holds there.
 #include "render/colormap.h"
 
 #include <math.h>

@@ -3,58 +3,42 @@
 // (the paper's Methods), 0 where the block has lifted off, in the last precursors before sliding.
 #include "render/figures.h"
 
-#include "base/memory.h"
 #include "render/map_page.h"
 #include "render/zoom.h"
 
 #include <math.h>
 
-// 1 - phi at all steps and nodes, [rows * nodes]: what is lost is what is to be seen.
-static double *losses_make(const ResultView *view, Error *err)
-{
-    int64_t count = view->rows * view->nodes;
-    double critical = view->number[NUMBER_CRITICAL_VELOCITY];
-    double *losses = NULL;
-    if (!(critical > 0))
-        FAIL(err, ERROR_INPUT,
-             "the result has no critical velocity, which the contact density "
-             "is defined by");
-    TRY(losses = NEW_ARRAY(double, count, err));
-    for (int64_t k = 0; k < count; ++k) {
-        double rate = fabs(view->slip_rate[k]);
-        losses[k] = view->status[k] == 0 ? 1 : isnan(rate) ? NAN : fmin(rate / critical, 1);
-    }
-cleanup:
-    return losses;
-}
-
-static void grid_to_levels(PixelGrid *grid)
+// From slip rates to 1 - phi: what is lost is what is to be seen. Open is infinitely fast here.
+static void grid_to_levels(PixelGrid *grid, double critical)
 {
     int64_t count = (int64_t)grid->rows * grid->columns;
-    for (int64_t k = 0; k < count; ++k)
-        if (isnan(grid->values[k])) grid->values[k] = HEAT_MISSING;
+    for (int64_t k = 0; k < count; ++k) {
+        double rate = (double)grid->values[k];
+        grid->values[k] = isnan(rate) ? HEAT_MISSING : (float)fmin(rate / critical, 1);
+    }
 }
 
 bool figure_contact_density(const Page *page, ResultView *view, Error *err)
 {
-    double *losses = NULL;
+    double critical = view->number[NUMBER_CRITICAL_VELOCITY];
     Zoom zoom = zoom_choose(view);
     MapPage map = {
         .bar = {.low = 0, .high = 1, .falling = true, .label = "contact density ~{\u03c6}"}};
+    if (!(critical > 0))
+        FAIL(err, ERROR_INPUT,
+             "the result has no critical velocity, which the contact density "
+             "is defined by");
     if (!zoom.found) result_view_range(view, &zoom.U_low, &zoom.U_high);
     TRY(result_view_read_slip_rate(view, err));
     TRY(result_view_read_status(view, err));
-    losses = losses_make(view, err);
-    TRY(losses);
     map_page_layout(page, view, zoom.U_low, zoom.U_high, &map);
-    TRY(map_page_fill(view, losses, &map, err));
-    grid_to_levels(&map.grid);
+    TRY(map_page_fill(view, view->status, &map, err));
+    grid_to_levels(&map.grid, critical);
     map_page_draw_field(page, view, &map);
     TRY(map_page_draw_front(page, view, &map, err));
     if (zoom.found) map.axes.color = ZOOM_DENSITY;
     map_page_draw_frame(page, &map);
 cleanup:
-    memory_free(losses);
     map_page_destroy(&map);
     return error_is_clean(err);
 }

@@ -3,7 +3,6 @@
 // range shows is neutral: stick.
 #include "render/figures.h"
 
-#include "base/memory.h"
 #include "render/map_page.h"
 #include "render/zoom.h"
 
@@ -16,30 +15,26 @@ static const double MARK_WIDTH = 9;   // points: room for the name l_c
 static const double ZOOM_BAR = 1.8;   // points: height of the bar that marks the zoom
 static const Color STICK = {0.84f, 0.85f, 0.87f, 1};
 
-// |slip rate| / V at all steps and nodes, [rows * nodes]; its largest finite one in *largest.
-static double *rates_make(const ResultView *view, double *largest, Error *err)
+// The whole decades that hold all slip, above the one where quasi-static slip is.
+static double decade_high(const ResultView *view, double V)
 {
-    int64_t count = view->rows * view->nodes;
-    double V = fabs(view->number[NUMBER_ROD_VELOCITY]);
-    double *rates = NULL;
-    *largest = 0;
-    if (!(V > 0)) FAIL(err, ERROR_INPUT, "the result does not say how fast the rod moves");
-    TRY(rates = NEW_ARRAY(double, count, err));
-    for (int64_t k = 0; k < count; ++k) {
-        rates[k] = fabs(view->slip_rate[k]) / V;
-        if (isfinite(rates[k])) *largest = fmax(*largest, rates[k]);
+    double largest = 0;
+    for (int64_t k = 0; k < view->rows * view->nodes; ++k) {
+        double rate = fabs(view->slip_rate[k]);
+        if (rate > largest && isfinite(rate)) largest = rate;
     }
-cleanup:
-    return rates;
+    if (!(largest > V)) return DECADE_HIGH_MIN;
+    return fmin(fmax(ceil(log10(largest / V)), DECADE_HIGH_MIN), DECADE_HIGH_MAX);
 }
 
-// From slip rates over V to places in the colour map.
-static void grid_to_levels(PixelGrid *grid, const Colorbar *bar)
+// From slip rates to places in the colour map.
+static void grid_to_levels(PixelGrid *grid, const Colorbar *bar, double V)
 {
     int64_t count = (int64_t)grid->rows * grid->columns;
     for (int64_t k = 0; k < count; ++k) {
-        double level = (log10((double)grid->values[k]) - bar->low) / (bar->high - bar->low);
-        if (isnan(grid->values[k]))
+        double rate = (double)grid->values[k] / V;
+        double level = (log10(rate) - bar->low) / (bar->high - bar->low);
+        if (isnan(rate))
             grid->values[k] = HEAT_MISSING;
         else
             grid->values[k] = level < 0 ? HEAT_BELOW : (float)fmin(level, 1);
@@ -69,28 +64,26 @@ static void zoom_draw(const Page *page, const ResultView *view, const Axes *axes
 
 bool figure_slip_map(const Page *page, ResultView *view, Error *err)
 {
-    double low = 0, high = 0, largest = 0, length = view->number[NUMBER_L_C];
-    double *rates = NULL;
+    double low = 0, high = 0, length = view->number[NUMBER_L_C];
+    double V = fabs(view->number[NUMBER_ROD_VELOCITY]);
     MapPage map = {.bar = {.low = DECADE_LOW,
                            .powers = true,
                            .label = "slip rate / ~{V}",
                            .neutral = "stick",
                            .neutral_color = STICK}};
+    if (!(V > 0)) FAIL(err, ERROR_INPUT, "the result does not say how fast the rod moves");
     TRY(result_view_read_slip_rate(view, err));
-    rates = rates_make(view, &largest, err);
-    TRY(rates);
-    map.bar.high = fmin(fmax(ceil(log10(fmax(largest, 1))), DECADE_HIGH_MIN), DECADE_HIGH_MAX);
+    map.bar.high = decade_high(view, V);
     if (isfinite(length)) map.mark_width = MARK_WIDTH;
     result_view_range(view, &low, &high);
     map_page_layout(page, view, low, high, &map);
-    TRY(map_page_fill(view, rates, &map, err));
-    grid_to_levels(&map.grid, &map.bar);
+    TRY(map_page_fill(view, NULL, &map, err));
+    grid_to_levels(&map.grid, &map.bar, V);
     map_page_draw_field(page, view, &map);
     zoom_draw(page, view, &map.axes);
     if (isfinite(length)) critical_length_draw(page, &map.axes, length);
     map_page_draw_frame(page, &map);
 cleanup:
-    memory_free(rates);
     map_page_destroy(&map);
     return error_is_clean(err);
 }

@@ -72,19 +72,20 @@ void map_page_layout(const Page *page, const ResultView *view, double U_low, dou
                             .rows = (int32_t)(axes->box.bottom - axes->box.top)};
 }
 
-static SpaceTime view_space_time(const ResultView *view, const double *values)
+static SpaceTime view_space_time(const ResultView *view)
 {
     return (SpaceTime){.rows = view->rows,
                        .U = view->U,
                        .nodes = view->nodes,
                        .x = view->x,
                        .pad = view->pad,
-                       .values = values};
+                       .slip_rate = view->slip_rate};
 }
 
-bool map_page_fill(const ResultView *view, const double *values, MapPage *map, Error *err)
+bool map_page_fill(const ResultView *view, const double *status, MapPage *map, Error *err)
 {
-    SpaceTime data = view_space_time(view, values);
+    SpaceTime data = view_space_time(view);
+    data.status = status;
     if (map->grid.columns < 2 || map->grid.rows < 2)
         FAIL(err, ERROR_INPUT, "the picture is too small for its axes");
     TRY(space_time_to_pixels(&data, &map->grid, err));
@@ -105,7 +106,7 @@ static void gap_draw(const Page *page, const Axes *axes, double low, double high
 void map_page_draw_field(const Page *page, const ResultView *view, const MapPage *map)
 {
     const Axes *axes = &map->axes;
-    SpaceTime data = view_space_time(view, NULL);
+    SpaceTime data = view_space_time(view);
     double covered = axes->y.low, from = 0, to = 0;
     canvas_heat(page->canvas, &axes->box, map->grid.values, map->grid.columns, map->grid.rows);
     for (int32_t i = 0; i < view->nodes; ++i) {

@@ -15,9 +15,9 @@ void node_extent(const SpaceTime *data, int32_t i, double *from, double *to)
 }
 
 // The larger of two, where NaN means none.
-static float larger(float a, double b)
+static float larger(float a, float b)
 {
-    return isnan(b) || a >= (float)b ? a : (float)b;
+    return isnan(b) || a >= b ? a : b;
 }
 
 // Column of a step, -1 before the first, `columns` behind the last.
@@ -29,24 +29,25 @@ static int32_t column_of(const PixelGrid *grid, double U)
     return place >= grid->columns ? grid->columns : (int32_t)place;
 }
 
-static void step_add(const SpaceTime *data, const PixelGrid *grid, int64_t row, int32_t column,
-                     float *by_node)
+static void step_add(const SpaceTime *data, int64_t row, int32_t column, float *by_column)
 {
-    const double *values = data->values + row * data->nodes;
+    const double *rate = data->slip_rate + row * data->nodes;
+    const double *status = data->status ? data->status + row * data->nodes : NULL;
+    float *cell = by_column + (int64_t)column * data->nodes;
     for (int32_t i = 0; i < data->nodes; ++i) {
-        float *cell = by_node + (int64_t)i * grid->columns + column;
-        *cell = larger(*cell, values[i]);
+        bool open = status && status[i] == 0;
+        cell[i] = larger(cell[i], open ? INFINITY : (float)fabs(rate[i]));
     }
 }
 
-// The largest value at each column and node, [nodes * columns]; `next[column]`: -1 where steps lie
+// The largest value at each column and node, [columns * nodes]; `next[column]`: -1 where steps lie
 // inside, else the step that ends behind it (data->rows: none).
-static void columns_gather(const SpaceTime *data, const PixelGrid *grid, float *by_node,
+static void columns_gather(const SpaceTime *data, const PixelGrid *grid, float *by_column,
                            int64_t *next)
 {
     int32_t reached = 0;   // columns before this one are settled, but for the steps inside
     for (int32_t column = 0; column < grid->columns; ++column) next[column] = data->rows;
-    for (int64_t k = 0; k < (int64_t)data->nodes * grid->columns; ++k) by_node[k] = NAN;
+    for (int64_t k = 0; k < (int64_t)data->nodes * grid->columns; ++k) by_column[k] = NAN;
     for (int64_t row = 0; row < data->rows; ++row) {
         if (!isfinite(data->U[row])) continue;
         int32_t column = column_of(grid, data->U[row]);
@@ -55,19 +56,19 @@ static void columns_gather(const SpaceTime *data, const PixelGrid *grid, float *
             if (next[reached] == data->rows) next[reached] = row;
         if (column == grid->columns) break;
         next[column] = -1;
-        step_add(data, grid, row, column, by_node);
+        step_add(data, row, column, by_column);
     }
 }
 
 // Before the first step of the history there is nothing; in a long step there is its end.
 static void columns_hold(const SpaceTime *data, const PixelGrid *grid, const int64_t *next,
-                         float *by_node)
+                         float *by_column)
 {
     int64_t first = 0;
     while (first < data->rows && !isfinite(data->U[first])) ++first;
     for (int32_t column = 0; column < grid->columns; ++column)
         if (next[column] > first && next[column] < data->rows)
-            step_add(data, grid, next[column], column, by_node);
+            step_add(data, next[column], column, by_column);
 }
 
 // Whether node i is seen in the pixels of height `pixel` around x.
@@ -78,7 +79,7 @@ static bool node_is_at(const SpaceTime *data, int32_t i, double x, double pixel)
     return (x >= from && x < to) || (data->x[i] >= x - pixel / 2 && data->x[i] < x + pixel / 2);
 }
 
-static void rows_fill(const SpaceTime *data, PixelGrid *grid, const float *by_node)
+static void rows_fill(const SpaceTime *data, PixelGrid *grid, const float *by_column)
 {
     double pixel = (grid->x_high - grid->x_low) / grid->rows;
     for (int32_t row = 0; row < grid->rows; ++row) {
@@ -87,25 +88,24 @@ static void rows_fill(const SpaceTime *data, PixelGrid *grid, const float *by_no
         for (int32_t column = 0; column < grid->columns; ++column) line[column] = NAN;
         for (int32_t i = 0; i < data->nodes; ++i) {
             if (!node_is_at(data, i, x, pixel)) continue;
-            const float *from = by_node + (int64_t)i * grid->columns;
             for (int32_t column = 0; column < grid->columns; ++column)
-                line[column] = larger(line[column], from[column]);
+                line[column] = larger(line[column], by_column[(int64_t)column * data->nodes + i]);
         }
     }
 }
 
 bool space_time_to_pixels(const SpaceTime *data, PixelGrid *grid, Error *err)
 {
-    float *by_node = NULL;
+    float *by_column = NULL;
     int64_t *next = NULL;
-    TRY(by_node = NEW_ARRAY(float, (int64_t)data->nodes * grid->columns, err));
+    TRY(by_column = NEW_ARRAY(float, (int64_t)data->nodes * grid->columns, err));
     TRY(next = NEW_ARRAY(int64_t, grid->columns, err));
     TRY(grid->values = NEW_ARRAY(float, (int64_t)grid->rows * grid->columns, err));
-    columns_gather(data, grid, by_node, next);
-    columns_hold(data, grid, next, by_node);
-    rows_fill(data, grid, by_node);
+    columns_gather(data, grid, by_column, next);
+    columns_hold(data, grid, next, by_column);
+    rows_fill(data, grid, by_column);
 cleanup:
-    memory_free(by_node);
+    memory_free(by_column);
     memory_free(next);
     return error_is_clean(err);
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// From values at accepted steps and contact nodes to values at pixels of U against x. Numbers only;
-// called by the map figures.
+// From slip rates at accepted steps and contact nodes to slip rates at pixels of U against x.
+// Numbers only; called by map_page.
 //
 // Steps lie very unevenly in U: thousands inside a rapid event that is thinner than a pixel, none
-// for many pixels while nothing happens. A column of pixels takes the largest value of the steps
+// for many pixels while nothing happens. A column of pixels takes the fastest of the steps
 // inside it, so no event is lost; one without a step takes the step that ends behind it, as an
 // implicit step holds its end's value. A node stands for the part of its pad that is nearest to it.
 #ifndef AMONTONS_RENDER_SPACE_TIME_H
@@ -18,14 +18,15 @@ typedef struct SpaceTime {
     int32_t nodes;
     const double *x;   // [nodes] ascending
     const double *pad;   // [nodes] between nodes of different pads is a gap
-    const double *values;   // [rows * nodes] the larger, the more to be seen; NaN: none
+    const double *slip_rate;   // [rows * nodes] velocity; NaN: none
+    const double *status;   // [rows * nodes] 0: open, counts as infinitely fast; NULL: not asked
 } SpaceTime;
 
 typedef struct PixelGrid {
     double U_low, U_high;   // what the columns span
     double x_low, x_high;   // what the rows span, x_high at the top
     int32_t columns, rows;
-    float *values;   // [rows * columns] first row at the top; NaN: none; owned
+    float *values;   // [rows * columns] |slip rate|, first row at the top; NaN: none; owned
 } PixelGrid;
 
 // Fills grid->values; the other members are given.
