@@ -1,0 +1,467 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The pictures, read back by VTK and measured: what stands in a history must be found at its place
+with its colour. The module is called as the program calls it, through its one entry."""
+import ctypes
+import os
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOImage import vtkPNGReader
+
+import render_fixture as fixture
+
+MODULES = os.environ["AMONTONS_MODULES"]
+FIGURES = ("force", "slip-map", "contact-density")
+INK, CURVE, RED, BLUE = (20, 20, 26), (13, 69, 140), (191, 31, 31), (20, 89, 179)
+STICK = (214, 217, 222)
+ERROR_INPUT, ERROR_FILE, ERROR_LIBRARY = 1, 2, 4
+
+
+class Error(ctypes.Structure):
+    _fields_ = [("code", ctypes.c_int), ("line", ctypes.c_int32), ("file", ctypes.c_char_p),
+                ("message", ctypes.c_char * 2000)]
+
+
+class Request(ctypes.Structure):
+    _fields_ = [("folder", ctypes.c_char_p), ("figures", ctypes.POINTER(ctypes.c_char_p)),
+                ("figure_count", ctypes.c_int32), ("width", ctypes.c_int32),
+                ("height", ctypes.c_int32)]
+
+
+LIBRARY = ctypes.CDLL(os.path.join(MODULES, "amontons_render.so"))
+LIBRARY.amontons_render.restype = ctypes.c_bool
+
+
+def render(folder, *figures, width=0, height=0):
+    """(code, message) of the call; code 0: drawn."""
+    error = Error()
+    names = (ctypes.c_char_p * max(len(figures), 1))(*[name.encode() for name in figures])
+    request = Request(folder.encode(), names, len(figures), width, height)
+    done = LIBRARY.amontons_render(ctypes.byref(request), ctypes.byref(error))
+    assert done == (error.code == 0)
+    return error.code, error.message.decode()
+
+
+def path_of(folder, figure):
+    return os.path.join(folder, "figures", figure + ".png")
+
+
+def read_bytes(folder, figure):
+    with open(path_of(folder, figure), "rb") as file:
+        return file.read()
+
+
+def read_picture(folder, figure):
+    """[height, width, 3] integers, first row at the top."""
+    reader = vtkPNGReader()
+    reader.SetFileName(path_of(folder, figure))
+    reader.Update()
+    width, height, _ = reader.GetOutput().GetDimensions()
+    values = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())
+    return values.reshape(height, width, 3)[::-1].astype(int)
+
+
+def is_color(picture, color, tolerance=2):
+    return np.all(np.abs(picture - np.array(color)) <= tolerance, axis=-1)
+
+
+def groups(mask):
+    """Middles of the runs of true values, as places between pixels."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], mask.astype(int), [0]])))
+    return [(first + last) / 2 for first, last in zip(edges[::2], edges[1::2])]
+
+
+class Frame:
+    """The frame of an axis system, found by its long straight lines."""
+
+    def __init__(self, picture, color=INK):
+        mask = is_color(picture, color)
+        rows = groups(mask.sum(axis=1) > 0.4 * picture.shape[1])
+        self.columns = groups(mask.sum(axis=0) > 0.4 * picture.shape[0])
+        self.top, self.bottom = rows[0], rows[-1]
+        self.left, self.right = self.columns[:2]
+
+    def pixel(self, across, up):
+        """(row, column) of a point given as shares of the frame."""
+        return (int(self.bottom - up * (self.bottom - self.top)),
+                int(self.left + across * (self.right - self.left)))
+
+
+def bar_colors(picture, columns, frame):
+    """Colours of the bar beside a map, from bottom to top, and whether a patch is below it."""
+    middle = int((columns[-2] + columns[-1]) / 2)
+    lines = groups(is_color(picture, INK)[:, middle])
+    top, bottom = lines[0], lines[1]
+    assert abs(top - frame.top) < 3
+    inside = picture[int(top) + 4:int(bottom) - 3, middle][::-1]
+    shares = (bottom - np.arange(int(top) + 4, int(bottom) - 3)[::-1] - 0.5) / (bottom - top)
+    return inside, shares
+
+
+def invert(color, bar):
+    """The share of the bar that has this colour."""
+    colors, shares = bar
+    distance = np.abs(colors - color).sum(axis=1)
+    assert distance.min() <= 6, (color, distance.min())
+    return shares[np.argmin(distance)]
+
+
+def lab(colors):
+    """CIELAB (D65) of sRGB bytes."""
+    value = colors / 255
+    linear = np.where(value <= 0.04045, value / 12.92, ((value + 0.055) / 1.055) ** 2.4)
+    xyz = linear @ np.array([[0.4124, 0.2126, 0.0193], [0.3576, 0.7152, 0.1192],
+                             [0.1805, 0.0722, 0.9505]]) / [0.9505, 1.0, 1.089]
+    f = np.where(xyz > (6 / 29) ** 3, np.cbrt(xyz), xyz * 841 / 108 + 4 / 29)
+    return np.stack([116 * f[:, 1] - 16, 500 * (f[:, 0] - f[:, 1]), 200 * (f[:, 1] - f[:, 2])], 1)
+
+
+class Pictures(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp(prefix="amontons_render_")
+        cls.data, cls.attributes = fixture.make(cls.folder)
+        start = time.monotonic()
+        cls.result = render(cls.folder)
+        cls.seconds = time.monotonic() - start
+        cls.picture = {name: read_picture(cls.folder, name) for name in FIGURES}
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def row_at(self, U):
+        """The step that ends at U or next after it."""
+        return np.searchsorted(self.data["series/rod_displacement"], U)
+
+    def test_all_figures_in_time(self):
+        self.assertEqual(self.result, (0, ""))
+        self.assertEqual(sorted(os.listdir(os.path.join(self.folder, "figures"))),
+                         sorted(name + ".png" for name in FIGURES))
+        self.assertLess(self.seconds, 3)   # a second each, whatever else the machine does
+
+    def test_size_and_metadata(self):
+        for name in FIGURES:
+            content = read_bytes(self.folder, name)
+            self.assertGreaterEqual(self.picture[name].shape[1], 1600)
+            place = content.index(b"pHYs") + 4
+            across, down, unit = struct.unpack(">IIB", content[place:place + 9])
+            self.assertEqual((across, unit), (down, 1))
+            printed = self.picture[name].shape[1] / across   # metres
+            self.assertAlmostEqual(printed, 0.086, delta=1e-4)
+            self.assertIn(b"Software\0amontons ", content)
+            self.assertIn(b"Title\0", content)
+            self.assertNotIn(b"tIME", content)
+
+    def test_same_bytes_twice(self):
+        other = tempfile.mkdtemp(prefix="amontons_render_")
+        fixture.make(other)
+        code = f"import test_render as t; assert t.render({other!r})[0] == 0"
+        environment = dict(os.environ, LP_NUM_THREADS="1")
+        subprocess.run([sys.executable, "-c", code], check=True, env=environment,
+                       cwd=os.path.dirname(os.path.abspath(__file__)))
+        for name in FIGURES:
+            self.assertEqual(read_bytes(self.folder, name), read_bytes(other, name), name)
+        shutil.rmtree(other)
+
+    def test_background_and_text(self):
+        for name in FIGURES:
+            self.assertEqual(tuple(self.picture[name][1, 1]), (255, 255, 255))
+            frame = Frame(self.picture[name], BLUE if name == "contact-density" else INK)
+            below = self.picture[name][int(frame.bottom) + 30:, :]
+            self.assertGreater(is_color(below, INK).sum(), 500, "numbers under the axis")
+
+    def test_force_curve(self):
+        picture, frame = self.picture["force"], Frame(self.picture["force"])
+        levels = self.levels(picture, frame)
+        U, mu = self.data["series/rod_displacement"], self.data["series/mu"]
+        blue = is_color(picture, CURVE, 8)
+        for wanted in (0.0006, 0.0011, 0.0027, 0.0040, 0.0055):
+            row, column = frame.pixel(wanted / fixture.U_END, 0)
+            found = np.flatnonzero(blue[int(frame.bottom - 0.53 * (frame.bottom - frame.top)):row - 4,
+                                        column]) + int(frame.bottom - 0.53 * (frame.bottom - frame.top))
+            seen = levels(found.mean() + 0.5)
+            self.assertAlmostEqual(seen, np.interp(wanted, U, mu), delta=0.003, msg=wanted)
+
+    def levels(self, picture, frame):
+        """mu of a row of pixels, from the dashed lines at mu_S and mu_K."""
+        inside = picture[:, int(frame.left) + 5:int(frame.right) - 5]
+        grey = groups(is_color(inside, (115, 115, 120), 4).sum(axis=1) > 0.3 * inside.shape[1])
+        self.assertEqual(len(grey), 3)
+        slope = (fixture.MU_KINETIC - fixture.MU_STATIC) / (grey[2] - grey[0])
+        mu_M = fixture.MU_STATIC + slope * (grey[1] - grey[0])
+        self.assertAlmostEqual(mu_M, self.attributes["mu_macroscopic"], delta=0.002)
+        return lambda row: fixture.MU_STATIC + slope * (row - grey[0])
+
+    def test_force_inset(self):
+        """The inset's frame, and the box on the curve that it enlarges."""
+        red = is_color(self.picture["force"], RED)
+        wide = groups(red.sum(axis=1) > 0.4 * red.shape[1])
+        self.assertEqual(len(wide), 2)
+        frame = Frame(self.picture["force"])
+        box = np.argwhere(red[int(wide[1]) + 150:])
+        right = (box[:, 1].max() - frame.left) / (frame.right - frame.left) * fixture.U_END
+        self.assertAlmostEqual(right, fixture.SLIDES[-1], delta=6e-5)
+        inset = self.picture["force"][int(wide[0]) + 5:int(wide[1]) - 5]
+        self.assertGreater(is_color(inset, CURVE, 8).any(axis=0).sum(), 800)
+
+    def test_slip_map_colors(self):
+        """Colours at known steps and nodes give back log10(slip rate / V)."""
+        picture, frame = self.picture["slip-map"], Frame(self.picture["slip-map"])
+        bar = bar_colors(picture, frame.columns, frame)
+        x, checked = self.data["nodes/x"], 0
+        for U in (0.0005, 0.0012, 0.0016, 0.0029, 0.0042, 0.0054):
+            rates = self.data["interface/slip_rate"][self.row_at(U)] / fixture.V
+            for i in (2, 20, 34, 50, 77):
+                color = picture[frame.pixel(U / fixture.U_END, x[i])]
+                if rates[i] == 0:
+                    self.assertLessEqual(np.abs(color - STICK).max(), 1)
+                    continue
+                seen = -1 + 5 * invert(color, bar)   # the bar: 10^-1 to 10^4
+                self.assertAlmostEqual(seen, np.log10(rates[i]), delta=0.05, msg=(U, i))
+                checked += 1
+        self.assertGreater(checked, 8)
+
+    def test_slip_map_shows_rapid_events(self):
+        """Each lasts less than two of the picture's columns; the fastest step inside must show."""
+        picture, frame = self.picture["slip-map"], Frame(self.picture["slip-map"])
+        bar = bar_colors(picture, frame.columns, frame)
+        starts = fixture.bounded_starts(fixture.SLIDES[0], 0.0) + list(fixture.SLIDES)
+        row, _ = frame.pixel(0, self.data["nodes/x"][30])
+        for U0 in starts:
+            duration = 4e-5 if U0 in fixture.SLIDES else 1e-5
+            U = self.data["series/rod_displacement"]
+            inside = (U > U0) & (U <= U0 + duration)
+            wanted = np.log10(self.data["interface/slip_rate"][inside, 30].max() / fixture.V)
+            _, column = frame.pixel((U0 + duration / 2) / fixture.U_END, 0)
+            seen = [-1 + 5 * invert(picture[row, k], bar) for k in range(column - 4, column + 5)
+                    if np.abs(picture[row, k] - STICK).max() > 1]
+            self.assertAlmostEqual(max(seen), wanted, delta=0.05, msg=U0)
+
+    def test_contact_density_colors(self):
+        picture, frame = self.picture["contact-density"], Frame(self.picture["contact-density"], BLUE)
+        ink = Frame.__new__(Frame)
+        ink.columns = groups(is_color(picture, INK).sum(axis=0) > 0.4 * picture.shape[0])
+        bar = bar_colors(picture, ink.columns, frame)
+        low, high = self.window()
+        x, seen_low = self.data["nodes/x"], 1.0
+        for share in np.linspace(0.05, 0.93, 40):
+            U = low + share * (high - low)
+            near = [U + k * (high - low) / (frame.right - frame.left) for k in range(-3, 4)]
+            rows = range(self.row_at(near[0]), self.row_at(near[-1]) + 1)
+            phi = 1 - np.minimum(self.data["interface/slip_rate"][rows] / fixture.V_CRITICAL, 1)
+            for i in (3, 24, 37):
+                seen = invert(picture[frame.pixel(share, x[i])], bar)
+                self.assertGreater(seen, phi[:, i].min() - 0.02, (U, i))
+                self.assertLess(seen, phi[:, i].max() + 0.02, (U, i))
+                seen_low = min(seen_low, seen)
+        self.assertLess(seen_low, 0.6, "a precursor was among the points")
+
+    def window(self):
+        """The part of U that holds the last precursors before the last sliding."""
+        slide = fixture.SLIDES[-1]
+        first = fixture.bounded_starts(slide, fixture.SLIDES[-2] + 4e-5)[0]
+        return slide - 1.08 * (slide - first), slide + 0.08 * (slide - first)
+
+    def test_map_is_uniform(self):
+        """Equal steps of the value are equal distances in CIELAB; lightness falls all the way."""
+        picture, frame = self.picture["slip-map"], Frame(self.picture["slip-map"])
+        colors, shares = bar_colors(picture, frame.columns, frame)
+        places, seen = np.linspace(0.02, 0.98, 17), lab(colors)
+        seen = np.stack([np.interp(places, shares, seen[:, k]) for k in range(3)], axis=1)
+        steps = np.linalg.norm(np.diff(seen, axis=0), axis=1)
+        self.assertLess(steps.max() / steps.min(), 1.1)   # bytes round, and chords are not arcs
+        self.assertTrue(np.all(np.diff(seen[:, 0]) < -2))
+
+
+class Variants(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="amontons_render_")
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def draw(self, *figures, **options):
+        self.assertEqual(render(self.folder, *figures, **options), (0, ""))
+
+    def test_gaps_between_pads(self):
+        data, _ = fixture.make(self.folder, nodes=90, pads=3)
+        self.draw("slip-map")
+        picture = read_picture(self.folder, "slip-map")
+        frame = Frame(picture)
+        x, pad = data["nodes/x"], data["nodes/pad"]
+        end, start = x[pad == 0].max(), x[pad == 1].min()
+        for share in (0.2, 0.5, 0.8):
+            row, column = frame.pixel(0.9, end + share * (start - end))
+            near = picture[row, column - 30:column + 30]
+            self.assertTrue(is_color(near, (255, 255, 255)).any(), "white between the hatching")
+            self.assertFalse(is_color(near, STICK).all(axis=-1).any())
+        row, column = frame.pixel(0.98, x[pad == 2].mean())
+        self.assertTrue(is_color(picture[row, column], STICK))
+
+    def test_si_units(self):
+        """Lengths get a handy unit: the same picture but for its numbers and names."""
+        fixture.make(self.folder, units="si", length=0.1)
+        self.draw("slip-map")
+        si = read_picture(self.folder, "slip-map")
+        fixture.make(self.folder)
+        self.draw("slip-map")
+        normalised = read_picture(self.folder, "slip-map")
+        frame_si, frame = Frame(si), Frame(normalised)
+        for place in ((0.1, 0.1), (0.4, 0.05), (0.8, 0.9), (0.95, 0.3)):
+            self.assertTrue(is_color(si[frame_si.pixel(*place)], normalised[frame.pixel(*place)]))
+        below = slice(int(frame.bottom) + 10, None)
+        self.assertFalse(np.array_equal(si[below, :1000], normalised[below, :1000]))
+
+    def test_open_nodes_have_no_contact(self):
+        def lift(data, _):
+            data["interface/status"] = data["interface/status"] * 1
+            data["interface/status"][:, :10] = 0
+
+        fixture.make(self.folder, change=lift)
+        self.draw("contact-density")
+        picture = read_picture(self.folder, "contact-density")
+        frame = Frame(picture, BLUE)
+        self.assertLess(picture[frame.pixel(0.02, 0.05)].sum(), 200)      # phi = 0: dark
+        self.assertGreater(picture[frame.pixel(0.02, 0.5)].sum(), 600)    # phi near 1: light
+
+    def test_killed_run(self):
+        """history.h5.part, without tables: drawn, the sliding found in mu itself."""
+        fixture.make(self.folder, tables=False, name="history.h5.part")
+        self.draw()
+        red = is_color(read_picture(self.folder, "force"), RED)
+        self.assertEqual(len(groups(red.sum(axis=1) > 0.4 * red.shape[1])), 2, "has an inset")
+
+    def test_odd_histories(self):
+        def nothing_slips(data, _):
+            data["interface/slip_rate"] = data["interface/slip_rate"] * 0
+            data["series/mu"] = np.linspace(0, 0.1, len(data["series/mu"]))
+
+        def holes(data, _):
+            for name in ("series/mu", "series/rod_displacement", "series/front"):
+                data[name] = data[name].copy()
+                data[name][::7] = np.nan
+            data["interface/slip_rate"][::5, ::3] = np.nan
+            data["events/U_start"][::2] = np.nan
+            data["peaks/mu"][0] = np.nan
+
+        def no_numbers(data, attributes):
+            for name in ("mu_static", "mu_kinetic", "mu_macroscopic", "critical_length", "length"):
+                attributes.pop(name, None)
+
+        def infinite(data, _):
+            data["interface/slip_rate"][5:50] = np.inf
+            data["series/mu"] = data["series/mu"] * 0 + np.nan
+
+        cases = {"nothing slips": dict(change=nothing_slips, tables=False), "holes": dict(change=holes),
+                 "no numbers": dict(change=no_numbers), "infinite": dict(change=infinite),
+                 "two nodes": dict(nodes=2), "one node": dict(nodes=1), "many": dict(nodes=2000)}
+        for name, options in cases.items():
+            with self.subTest(name):
+                fixture.make(self.folder, **options)
+                self.draw(width=600)
+                for figure in FIGURES:
+                    self.assertEqual(read_picture(self.folder, figure).shape[1], 600)
+
+    def test_wanted_size(self):
+        fixture.make(self.folder)
+        self.draw("force", width=2000, height=1000)
+        self.assertEqual(read_picture(self.folder, "force").shape, (1000, 2000, 3))
+        for width, height in ((100, 100), (100000, 800), (2000, 10)):
+            code, message = render(self.folder, "force", width=width, height=height)
+            self.assertEqual(code, ERROR_INPUT)
+            self.assertIn("200 to 8192", message)
+
+
+class Errors(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="amontons_render_")
+
+    def tearDown(self):
+        os.environ.pop("AMONTONS_FONT", None)
+        shutil.rmtree(self.folder)
+
+    def expect(self, code, *words, figures=()):
+        got, message = render(self.folder, *figures)
+        self.assertEqual(got, code, message)
+        for word in words:
+            self.assertIn(word, message)
+        pictures = os.path.join(self.folder, "figures")
+        left = os.listdir(pictures) if os.path.isdir(pictures) else []
+        self.assertEqual(left, [], "nothing half done is left")
+
+    def test_unknown_figure(self):
+        fixture.make(self.folder)
+        self.expect(ERROR_INPUT, "slipmap", "force, slip-map, contact-density",
+                    figures=("force", "slipmap"))
+
+    def test_no_folder(self):
+        code, message = render(self.folder + "/nowhere")
+        self.assertEqual(code, ERROR_INPUT)
+        self.assertIn("nowhere", message)
+
+    def test_no_history(self):
+        self.expect(ERROR_INPUT, self.folder)
+
+    def test_too_few_steps(self):
+        for kept, words in ((0, "0 steps"), (1, "1 step")):
+            def cut(data, _):
+                for name in data:
+                    if name.startswith(("series/", "interface/")):
+                        data[name] = data[name][:kept]
+            fixture.make(self.folder, change=cut)
+            self.expect(ERROR_INPUT, words, self.folder)
+
+    def test_rod_at_rest(self):
+        def rest(data, _):
+            data["series/rod_displacement"] = data["series/rod_displacement"] * 0
+        fixture.make(self.folder, change=rest)
+        self.expect(ERROR_INPUT, "rod does not move")
+
+    def test_missing_number(self):
+        def forget(data, attributes):
+            del attributes["critical_velocity"], attributes["rod_velocity"]
+        fixture.make(self.folder, change=forget)
+        self.expect(ERROR_INPUT, "critical velocity", figures=("contact-density",))
+        self.expect(ERROR_INPUT, "how fast the rod moves", figures=("slip-map",))
+
+    def test_arrays_that_do_not_fit(self):
+        def narrow(data, _):
+            data["interface/slip_rate"] = data["interface/slip_rate"][:, :-1]
+        fixture.make(self.folder, change=narrow)
+        self.expect(ERROR_FILE, "interface/slip_rate", "80", "81", figures=("slip-map",))
+
+    def test_fonts(self):
+        fixture.make(self.folder)
+        os.environ["AMONTONS_FONT"] = self.folder + "/none.ttf"
+        self.expect(ERROR_LIBRARY, "none.ttf")
+        os.environ["AMONTONS_FONT"] = os.path.join(self.folder, "history.h5")
+        self.expect(ERROR_LIBRARY, "history.h5", "not a font")
+
+    def test_folder_cannot_be_made(self):
+        fixture.make(self.folder)
+        with open(os.path.join(self.folder, "figures"), "w") as file:
+            file.write("a file in the way")
+        code, message = render(self.folder)
+        self.assertEqual(code, ERROR_FILE)
+        self.assertIn("figures/force.png", message)
+
+    def test_old_picture_survives(self):
+        """A picture that cannot be drawn leaves the earlier one alone."""
+        fixture.make(self.folder)
+        self.assertEqual(render(self.folder, "force")[0], 0)
+        before = read_bytes(self.folder, "force")
+        os.environ["AMONTONS_FONT"] = "/none.ttf"
+        self.assertEqual(render(self.folder, "force")[0], ERROR_LIBRARY)
+        self.assertEqual(read_bytes(self.folder, "force"), before)
+
+
+if __name__ == "__main__":
+    unittest.main()
