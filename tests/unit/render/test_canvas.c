@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Shapes, text and heat maps, counted in the pixels that are read back.
+#include "render/canvas.h"
+
+#include "base/memory.h"
+#include "render/context.h"
+#include "render/shapes.h"
+#include "render/text.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+enum { SIZE = 400 };
+
+static const Color BLACK = {0, 0, 0, 1};
+static RenderContext *context;
+static Canvas *canvas;
+
+static int canvas_begin(void **state)
+{
+    Error err = {0};
+    (void)state;
+    context = context_create(&err);
+    if (context) canvas = canvas_create(SIZE, SIZE, &err);
+    return canvas ? 0 : -1;
+}
+
+static int canvas_end(void **state)
+{
+    (void)state;
+    canvas_destroy(canvas);
+    context_destroy(context);
+    canvas = NULL;
+    return 0;
+}
+
+static uint8_t *pixels_read(void)
+{
+    Error err = {0};
+    uint8_t *pixels = NULL;
+    assert_true(canvas_read(canvas, &pixels, &err));
+    return pixels;
+}
+
+// How much black is on the page, in pixels.
+static double area_read(void)
+{
+    uint8_t *pixels = pixels_read();
+    double area = 0;
+    for (int32_t k = 0; k < SIZE * SIZE; ++k) area += 1 - pixels[3 * k] / 255.0;
+    memory_free(pixels);
+    return area;
+}
+
+static void a_new_page_is_white(void **state)
+{
+    (void)state;
+    assert_float_equal(area_read(), 0, 0);
+}
+
+static void areas_are_right(void **state)
+{
+    (void)state;
+    shape_fill(canvas, BLACK, &(Box){10, 20, 60, 50});
+    assert_float_equal(area_read(), 1500, 1e-9);
+    shape_disc(canvas, BLACK, (Point){200, 200}, 40);
+    assert_float_equal(area_read(), 1500 + 5027.0F, 50);
+    Stroke stroke = {.color = BLACK, .width = 4};
+    shape_segment(canvas, &stroke, (Point){300, 50}, (Point){380, 110});   // 100 long
+    assert_float_equal(area_read(), 1500 + 5027.0F + 400, 55);   // the disc has sides
+}
+
+static void rows_count_from_the_top(void **state)
+{
+    (void)state;
+    shape_fill(canvas, BLACK, &(Box){10, 20, 11, 21});
+    uint8_t *pixels = pixels_read();
+    assert_int_equal(pixels[3 * (20 * SIZE + 10)], 0);
+    assert_int_equal(pixels[3 * (21 * SIZE + 10)], 255);
+    memory_free(pixels);
+}
+
+static void dashes_leave_gaps(void **state)
+{
+    (void)state;
+    Stroke stroke = {.color = BLACK, .width = 2, .dash = 12, .space = 8};
+    const Point line[3] = {{50, 100}, {150, 100}, {150, 200}};   // 200 long: ten periods
+    shape_line(canvas, &stroke, line, 3);
+    assert_float_equal(area_read(), 200 * 2 * 0.6, 6);
+}
+
+static void broken_points_break_lines(void **state)
+{
+    (void)state;
+    Stroke stroke = {.color = BLACK, .width = 2};
+    const Point line[5] = {{50, 100}, {100, 100}, {NAN, 100}, {200, 100}, {250, INFINITY}};
+    shape_line(canvas, &stroke, line, 5);
+    assert_float_equal(area_read(), 106, 3);
+}
+
+static void clips_hold(void **state)
+{
+    (void)state;
+    canvas_clip(canvas, &(Box){0, 0, SIZE, 100});
+    shape_fill(canvas, BLACK, &(Box){0, 90, 50, 200});
+    canvas_clip(canvas, NULL);
+    shape_fill(canvas, BLACK, &(Box){100, 90, 110, 200});
+    assert_float_equal(area_read(), 500 + 1100, 1e-9);
+}
+
+static void more_triangles_than_a_batch(void **state)
+{
+    (void)state;
+    for (int32_t k = 0; k < 40000; ++k) {
+        double x = k % 200, y = k / 200 % 200;
+        shape_fill(canvas, BLACK, &(Box){x, y, x + 1, y + 1});
+    }
+    assert_float_equal(area_read(), 40000, 1e-9);
+}
+
+static void heat_shows_levels_and_holes(void **state)
+{
+    (void)state;
+    uint8_t map[3 * MAP_SIZE];
+    const float values[6] = {0, 1, 5, HEAT_BELOW, HEAT_MISSING, 0.5f};   // two rows of three
+    const int32_t expected[6] = {0, 255, 255, 77, 255, 128};   // 255 in a hole: white
+    for (int32_t k = 0; k < 3 * MAP_SIZE; ++k) map[k] = (uint8_t)(k / 3);
+    canvas_set_map(canvas, map, (Color){77 / 255.0f, 0, 0, 1});
+    canvas_heat(canvas, &(Box){100, 100, 160, 140}, values, 3, 2);
+    uint8_t *pixels = pixels_read();
+    for (int32_t k = 0; k < 6; ++k) {
+        int32_t column = 110 + 20 * (k % 3), row = 110 + 20 * (k / 3);
+        assert_in_range(pixels[3 * (row * SIZE + column)], expected[k] ? expected[k] - 1 : 0,
+                        expected[k] + 1);
+    }
+    assert_int_equal(pixels[3 * (99 * SIZE + 110)], 255);
+    memory_free(pixels);
+}
+
+static void a_heat_map_too_large_is_reported(void **state)
+{
+    (void)state;
+    Error err = {0};
+    uint8_t *pixels = NULL;
+    const float value = 0;
+    canvas_heat(canvas, &(Box){0, 0, 9, 9}, &value, 1 << 28, 1);
+    assert_false(canvas_read(canvas, &pixels, &err));
+    assert_null(pixels);
+    assert_int_equal(err.code, ERROR_LIBRARY);
+}
+
+// --- text ----------------------------------------------------------------------------------------
+static Text *text_begin(void)
+{
+    Error err = {0};
+    Text *text = text_create(canvas, &err);
+    assert_non_null(text);
+    return text;
+}
+
+static void text_has_width_and_ink(void **state)
+{
+    (void)state;
+    Text *text = text_begin();
+    TextStyle style = {.size = 40, .color = BLACK};
+    assert_true(text_width(text, 40, "") == 0);
+    double digit = text_width(text, 40, "0");
+    assert_true(fabs(digit - 0.636 * 40) < 0.1);   // DejaVu Sans: digits are 1303 / 2048 wide
+    assert_true(fabs(text_width(text, 40, "0123456789") - 10 * digit) < 1e-9);
+    assert_true(fabs(text_width(text, 40, "~{0}") - digit) < 1e-9);
+    assert_true(fabs(text_width(text, 40, "0_{0}^{0}") / digit - 2.4) < 1e-2);
+    text_draw(text, &style, (Point){50, 100}, "~{F}_{T} / ~{F}_{N} \u03bc \u00d710^{-3}");
+    assert_true(area_read() > 1000);
+    text_destroy(text);
+}
+
+// A bar is as black upright as it is rising, and stands where it is put.
+static void text_turns_and_aligns(void **state)
+{
+    (void)state;
+    Text *text = text_begin();
+    TextStyle style = {.size = 100, .color = BLACK, .across = 0.5, .up = 0.5};
+    text_draw(text, &style, (Point){100, 100}, "0");
+    double upright = area_read();
+    uint8_t *pixels = pixels_read();
+    double x = 0, y = 0;
+    for (int32_t k = 0; k < SIZE * SIZE; ++k) {
+        x += (1 - pixels[3 * k] / 255.0) * (k % SIZE + 0.5) / upright;
+        y += (1 - pixels[3 * k] / 255.0) * (k / SIZE + 0.5) / upright;
+    }
+    memory_free(pixels);
+    assert_true(fabs(x - 100) < 1.5);
+    assert_true(fabs(y - 100) < 1.5);
+    style.rising = true;
+    text_draw(text, &style, (Point){300, 300}, "0");
+    assert_true(fabs(area_read() / upright - 2) < 1e-6);
+    text_destroy(text);
+}
+
+// Broken UTF-8 and braces draw something and end.
+static void odd_words_do_no_harm(void **state)
+{
+    (void)state;
+    static const char *const odd[] = {"\xff\xfe", "\xe2\x82",          "\xc3", "_{",
+                                      "}",        "^{_{~{^{_{x}}}}}}", "_x",   "\xf0\x9f\x98\x80"};
+    Text *text = text_begin();
+    TextStyle style = {.size = 20, .color = BLACK};
+    for (size_t k = 0; k < sizeof odd / sizeof *odd; ++k)
+        text_draw(text, &style, (Point){20, 20 + 30 * (double)k}, odd[k]);
+    assert_true(area_read() > 0);
+    text_destroy(text);
+}
+
+static void too_many_glyphs_are_reported(void **state)
+{
+    (void)state;
+    Error err = {0};
+    uint8_t *pixels = NULL;
+    Text *text = text_begin();
+    for (int32_t size = 100; size < 300; ++size) text_width(text, size, "MW@");
+    assert_false(canvas_read(canvas, &pixels, &err));
+    assert_int_equal(err.code, ERROR_LIBRARY);
+    text_destroy(text);
+}
+
+static void sizes_have_limits(void **state)
+{
+    (void)state;
+    Error err = {0};
+    assert_null(canvas_create(CANVAS_SIZE_MIN - 1, 300, &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+    error_clear(&err);
+    assert_null(canvas_create(300, CANVAS_SIZE_MAX + 1, &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+}
+
+int main(void)
+{
+#define CASE(name) cmocka_unit_test_setup_teardown(name, canvas_begin, canvas_end)
+    const struct CMUnitTest tests[] = {
+        CASE(a_new_page_is_white),
+        CASE(areas_are_right),
+        CASE(rows_count_from_the_top),
+        CASE(dashes_leave_gaps),
+        CASE(broken_points_break_lines),
+        CASE(clips_hold),
+        CASE(more_triangles_than_a_batch),
+        CASE(heat_shows_levels_and_holes),
+        CASE(a_heat_map_too_large_is_reported),
+        CASE(text_has_width_and_ink),
+        CASE(text_turns_and_aligns),
+        CASE(odd_words_do_no_harm),
+        CASE(too_many_glyphs_are_reported),
+        CASE(sizes_have_limits),
+    };
+#undef CASE
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
