@@ -177,7 +177,8 @@ static void reverse_element(ElementKind kind, int32_t *nodes)
 // element among others is a mistake.
 static bool check_orientation(Mesh *mesh, Error *err)
 {
-    int32_t clockwise = 0, first_bad = -1;
+    bool clockwise = false;   // as the first element is, all must be
+    int32_t first_bad = -1;
     double bad_range[2] = {0}, bad_centre[2] = {0};
     ProbePoints *probes = NEW_ARRAY(ProbePoints, 1, err);
     if (!probes) goto cleanup;
@@ -186,10 +187,9 @@ static bool check_orientation(Mesh *mesh, Error *err)
         double range[2], centre[2];
         determinant_range(mesh, probes, e, range, centre);
         bool reversed = range[1] < -AREA_TOLERANCE;
-        clockwise += reversed;
+        if (e == 0) clockwise = reversed;
         bool bad = !(range[0] > AREA_TOLERANCE) && !reversed;
-        bool odd = reversed != (clockwise == e + 1);   // unlike every element before it
-        if (!bad && !odd) continue;
+        if (!bad && reversed == clockwise) continue;
         first_bad = e;
         memcpy(bad_range, range, sizeof range);
         memcpy(bad_centre, centre, sizeof centre);
@@ -205,7 +205,7 @@ static bool check_orientation(Mesh *mesh, Error *err)
              bad_range[0] > AREA_TOLERANCE || bad_range[1] < -AREA_TOLERANCE
                  ? " while others run the other way round (a surface of the .geo is reversed)"
                  : "");
-    if (clockwise > 0)
+    if (clockwise)
         for (int32_t e = 0; e < mesh->element_count; e++)
             reverse_element(mesh->kind[e], mesh->element_nodes + mesh->first_node[e]);
 cleanup:

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The contact line of one curve, of pads, of neighbours that share a node; and what it refuses.
+#include "bulk/mesh.h"
+
+#include "base/memory.h"
+#include "mesh_by_hand.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+// cmocka 1.1.5 compares floats only, in single precision.
+static void assert_near(double value, double wanted, double tolerance)
+{
+    if (!(fabs(value - wanted) <= tolerance))
+        fail_msg("%.17g is not %.17g within %g", value, wanted, tolerance);
+}
+
+// Three squares of side 1 in a row.
+//     4---5---6---7
+//     |   |   |   |
+//     0---1---2---3
+static const double PLACES[][2] = {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {0, 1}, {1, 1}, {2, 1}, {3, 1}};
+static const int32_t SQUARES[] = {0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6};
+static const int32_t LEFT[][2] = {{0, 1}}, MIDDLE[][2] = {{2, 1}}, RIGHT[][2] = {{2, 3}};
+
+static void build(const double (*places)[2], const char *const *names,
+                  const int32_t (*const *pairs)[2], int32_t curves, Mesh *mesh)
+{
+    Error err = {0};
+    MeshFile file = hand_mesh(8, places, ELEMENT_Q4, 3, SQUARES);
+    for (int32_t k = 0; k < curves; k++) hand_curve(&file, names[k], 1, pairs[k]);
+    if (!mesh_build(&file, "block.msh", mesh, &err)) fail_msg("%s", err.message);
+}
+
+static void refuse(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], int32_t count,
+                   const char *one, const char *two)
+{
+    Error err = {0};
+    MeshContact contact;
+    bool done = mesh_contact(mesh, names, count, &contact, &err);
+    mesh_contact_destroy(&contact);
+    assert_false(done);
+    assert_int_equal(err.code, ERROR_INPUT);
+    assert_ptr_equal(strstr(err.message, "block.msh: "), err.message);
+    if (!strstr(err.message, one)) fail_msg("'%s' is not in: %s", one, err.message);
+    if (two && !strstr(err.message, two)) fail_msg("'%s' is not in: %s", two, err.message);
+}
+
+// Pads at both ends, the right one first in the file: ordered by x all the same. The gap's nodes
+// belong to the pads' ends.
+static void test_pads_by_default_names(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"contact_1", "contact_2", "contactless"};
+    static const int32_t(*const pairs[])[2] = {RIGHT, LEFT, MIDDLE};
+    static const int32_t nodes[] = {0, 1, 2, 3}, owners[] = {0, 0, 1, 1};
+    Error err = {0};
+    Mesh mesh;
+    MeshContact contact;
+    build(PLACES, names, pairs, 3, &mesh);
+    assert_true(mesh_contact(&mesh, NULL, 0, &contact, &err));
+    assert_int_equal(contact.curve_count, 2);
+    assert_string_equal(contact.curves[0].name, "contact_2");
+    assert_int_equal(contact.node_count, 4);
+    assert_memory_equal(contact.nodes, nodes, sizeof nodes);
+    assert_memory_equal(contact.curve_of, owners, sizeof owners);
+    mesh_contact_destroy(&contact);
+    mesh_contact_destroy(&contact);
+    mesh_destroy(&mesh);
+}
+
+// Named curves keep the order given; a node they share is listed once, with the first.
+static void test_neighbours(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"west", "mid", "east"};
+    static const int32_t(*const pairs[])[2] = {LEFT, MIDDLE, RIGHT};
+    static const char asked[][GROUP_NAME_SIZE] = {"east", "mid", "west"};
+    static const int32_t nodes[] = {0, 1, 2, 3}, owners[] = {2, 1, 0, 0};
+    Error err = {0};
+    Mesh mesh;
+    MeshContact contact;
+    build(PLACES, names, pairs, 3, &mesh);
+    assert_true(mesh_contact(&mesh, asked, 3, &contact, &err));
+    assert_int_equal(contact.curve_count, 3);
+    assert_string_equal(contact.curves[0].name, "east");
+    assert_int_equal(contact.node_count, 4);
+    assert_memory_equal(contact.nodes, nodes, sizeof nodes);
+    assert_memory_equal(contact.curve_of, owners, sizeof owners);
+    mesh_contact_destroy(&contact);
+    mesh_destroy(&mesh);
+}
+
+static void test_missing(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"contacts"};
+    static const int32_t(*const pairs[])[2] = {LEFT};
+    static const char asked[][GROUP_NAME_SIZE] = {"contacs"};
+    Mesh mesh;
+    build(PLACES, names, pairs, 1, &mesh);
+    refuse(&mesh, NULL, 0, "has no group 'contact'", "'contacts' (curve)");
+    refuse(&mesh, asked, 1, "has no group 'contacs'", "did you mean 'contacts'?");
+    mesh_destroy(&mesh);
+}
+
+static void test_not_flat(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"contact_1", "contact_2"};
+    static const int32_t(*const pairs[])[2] = {LEFT, RIGHT};
+    double places[8][2];
+    Error err = {0};
+    Mesh mesh;
+    MeshContact contact;
+    memcpy(places, PLACES, sizeof places);
+    places[2][1] = 1e-7, places[3][1] = 2e-5;
+    build(places, names, pairs, 2, &mesh);
+    refuse(&mesh, NULL, 0, "contact group 'contact_2' is not flat at z = 0",
+           "node 4 at x = 3 has z = 2e-05");
+    mesh_destroy(&mesh);
+    places[2][1] = 1e-12, places[3][1] = -1e-12;   // round-off
+    build(places, names, pairs, 2, &mesh);
+    assert_true(mesh_contact(&mesh, NULL, 0, &contact, &err));
+    mesh_contact_destroy(&contact);
+    mesh_destroy(&mesh);
+    for (int32_t i = 0; i < 8; i++) places[i][1] = PLACES[i][1] + 1;   // flat, but in the air
+    build(places, names, pairs, 2, &mesh);
+    refuse(&mesh, NULL, 0, "'contact_1' is not flat at z = 0", "has z = 1");
+    mesh_destroy(&mesh);
+}
+
+static void test_below_the_substrate(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"contact"};
+    static const int32_t top[][2] = {{6, 7}};
+    static const int32_t(*const pairs[])[2] = {top};
+    double places[8][2];
+    Mesh mesh;
+    for (int32_t i = 0; i < 8; i++) {
+        places[i][0] = PLACES[i][0];
+        places[i][1] = PLACES[i][1] - 1;
+    }
+    build(places, names, pairs, 1, &mesh);
+    refuse(&mesh, NULL, 0, "reaches down to z = -1", "'contact'");
+    mesh_destroy(&mesh);
+}
+
+static void test_overlap(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"contact", "contact_left"};
+    static const int32_t both[][2] = {{0, 1}, {1, 2}};
+    Error err = {0};
+    Mesh mesh;
+    MeshFile file = hand_mesh(8, PLACES, ELEMENT_Q4, 3, SQUARES);
+    hand_curve(&file, names[0], 2, both);
+    hand_curve(&file, names[1], 1, LEFT);
+    assert_true(mesh_build(&file, "block.msh", &mesh, &err));
+    refuse(&mesh, NULL, 0, "both have the edge", "'contact' and 'contact_left'");
+    mesh_destroy(&mesh);
+}
+
+// An edge with an element on either side, and a block whose halves do not hang together.
+static void test_inside_and_unglued(void **state)
+{
+    (void)state;
+    static const double stacked[][2] = {{0, -1}, {1, -1}, {0, 0}, {1, 0}, {0, 1}, {1, 1}};
+    static const double split[][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1},
+                                      {1, 0}, {2, 0}, {2, 1}, {1, 1}};
+    static const int32_t tower[] = {0, 1, 3, 2, 2, 3, 5, 4}, halves[] = {0, 1, 2, 3, 4, 5, 6, 7};
+    static const int32_t inner[][2] = {{2, 3}}, bottom[][2] = {{0, 1}, {4, 5}};
+    Error err = {0};
+    Mesh mesh;
+    MeshFile file = hand_mesh(6, stacked, ELEMENT_Q4, 2, tower);
+    hand_curve(&file, "contact", 1, inner);
+    assert_true(mesh_build(&file, "block.msh", &mesh, &err));
+    refuse(&mesh, NULL, 0, "'contact' runs inside the block", NULL);
+    mesh_destroy(&mesh);
+    file = hand_mesh(8, split, ELEMENT_Q4, 2, halves);
+    hand_curve(&file, "contact", 2, bottom);
+    assert_true(mesh_build(&file, "block.msh", &mesh, &err));
+    refuse(&mesh, NULL, 0, "both at x = 1", "not glued");
+    mesh_destroy(&mesh);
+}
+
+static void test_memory_faults(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"contact_1", "contact_2"};
+    static const int32_t(*const pairs[])[2] = {RIGHT, LEFT};
+    Mesh mesh;
+    bool done = false;
+    build(PLACES, names, pairs, 2, &mesh);
+    int64_t live = memory_counters().live;
+    for (int64_t k = 0; !done; k++) {
+        Error err = {0};
+        MeshContact contact;
+        memory_fail_after(k);
+        done = mesh_contact(&mesh, NULL, 0, &contact, &err);
+        memory_fail_after(-1);
+        mesh_contact_destroy(&contact);
+        if (!done) assert_int_equal(err.code, ERROR_MEMORY);
+        assert_int_equal(memory_counters().live, live);
+        assert_true(k < 100);
+    }
+    mesh_destroy(&mesh);
+}
+
+// --- meshes/pads.geo ----------------------------------------------------------------------------
+
+// n pads, together fill * length long, the first at x = 0 and the last ending at x = length.
+static void test_pads(void **state)
+{
+    (void)state;
+    for (int32_t n = 1; n <= 12; n = 2 * n + 1) {
+        MeshParameter parameters[] = {{"n", n, ""},
+                                      {"length", 2, ""},
+                                      {"height", 1, ""},
+                                      {"fill", 0.7, ""},
+                                      {"pad_height", 0.1, ""},
+                                      {"cells_pad", 4, ""},
+                                      {"shape", 0, "quad"},
+                                      {"order", n == 3 ? 2 : 1, ""}};
+        if (n == 7) snprintf(parameters[6].text, GROUP_NAME_SIZE, "triangle");
+        char path[600];
+        Error err = {0};
+        MeshFile file;
+        Mesh mesh;
+        MeshContact contact;
+        double fill = n == 1 ? 1 : 0.7, touching = 0;
+        snprintf(path, sizeof path, "%s/meshes/pads.geo", getenv("AMONTONS_SOURCE"));
+        if (!mesh_file_read(path, parameters, 8, &file, &err) ||
+            !mesh_build(&file, path, &mesh, &err) || !mesh_contact(&mesh, NULL, 0, &contact, &err))
+            fail_msg("%s", err.message);
+        assert_int_equal(contact.curve_count, n);
+        assert_int_equal(contact.node_count, n * (n == 3 ? 9 : 5));
+        for (int32_t c = 0; c < n; c++) {
+            const MeshCurve *pad = &contact.curves[c];
+            char name[GROUP_NAME_SIZE];
+            snprintf(name, sizeof name, "contact_%d", c + 1);
+            assert_string_equal(pad->name, name);
+            touching += mesh.position[2 * pad->nodes[pad->node_count - 1]] -
+                        mesh.position[2 * pad->nodes[0]];
+        }
+        assert_near(touching, fill * 2, 1e-12);
+        assert_true(mesh.position[2 * contact.nodes[0]] == 0);
+        assert_true(mesh.position[2 * contact.nodes[contact.node_count - 1]] == 2);
+        assert_near(mesh_summarise(&mesh).area, 2 * 1 + fill * 2 * 0.1, 1e-10);
+        assert_near(mesh.z_max, 1.1, 1e-15);
+        mesh_contact_destroy(&contact);
+        mesh_destroy(&mesh);
+    }
+}
+
+static void test_bad_pads(void **state)
+{
+    (void)state;
+    static const struct {
+        MeshParameter parameter;
+        const char *message;
+    } rows[] = {{{"fill", 1.2, ""}, "fill must be above 0 and below 1, found 1.2"},
+                {{"n", 0, ""}, "n must be a whole number from 1 on, found 0"},
+                {{"pad_height", -1, ""}, "pad_height must be above 0"},
+                {{"cells_gap", 1.5, ""}, "whole numbers from 1 on"},
+                {{"shape", 0, "hex"}, "shape must be quad or triangle, found hex"}};
+    char path[600];
+    snprintf(path, sizeof path, "%s/meshes/pads.geo", getenv("AMONTONS_SOURCE"));
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        Error err = {0};
+        MeshFile file;
+        assert_false(mesh_file_read(path, &rows[k].parameter, 1, &file, &err));
+        assert_int_equal(err.code, ERROR_INPUT);
+        if (!strstr(err.message, rows[k].message)) fail_msg("%s", err.message);
+        mesh_file_destroy(&file);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_pads_by_default_names),
+        cmocka_unit_test(test_neighbours),
+        cmocka_unit_test(test_missing),
+        cmocka_unit_test(test_not_flat),
+        cmocka_unit_test(test_below_the_substrate),
+        cmocka_unit_test(test_overlap),
+        cmocka_unit_test(test_inside_and_unglued),
+        cmocka_unit_test(test_memory_faults),
+        cmocka_unit_test(test_pads),
+        cmocka_unit_test(test_bad_pads),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
