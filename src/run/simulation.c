@@ -12,8 +12,9 @@
 #include <stdio.h>
 #include <string.h>
 
-// A frame counts as quasi-static for the moment balance when the last rapid event, or the rod's start,
-// lies this many times (crossing time + viscous time) back: waves have died away by then.
+// Static balance of moments is asked of frames in which inertia has no part: the longest step was taken
+// there, and the last rapid event, the last state that was not certified and the rod's start lie this
+// many times (crossing time + viscous time) back.
 static const double QUIET_TIME = 20;
 
 static bool writes_results(const Simulation *simulation)
@@ -112,8 +113,10 @@ static bool record_step(Simulation *simulation, Error *err)
     errors->equation = fmax(errors->equation, seen.equation_error);
     if (control->counters.accepted > 0) errors->moment = fmax(errors->moment, seen.moment_error);
     TRY(recorders_record(&simulation->recorders, &seen, err));
-    if (simulation->events.rapid >= 0) simulation->last_rapid = seen.t;
-    if (seen.t - simulation->last_rapid > QUIET_TIME * simulation->scales.time)
+    bool quiet = simulation->events.rapid < 0 && seen.certified;
+    if (!quiet) simulation->last_unquiet = seen.t;
+    bool longest = seen.step_size >= control->def.step_max;
+    if (longest && seen.t - simulation->last_unquiet > QUIET_TIME * simulation->scales.time)
         errors->moment_quasi_static = fmax(errors->moment_quasi_static, seen.moment_static_error);
     if (seen.energy_error > simulation->scene.time.energy_tolerance)
         FAIL(err, ERROR_COMPUTE,
