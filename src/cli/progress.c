@@ -77,7 +77,7 @@ Progress progress_begin(bool quiet)
     if (quiet) progress.style = PROGRESS_QUIET;
     if (!quiet && isatty(STDERR_FILENO)) progress.style = PROGRESS_BAR;
     if (progress.style == PROGRESS_BAR) {
-        fprintf(stderr, "preparing: mesh, matrices, relaxation ...");
+        fprintf(stderr, "preparing mesh and start ...");
         fflush(stderr);
         progress.bar_stands = true;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The "scene" object of run.json: the keys' maps are opened and closed as the table is gone through.
+// The "scene" object of run.json. Maps are opened and closed as the key table is gone through.
 #include "run/scene_keys.h"
 
 #include <string.h>

@@ -6,9 +6,10 @@
 
 #include <stdbool.h>
 
-// Turns *value, given in the unit `suffix`, into SI base units. A suffix is a product of m, s, g, N,
-// Pa, J, each with an SI prefix (n u m c k M G) and an integer power ("m3", "m^3", "s-1"), separated
-// by spaces, dots or `*`; after a `/` they divide. False: not a unit, or not one of `dimension`.
+// Turns *value, given in the unit `suffix`, into SI base units. A suffix is a product of m, s, g,
+// N, Pa, J, each with an SI prefix (n u m c k M G) and an integer power ("m3", "m^3", "s-1"),
+// separated by spaces, dots or `*`; after a `/` they divide. False: not a unit, or not one of
+// `dimension`.
 bool unit_to_si(const char *suffix, const char *dimension, double *value);
 
 // Units that fit, for an error message: "m, mm, um"; "" for a plain number ("1").

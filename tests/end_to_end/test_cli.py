@@ -1,0 +1,266 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The built program as its users call it: help, exit statuses, messages, progress, signals."""
+import fcntl
+import json
+import os
+import pty
+import re
+import shutil
+import signal
+import struct
+import subprocess
+import tempfile
+import termios
+import time
+import unittest
+from pathlib import Path
+
+SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
+PROGRAM = Path(os.environ.get("AMONTONS_BIN", SOURCE / "build" / "bin")) / "amontons"
+FIG1 = SOURCE / "validation" / "paper" / "fig1.yaml"
+COARSE = ["--set", "mesh.set.nx=10", "mesh.set.nz=10"]
+PLAIN = ["--set", "output.fields=none", "--set", "output.figures=[]"]
+
+
+def amontons(*words, cwd=None):
+    return subprocess.run([PROGRAM, *map(str, words)], cwd=cwd, capture_output=True, text=True,
+                          timeout=120)
+
+
+class InFolder(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="amontons-cli-"))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def scene(self, text):
+        path = self.folder / "scene.yaml"
+        path.write_text(text)
+        return path
+
+
+class Help(unittest.TestCase):
+    def test_version(self):
+        done = amontons("--version")
+        self.assertEqual(done.returncode, 0)
+        self.assertRegex(done.stdout, r"^amontons \d+\.\d+\.\d+\n$")
+
+    def test_main_help_names_every_command(self):
+        for words in (["--help"], ["help"], ["-h"]):
+            done = amontons(*words)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            for word in ("run ", "render ", "info ", "info keys", "Exit status", "amontons run "):
+                self.assertIn(word, done.stdout)
+
+    def test_help_of_each_command(self):
+        words = {"run": ["SCENE", "--output", "--set", "--overwrite", "--quiet", "Example",
+                         "amontons run validation/paper/fig1.yaml"],
+                 "render": ["RESULT", "--figure", "force, slip-map", "amontons render "],
+                 "info": ["FILE", ".msh", "keys", "amontons info meshes/block.geo"]}
+        for command, wanted in words.items():
+            first, second = amontons(command, "--help"), amontons("help", command)
+            self.assertEqual((first.returncode, first.stderr), (0, ""), command)
+            self.assertEqual(first.stdout, second.stdout)
+            for word in wanted:
+                self.assertIn(word, re.sub(r"\s+", " ", first.stdout))
+            self.assertLessEqual(max(map(len, first.stdout.splitlines())), 80)
+
+    def test_every_figure_is_in_the_help(self):
+        names = re.findall(r'X\(FIGURE_\w+, "([\w-]+)"', (SOURCE / "render/render.h").read_text())
+        self.assertGreaterEqual(len(names), 3)
+        shown = re.sub(r"\s+", " ", amontons("render", "--help").stdout)
+        for name in names:
+            self.assertIn(name, shown)
+
+    def test_key_reference(self):
+        done = amontons("info", "keys")
+        self.assertEqual(done.returncode, 0)
+        for key in ("material.young", "output.fields.every_U", "time.until.periodic"):
+            self.assertIn(f"| `{key}` |", done.stdout)
+
+    def test_full_output_device(self):
+        with open("/dev/full", "w") as full:
+            for words in (["--help"], ["info", "keys"]):
+                done = subprocess.run([PROGRAM, *words], stdout=full, stderr=subprocess.PIPE)
+                self.assertEqual(done.returncode, 1)
+                self.assertIn(b"error: cannot write", done.stderr)
+
+
+class Misuse(InFolder):
+    def assert_refused(self, words, *parts, status=2):
+        done = amontons(*words, cwd=self.folder)
+        self.assertEqual(done.returncode, status, done.stderr)
+        self.assertEqual(done.stdout, "")
+        for part in parts:
+            self.assertIn(part, done.stderr)
+        return done.stderr
+
+    def test_words(self):
+        self.assert_refused([], "amontons --help")
+        self.assert_refused(["rum"], "unknown command `rum`; did you mean `run`?")
+        self.assert_refused(["zzz"], "unknown command `zzz`", "amontons --help")
+        self.assert_refused(["help", "inof"], "did you mean `info`?")
+        self.assert_refused(["run"], "run needs a scene")
+        self.assert_refused(["run", "a.yaml", "b.yaml"], "run takes one scene")
+        self.assert_refused(["run", "--quite"], "run: unrecognized option '--quite'")
+        self.assert_refused(["run", FIG1, "-o", ""], "-o: the folder has no name")
+        self.assert_refused(["run", FIG1, "--set"], "requires an argument")
+        self.assert_refused(["info"], "info needs a file")
+        self.assert_refused(["info", "a", "b"], "info takes one file")
+        self.assert_refused(["render"], "render needs a result folder")
+        self.assert_refused(["render", "a", "b"], "render takes one result folder")
+
+    def test_scenes(self):
+        self.assert_refused(["run", "none.yaml"], "amontons: error: cannot read none.yaml")
+        self.assert_refused(["run", self.folder], "is a folder")
+        self.assert_refused(["run", FIG1, "--set", "load.pressure=much"],
+                            "--set load.pressure", "found `much`", "a number >= 0")
+        self.assert_refused(["run", FIG1, "--set", "load.pressur=1"], "did you mean `load.pressure`")
+        bad = self.scene("title: x\nmaterial: {yung: 1}\n")
+        shown = self.assert_refused(["run", bad], "unknown key; did you mean `material.young`?")
+        self.assertIn(f"{bad}:2:12: ", shown)
+        line, caret = shown.splitlines()[-2:]
+        self.assertEqual(line[caret.index("^"):][:4], "yung")
+
+    def test_files_of_no_known_kind(self):
+        self.assert_refused(["info", "none"], "none: No such file")
+        self.assert_refused(["info", self.folder], "not a result folder")
+        (self.folder / "a.txt").write_text("x")
+        self.assert_refused(["info", "a.txt"], "a mesh (.msh, .geo), a scene")
+        self.assert_refused(["render", "none"], "cannot open the result none")
+        self.assert_refused(["render", "a.txt"], "is a file, not a result folder")
+        self.assert_refused(["render", self.folder], str(self.folder))
+
+    def test_unreadable_scene(self):
+        bad = self.scene("title: x\n")
+        bad.chmod(0)
+        if os.access(bad, os.R_OK):
+            self.skipTest("root reads everything")
+        self.assert_refused(["run", bad], "Permission denied", status=1)
+
+
+class Info(unittest.TestCase):
+    def test_scene(self):
+        done = amontons("info", FIG1)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("Figure 1 of the paper", done.stdout)
+        self.assertRegex(done.stdout, r"material.poisson +0.34\n")
+        self.assertRegex(done.stdout, r"groups.top +top +\(default\)\n")
+
+    def test_mesh(self):
+        done = amontons("info", SOURCE / "meshes" / "block.geo")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        nodes, elements = map(int, re.search(r"(\d+) nodes, (\d+) elements", done.stdout).groups())
+        cells = re.search(r"contact +curve +(\d+) edges +(\d+) nodes +length ([\d.]+)", done.stdout)
+        along, contact_nodes, length = int(cells[1]), int(cells[2]), float(cells[3])
+        self.assertEqual(contact_nodes, along + 1)
+        self.assertEqual(nodes, (along + 1) * (elements // along + 1))   # a grid of Q4
+        self.assertEqual(length, 1)
+        for name in ("top", "rod", "body"):
+            self.assertRegex(done.stdout, rf"\n +{name} ")
+
+
+class Run(InFolder):
+    def test_result_and_closing_lines(self):
+        done = amontons("run", FIG1, *COARSE, "output.fields=none", cwd=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        result = self.folder / "fig1-result"   # the default name
+        run = json.loads((result / "run.json").read_text())
+        self.assertEqual(run["status"], "done")
+        self.assertEqual(run["scene"]["mesh"]["set"]["nx"], 10)
+        shown = float(re.search(r"mu_M +([\d.]+)", done.stdout)[1])
+        self.assertAlmostEqual(shown, run["results"]["mu_M"], delta=6e-5)
+        accepted = int(re.search(r"steps +(\d+) accepted", done.stdout)[1])
+        self.assertEqual(accepted, run["steps"]["accepted"])
+        for name in ("force", "slip-map", "contact-density"):
+            self.assertIn(f"figures/{name}.png", done.stdout)
+            self.assertTrue((result / "figures" / f"{name}.png").is_file())
+        self.assertNotIn("fields.pvd", done.stdout)
+        tenths = [int(m) for m in re.findall(r"^ *(\d+) %  U ", done.stderr, re.M)]
+        self.assertEqual(tenths, sorted(set(tenths)))
+        self.assertGreaterEqual(len(tenths), 8)
+        self.assertNotIn("\r", done.stderr)
+
+        again = amontons("run", FIG1, *COARSE, cwd=self.folder)
+        self.assertEqual(again.returncode, 2)
+        self.assertIn("--overwrite", again.stderr)
+        info = amontons("info", result)
+        self.assertEqual((info.returncode, info.stderr), (0, ""))
+        self.assertIn(f"mu_M               {run['results']['mu_M']}", info.stdout)
+        self.assertEqual(info.stdout.count("\n  leading rapid"),
+                         sum(e["kind"].startswith("leading") for e in run["results"]["events"]))
+
+        picture = result / "figures" / "force.png"
+        picture.unlink()
+        drawn = amontons("render", result, "--figure", "force")
+        self.assertEqual(drawn.returncode, 0, drawn.stderr)
+        self.assertTrue(picture.is_file())
+        wrong = amontons("render", result, "--figure", "forces")
+        self.assertEqual(wrong.returncode, 2)
+        self.assertIn("force", wrong.stderr)
+
+    def test_quiet(self):
+        done = amontons("run", FIG1, *COARSE, *PLAIN, "time.until.U=1e-4", "--quiet", "-o",
+                        self.folder / "a" / "b")
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+        self.assertTrue((self.folder / "a" / "b" / "run.json").is_file())
+        done = amontons("run", FIG1, *COARSE, *PLAIN, "time.until.U=1e-4", "-q", "--overwrite",
+                        "-o", self.folder / "a" / "b")
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+
+    def test_signals_end_the_run_in_order(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            result = self.folder / number.name
+            run = subprocess.Popen([PROGRAM, "run", FIG1, *PLAIN, "--set", "time.until.U=1",
+                                    "-o", result], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                   text=True)
+            history = result / "history.h5.part"
+            limit = time.monotonic() + 60
+            while not history.exists() and time.monotonic() < limit:
+                time.sleep(0.02)
+            time.sleep(0.3)
+            run.send_signal(number)
+            _, shown = run.communicate(timeout=60)
+            self.assertEqual(run.returncode, 1, shown)
+            self.assertIn("amontons: error: ", shown)
+            self.assertIn(str(result), shown)
+            self.assertEqual(json.loads((result / "run.json").read_text())["status"], "failed")
+            self.assertTrue((result / "history.h5").is_file())
+
+    def test_bar_on_a_terminal(self):
+        for columns in (40, 80, 132):
+            started = time.monotonic()
+            shown = self.run_on_terminal(columns)
+            elapsed = time.monotonic() - started
+            self.assertNotIn("\n", shown)
+            draws = [re.sub(r"\x1b\[K", "", part) for part in shown.split("\r")]
+            self.assertGreater(len(draws), 1)
+            self.assertLess(max(map(len, draws)), columns)
+            self.assertEqual(draws[-1], "")   # nothing is left of it
+            states = [d for d in draws if re.search(r"\d+ %  U [\d.e-]+", d)]
+            self.assertTrue(states)
+            self.assertLessEqual(len(states), 10 * elapsed + 1)
+            if columns >= 80:
+                self.assertRegex(states[0], r"^\[[#.]+\] +\d+ %  U .* mu .* dt .* event")
+
+    def run_on_terminal(self, columns):
+        ours, theirs = pty.openpty()
+        fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
+        run = subprocess.Popen([PROGRAM, "run", FIG1, *COARSE, *PLAIN, "--overwrite", "-o",
+                                self.folder / "bar"], stdout=subprocess.DEVNULL, stderr=theirs)
+        os.close(theirs)
+        shown = b""
+        while True:
+            try:
+                part = os.read(ours, 4096)
+            except OSError:   # the other side is closed
+                break
+            if not part:
+                break
+            shown += part
+        os.close(ours)
+        self.assertEqual(run.wait(timeout=60), 0)
+        return shown.decode()
+
+
+if __name__ == "__main__":
+    unittest.main()
