@@ -15,6 +15,7 @@ extern "C" {
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkSMPTools.h>
 #include <vtkSmartPointer.h>
 #include <vtkTypeInt64Array.h>
 #include <vtkUnsignedCharArray.h>
@@ -139,6 +140,7 @@ extern "C" __attribute__((visibility("default"))) bool
 amontons_vtk_encode(const FieldGrid *grid, const FieldOutput *output, Error *err)
 {
     try {
+        vtkSMPTools::SetBackend("Sequential");   // its threads wait by spinning, for work too small
         return encode(*grid, *output, err);
     } catch (const std::exception &thrown) {
         error_set(err, ERROR_LIBRARY, __FILE__, __LINE__, "VTK failed: %s", thrown.what());
