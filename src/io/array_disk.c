@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// Of the calls of a driver only those are here that HDF5 needs to create a file and write it. All of
+// them succeed in HDF5's eyes (0); `failure` holds what really happened.
 #include "io/array_disk.h"
 
 #include <errno.h>
@@ -11,6 +13,7 @@ typedef struct DiskAddress {
     ArrayDisk *disk;
 } DiskAddress;
 
+// The first cause is the one to report: what follows is its consequence.
 static void note_failure(ArrayDisk *disk, int cause)
 {
     if (disk->failure == 0) disk->failure = cause ? cause : EIO;
@@ -30,6 +33,8 @@ static herr_t disk_close(H5FD_t *base)
     return 0;
 }
 
+// What HDF5 may do on top: collect small pieces of metadata and data into larger writes. The file
+// itself is in the default format, readable without this driver.
 static herr_t disk_query(const H5FD_t *base, unsigned long *flags)
 {
     (void)base;
@@ -75,6 +80,7 @@ static haddr_t disk_end_of_file(const H5FD_t *base, H5FD_mem_t type)
     return ((const ArrayDisk *)base)->end_of_file;
 }
 
+// HDF5 may ask for what it has not written yet: zeros.
 static herr_t disk_read(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_t address, size_t size,
                         void *buffer)
 {
@@ -94,12 +100,15 @@ static herr_t disk_read(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_t a
     return 0;
 }
 
+// After a failure nothing more is written: what the last flush made known stays readable, unless the
+// disk failed in the middle of a flush.
 static herr_t disk_write(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_t address,
                          size_t size, const void *buffer)
 {
     (void)type, (void)transfer;
     ArrayDisk *disk = (ArrayDisk *)base;
     const char *next = buffer;
+    // HDF5 checks the length when it closes: keep it as if all had been written.
     if (address + size > disk->end_of_file) disk->end_of_file = address + size;
     while (size > 0 && disk->failure == 0) {
         ssize_t count = pwrite(disk->file->descriptor, next, size, (off_t)address);

@@ -58,6 +58,7 @@ static herr_t keep_metadata_until_flush(hid_t access)
     return H5Pset_mdc_config(access, &cache);
 }
 
+// The empty HDF5 file over the part that is open already.
 static bool create_hdf5(ArrayFile *file, Error *err)
 {
     char cause[HDF5_CAUSE_SIZE];
@@ -150,6 +151,7 @@ bool array_file_close(ArrayFile *file, Error *err)
 {
     if (!file) return true;
     if (!file->writing) goto cleanup;
+    // Each step may fail, and then the name is not given; closing itself writes once more.
     TRY(array_file_flush(file, err));
     for (int32_t s = 0; s < file->series_count; s++) series_destroy(&file->series[s]);
     herr_t status = H5Fclose(file->id);
@@ -185,6 +187,8 @@ static herr_t write_text(hid_t object, const char *name, const char *value)
     H5Tclose(type);
     return status;
 }
+
+// Attributes stand in the root of the file. Setting one again replaces it.
 
 bool array_file_set_number(ArrayFile *file, const char *name, double value, Error *err)
 {
@@ -224,6 +228,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// HDF5 hands out the text in memory of its own, which goes back to it.
 bool array_file_get_text(ArrayFile *file, const char *name, char *value, int32_t size, Error *err)
 {
     hid_t attribute = -1, type = -1;
@@ -310,7 +315,8 @@ bool array_file_has(ArrayFile *file, const char *name)
     return H5Lexists(file->id, name, H5P_DEFAULT) > 0;   // negative where a folder is missing
 }
 
-// Rows and width of a dataset of one or two dimensions.
+// Rows and width of a dataset of one or two dimensions. The numbers come from a file, which may be
+// damaged: a product that would overflow is refused here, one too large by the allocator.
 static bool read_shape(const ArrayFile *file, const char *name, hid_t dataset, int64_t *rows,
                        int32_t *width, Error *err)
 {
@@ -338,7 +344,7 @@ bool array_file_read(ArrayFile *file, const char *name, double **values, int64_t
     *values = NULL;
     *rows = 0;
     *width = 0;
-    TRY(array_file_flush(file, err));
+    TRY(array_file_flush(file, err));   // a file being written can be read, too
     if (!array_file_has(file, name)) FAIL(err, ERROR_FILE, "%s has no %s", file->path, name);
     dataset = H5Dopen2(file->id, name, H5P_DEFAULT);
     if (dataset < 0)
@@ -351,7 +357,7 @@ bool array_file_read(ArrayFile *file, const char *name, double **values, int64_t
 cleanup:
     if (dataset >= 0) H5Dclose(dataset);
     if (error_is_clean(err)) return true;
-    memory_free(*values);
+    memory_free(*values);   // half read
     *values = NULL;
     return false;
 }

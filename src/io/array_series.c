@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// Costs, 81 contact nodes: a row of all series of io/result_file is taken in a microsecond; with
+// the compression, which comes when a chunk is full, it is 15 to 20.
 #include "io/array_series.h"
 
 #include "base/memory.h"
@@ -59,6 +61,7 @@ static hid_t memory_type(ArrayType type)
     return -1;
 }
 
+// Scalars have one dimension, so that h5py users need not index a column.
 static int rank_of(const SeriesWriter *writer)
 {
     return writer->width > 1 ? 2 : 1;
@@ -120,6 +123,8 @@ void series_destroy(SeriesWriter *writer)
 bool series_hand_over(SeriesWriter *writer, const ArrayDisk *disk, Error *err)
 {
     if (writer->buffered == 0) return true;
+    // The dataset grows by the rows, and these are the hyperslab that is written:
+    //   [0, row_count) stays, [row_count, row_count + buffered) x [0, width) is `from` the buffer.
     hsize_t start[2] = {(hsize_t)writer->row_count, 0};
     hsize_t count[2] = {(hsize_t)writer->buffered, (hsize_t)writer->width};
     hsize_t shape[2] = {start[0] + count[0], count[1]};

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// VTK encodes, we write: VTK's own writers say no more than "failed" when a disk is full, and leave
+// it to the caller to look for the file's remains.
 #include "io/field_file.h"
 
 #include "base/memory.h"
@@ -12,6 +14,7 @@
 
 // --- .vtu and .vtp ------------------------------------------------------------------------------
 
+// Names make the arrays: two of one name would be one array in ParaView.
 static bool check_arrays(const FieldArray *arrays, int32_t count, Error *err)
 {
     for (int32_t k = 0; k < count; k++) {
@@ -44,6 +47,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// The sink of the module: the bytes of the whole file, once.
 static bool write_bytes(void *file, const char *bytes, int64_t size, Error *err)
 {
     return part_file_write(file, bytes, size, err);
@@ -53,7 +57,7 @@ static bool write_grid(const char *path, const FieldGrid *grid, FieldFormat form
 {
     PartFile file = {0};
     FieldOutput output = {.format = format, .sink = write_bytes, .context = &file};
-    TRY(check_grid(grid, format, err));
+    TRY(check_grid(grid, format, err));   // before VTK is loaded, and before a file is made
     FieldEncodeFunction encode =
         (FieldEncodeFunction)module_function("vtk", "amontons_vtk_encode", err);
     if (!encode) goto cleanup;
@@ -78,6 +82,7 @@ bool field_file_write_vtp(const char *path, const FieldGrid *grid, Error *err)
 
 // --- .pvd ---------------------------------------------------------------------------------------
 
+// The value of an XML attribute in double quotes.
 static void put_escaped(FILE *out, const char *text)
 {
     for (const char *c = text; *c; c++) {
@@ -111,6 +116,7 @@ static int32_t part_number(const FieldSeriesEntry *entries, int32_t entry, int32
     return number;
 }
 
+// ParaView's format: one DataSet a file and time; 17 digits give the time back exactly.
 static void put_collection(FILE *out, const FieldSeriesEntry *entries, int32_t count,
                            int32_t *first)
 {

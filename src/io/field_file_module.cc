@@ -45,6 +45,7 @@ vtkSmartPointer<Array> borrow(const Value *values, int64_t count, int components
     return array;
 }
 
+// One field, borrowed where it is stored as it is, converted where it is stored in single precision.
 vtkSmartPointer<vtkDataArray> make_array(const FieldArray &field, int64_t count)
 {
     const int64_t size = count * field.components;
@@ -78,6 +79,7 @@ void fill(vtkPointSet *set, const FieldGrid &grid)
     set->GetFieldData()->AddArray(time);
 }
 
+// Offsets and connectivity as VTK 9 keeps them itself: 64-bit, borrowed.
 vtkSmartPointer<vtkCellArray> make_cells(const FieldGrid &grid)
 {
     auto cells = vtkSmartPointer<vtkCellArray>::New();
@@ -86,12 +88,14 @@ vtkSmartPointer<vtkCellArray> make_cells(const FieldGrid &grid)
     return cells;
 }
 
+// Called by VTK with an error's text; the first one is the cause.
 void keep_first(vtkObject *, unsigned long, void *message, void *text)
 {
     auto *kept = static_cast<std::string *>(message);
     if (kept->empty() && text) *kept = static_cast<const char *>(text);
 }
 
+// Runs a writer into memory and hands the bytes on.
 bool write(vtkXMLWriter *writer, vtkDataObject *data, const FieldOutput &output, Error *err)
 {
     std::string message;

@@ -12,7 +12,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { DEPTH_MAX = 32, FIRST_CAPACITY = 4096, INDENT = 2 };
+enum {
+    DEPTH_MAX = 32,   // open objects and lists; run.json has five
+    FIRST_CAPACITY = 4096,   // bytes of text before the first growth
+    INDENT = 2   // columns a level
+};
 
 // An object or list that is not yet ended.
 typedef struct JsonLevel {
@@ -30,11 +34,12 @@ struct JsonWriter {
     JsonLevel levels[DEPTH_MAX + 1];
 };
 
+// Adds to the text; after the first failure nothing happens any more.
 static void append_bytes(JsonWriter *json, const char *bytes, int64_t count)
 {
     if (!error_is_clean(&json->first)) return;
     if (json->length + count > json->capacity) {
-        int64_t capacity = 2 * (json->length + count);
+        int64_t capacity = 2 * (json->length + count);   // doubled: copied twice on average
         char *longer = memory_resize(json->text, json->length, capacity, 1, &json->first);
         if (!longer) return;
         json->text = longer;
@@ -74,6 +79,8 @@ static int32_t utf8_length(const unsigned char *text)
     return length;
 }
 
+// A JSON string. What must be escaped is (RFC 8259, section 7), and DEL; what is not UTF-8 becomes
+// the replacement character, for a file name may hold any bytes and a parser would stop at them.
 static void append_escaped(JsonWriter *json, const char *value)
 {
     append_text(json, "\"");
@@ -110,7 +117,7 @@ static void begin_item(JsonWriter *json, const char *key, bool is_plain)
     if (json->depth > 0 && level->is_list == (key != NULL))
         error_set(&json->first, ERROR_LIBRARY, __FILE__, __LINE__, "%s: %s", json->file.path,
                   key ? "a key inside a list" : "no key inside an object");
-    if (!is_plain) level->one_line = false;
+    if (!is_plain) level->one_line = false;   // from here on; what stands on the line stays
     if (level->count > 0) append_text(json, level->one_line ? ", " : ",");
     if (json->depth > 0 && !level->one_line) append_new_line(json);
     level->count++;
@@ -120,6 +127,7 @@ static void begin_item(JsonWriter *json, const char *key, bool is_plain)
     }
 }
 
+// Opens an object or a list. Beyond DEPTH_MAX the document has failed, and `depth` stays.
 static void begin_level(JsonWriter *json, const char *key, bool is_list)
 {
     begin_item(json, key, false);
@@ -180,6 +188,7 @@ void json_text(JsonWriter *json, const char *key, const char *value)
 void json_number(JsonWriter *json, const char *key, double value)
 {
     char digits[32] = "null";
+    // 15 digits are always right, 17 always enough (IEEE 754 double): the fewest that read back.
     for (int32_t precision = 15; isfinite(value) && precision <= 17; precision++) {
         snprintf(digits, sizeof digits, "%.*g", precision, value);
         if (strtod(digits, NULL) == value) break;
@@ -204,6 +213,7 @@ void json_boolean(JsonWriter *json, const char *key, bool value)
 
 bool json_finish(JsonWriter *json, Error *err)
 {
+    // A missing end is a bug of the caller; the file would not be JSON.
     if (json->depth != 0 || json->levels[0].count != 1)
         error_set(&json->first, ERROR_LIBRARY, __FILE__, __LINE__, "%s: the document is not whole",
                   json->file.path);

@@ -28,6 +28,7 @@ static bool name_leads_to(const char *name, int descriptor)
 
 bool part_file_create(PartFile *file, const char *path, Error *err)
 {
+    // Not emptied when opened (O_TRUNC): only the holder of the lock may do that.
     *file = (PartFile){0};
     if (!part_file_name(path, file->part))
         FAIL(err, ERROR_FILE, "the name of the file to write is empty or too long: \"%s\"", path);
@@ -57,7 +58,7 @@ cleanup:
 bool part_file_write(PartFile *file, const void *bytes, int64_t size, Error *err)
 {
     const char *next = bytes;
-    while (size > 0) {
+    while (size > 0) {   // a signal or a nearly full disk cuts a write short
         ssize_t written = write(file->descriptor, next, (size_t)size);
         if (written < 0 && errno == EINTR) continue;
         if (written <= 0)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// The tables of the header, expanded once into arrays of rows; everything else loops over those.
 #include "io/result_file.h"
 
 #include "base/memory.h"
@@ -8,11 +9,13 @@
 #include <stdio.h>
 #include <string.h>
 
+// What all four tables have in common.
 typedef struct ResultRow {
-    const char *name;
-    ArrayType type;
-    bool per_node;
-    const char *unit, *description;
+    const char *name;   // in the file, with its folder
+    ArrayType type;   // as stored; attributes are always doubles
+    bool per_node;   // a column a contact node, else one value a row
+    const char *unit;   // a dimension in words, "1" for none
+    const char *description;
 } ResultRow;
 
 static const ResultRow series_rows[] = {
@@ -76,6 +79,7 @@ cleanup:
 
 // --- writing ------------------------------------------------------------------------------------
 
+// Makes the array of a table's row, empty.
 static bool add_row(ArrayFile *file, const ResultRow *row, int32_t width, Error *err)
 {
     ArraySeries series = {.name = row->name,
@@ -86,6 +90,7 @@ static bool add_row(ArrayFile *file, const ResultRow *row, int32_t width, Error 
     return array_file_add_series(file, &series, err);
 }
 
+// Texts, and the numbers known by now.
 static bool write_attributes(ArrayFile *file, const ResultHead *head, Error *err)
 {
     TRY(array_file_set_text(file, "title", head->title, err));
@@ -114,7 +119,7 @@ ArrayFile *result_file_create(const char *folder, const ResultHead *head, Error 
     }
     for (int32_t k = 0; k < RESULT_SERIES_COUNT; k++)
         TRY(add_row(file, &series_rows[k], series_rows[k].per_node ? head->contact_count : 1, err));
-    TRY(array_file_flush(file, err));
+    TRY(array_file_flush(file, err));   // from now on a killed run leaves a readable history
     return file;
 cleanup:
     array_file_abandon(file);
@@ -188,7 +193,7 @@ bool result_file_read_table(ArrayFile *file, ResultTable table, double **values,
 double result_file_number(ArrayFile *file, ResultNumber number)
 {
     Error absent = {0};
-    double value = NAN;
+    double value = NAN;   // stays when the file does not know it
     array_file_get_number(file, number_rows[number].name, &value, &absent);
     return value;
 }
@@ -200,6 +205,7 @@ bool result_file_text(ArrayFile *file, const char *name, char *value, int32_t si
 
 // --- the README's table -------------------------------------------------------------------------
 
+// As numpy calls it, for those who read with h5py.
 static const char *type_name(ArrayType type)
 {
     switch (type) {
