@@ -28,7 +28,7 @@ static int compare_places(const void *a, const void *b, void *position)
 
 void mesh_sort_nodes(const Mesh *mesh, int32_t *nodes, int32_t count)
 {
-    qsort_r(nodes, (size_t)count, sizeof *nodes, compare_places, mesh->position);
+    if (count > 1) qsort_r(nodes, (size_t)count, sizeof *nodes, compare_places, mesh->position);
 }
 
 bool mesh_curve(const Mesh *mesh, const char *name, MeshCurve *curve, Error *err)

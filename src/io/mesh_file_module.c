@@ -6,6 +6,7 @@
 
 #include <errno.h>
 #include <gmshc.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -94,9 +95,9 @@ static void gmsh_end(void)
 // process.) Returns its descriptor, -1 on failure; `name` becomes the name to open it by.
 static int open_script(const MeshRawRequest *request, char name[SCRIPT_NAME_SIZE], Error *err)
 {
-    char *path = realpath(request->path, NULL);
+    char path[PATH_MAX];
     int script = memfd_create("parameters.geo", MFD_CLOEXEC);
-    if (!path || script < 0)
+    if (!realpath(request->path, path) || script < 0)
         FAIL(err, ERROR_FILE, "%s: its parameters cannot be set: %s", request->path,
              strerror(errno));
     if (strchr(path, '"'))
@@ -111,7 +112,6 @@ static int open_script(const MeshRawRequest *request, char name[SCRIPT_NAME_SIZE
     dprintf(script, "Include \"%s\";\n", path);
     snprintf(name, SCRIPT_NAME_SIZE, "/proc/self/fd/%d", script);
 cleanup:
-    free(path);
     return script;
 }
 

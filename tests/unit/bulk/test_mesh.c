@@ -210,7 +210,7 @@ static void test_summary(void **state)
 {
     (void)state;
     static const double places[][2] = {{0, 0}, {4, 0}, {4, 1}, {0, 1}, {0, 4}};
-    static const int32_t nodes[] = {0, 1, 2, 3, 3, 2, 4};
+    static const int32_t nodes[] = {0, 1, 2, 3, 3, 2, 4, 0};   // the last is no node
     Error err = {0};
     Mesh mesh;
     MeshFile file = hand_mesh(5, places, ELEMENT_Q4, 2, nodes);
