@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { TICKS_MAX = 6 };
+enum { TICKS_MAX = 6, LABEL_LENGTH = TICK_LABEL_SIZE + 8 };
 
 static const double BAR_WIDTH = 7;   // points
 static const double TICK_LENGTH = 2.2;   // points
@@ -25,17 +25,19 @@ static Ticks bar_ticks(const Colorbar *bar)
 
 static void bar_label(const Colorbar *bar, const Ticks *ticks, int32_t k, char *label)
 {
+    char number[TICK_LABEL_SIZE];
+    tick_label(ticks, k, number);
     if (bar->powers)
-        snprintf(label, TICK_LABEL_SIZE, "10^{%.0f}", tick_value(ticks, k));
+        snprintf(label, LABEL_LENGTH, "10^{%.0f}", tick_value(ticks, k));
     else
-        tick_label(ticks, k, label);
+        snprintf(label, LABEL_LENGTH, "%s%s", bar->clipped && k == 0 ? "\u2264" : "", number);
 }
 
 static double numbers_width(const Page *page, const Colorbar *bar)
 {
     Ticks ticks = bar_ticks(bar);
     double size = NUMBER_SIZE * page->point, widest = 0;
-    char label[TICK_LABEL_SIZE];
+    char label[LABEL_LENGTH];
     for (int32_t k = 0; k < ticks.count; ++k) {
         bar_label(bar, &ticks, k, label);
         widest = fmax(widest, text_width(page->text, size, label));
@@ -67,7 +69,7 @@ static void scale_draw(const Page *page, const Colorbar *bar, const Box *colors)
     TextStyle style = {.size = NUMBER_SIZE * page->point, .color = INK, .up = 0.5};
     Stroke stroke = {.color = INK, .width = FRAME_WIDTH * page->point};
     double out = colors->right + TICK_LENGTH * page->point;
-    char label[TICK_LABEL_SIZE];
+    char label[LABEL_LENGTH];
     for (int32_t k = 0; k < ticks.count; ++k) {
         double up = (tick_value(&ticks, k) - bar->low) / (bar->high - bar->low);
         double y = colors->bottom - up * (colors->bottom - colors->top);

@@ -8,6 +8,7 @@
 typedef struct Colorbar {
     double low, high;   // shown at the bottom and the top of the bar
     bool falling;   // the colour map's value 0 stands at the top, not at the bottom
+    bool clipped;   // what is below `low` is shown as `low`: its number says so
     bool powers;   // low and high are decimal logarithms: ticks are powers of ten
     const char *label;   // text.h's marks
     const char *neutral;   // name of the neutral colour, shown in a patch below; NULL: no patch

@@ -8,14 +8,14 @@
 
 #include <math.h>
 
-static const double DECADE_LOW = -1;   // quasi-static slip is about V: 10^0
-static const double DECADE_HIGH_MIN = 2;   // at least this range is shown
+static const double DECADE_LOW = -2;   // quasi-static slip is about V or a tenth of it
+static const double DECADE_HIGH_MIN = 1;   // at least this range is shown
 static const double DECADE_HIGH_MAX = 8;
 static const double MARK_WIDTH = 9;   // points: room for the name l_c
 static const double ZOOM_BAR = 1.8;   // points: height of the bar that marks the zoom
 static const Color STICK = {0.84f, 0.85f, 0.87f, 1};
 
-// The whole decades that hold all slip, above the one where quasi-static slip is.
+// Where the scale ends: the half decade above all slip.
 static double decade_high(const ResultView *view, double V)
 {
     double largest = 0;
@@ -24,7 +24,7 @@ static double decade_high(const ResultView *view, double V)
         if (rate > largest && isfinite(rate)) largest = rate;
     }
     if (!(largest > V)) return DECADE_HIGH_MIN;
-    return fmin(fmax(ceil(log10(largest / V)), DECADE_HIGH_MIN), DECADE_HIGH_MAX);
+    return fmin(fmax(ceil(2 * log10(largest / V)) / 2, DECADE_HIGH_MIN), DECADE_HIGH_MAX);
 }
 
 // From slip rates to places in the colour map.

@@ -14,7 +14,7 @@ typedef bool (*FigureFunction)(const Page *page, ResultView *view, Error *err);
 bool figure_force(const Page *page, ResultView *view, Error *err);
 // Slip rate over V, logarithmic, against U and x.
 bool figure_slip_map(const Page *page, ResultView *view, Error *err);
-// Contact density max(0, 1 - |slip rate| / v_c), 0 where open, in the last precursors.
+// Contact density max(0, 1 - |slip rate| / v_c) in the last precursors; where open, neutral.
 bool figure_contact_density(const Page *page, ResultView *view, Error *err);
 
 // An axis of lengths from low to high: "~{U} / ~{L}_{0}", or in SI "~{U} (mm)".

@@ -19,8 +19,8 @@ typedef struct MapPage {
 void map_page_layout(const Page *page, const ResultView *view, double U_low, double U_high,
                      MapPage *map);
 
-// Fills map->grid with the fastest |slip rate| at each pixel; INFINITY where `status` (or NULL) says
-// open.
+// Fills map->grid with the fastest |slip rate| at each pixel; INFINITY where `status` (or NULL) has
+// 0, open.
 bool map_page_fill(const ResultView *view, const double *status, MapPage *map, Error *err);
 
 // Draws the grid, whose values are now 0 to 1 of the colour map or a HeatLevel, and the pads' gaps.

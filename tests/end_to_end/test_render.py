@@ -20,7 +20,8 @@ import render_fixture as fixture
 MODULES = os.environ["AMONTONS_MODULES"]
 FIGURES = ("force", "slip-map", "contact-density")
 INK, CURVE, RED, BLUE = (20, 20, 26), (13, 69, 140), (191, 31, 31), (20, 89, 179)
-STICK = (214, 217, 222)
+STICK, OPEN = (214, 217, 222), (140, 143, 148)
+DECADES = (-2, 3.5)   # of the fixture's slip map: the fastest slip is 2040 V
 ERROR_INPUT, ERROR_FILE, ERROR_LIBRARY = 1, 2, 4
 
 
@@ -128,9 +129,9 @@ class Pictures(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.mkdtemp(prefix="amontons_render_")
         cls.data, cls.attributes = fixture.make(cls.folder)
-        start = time.monotonic()
+        start = time.process_time()
         cls.result = render(cls.folder)
-        cls.seconds = time.monotonic() - start
+        cls.seconds = time.process_time() - start
         cls.picture = {name: read_picture(cls.folder, name) for name in FIGURES}
 
     @classmethod
@@ -145,7 +146,7 @@ class Pictures(unittest.TestCase):
         self.assertEqual(self.result, (0, ""))
         self.assertEqual(sorted(os.listdir(os.path.join(self.folder, "figures"))),
                          sorted(name + ".png" for name in FIGURES))
-        self.assertLess(self.seconds, 3)   # a second each, whatever else the machine does
+        self.assertLess(self.seconds, 3)   # of processor time: a second each
 
     def test_size_and_metadata(self):
         for name in FIGURES:
@@ -224,7 +225,7 @@ class Pictures(unittest.TestCase):
                 if rates[i] == 0:
                     self.assertLessEqual(np.abs(color - STICK).max(), 1)
                     continue
-                seen = -1 + 5 * invert(color, bar)   # the bar: 10^-1 to 10^4
+                seen = DECADES[0] + (DECADES[1] - DECADES[0]) * invert(color, bar)
                 self.assertAlmostEqual(seen, np.log10(rates[i]), delta=0.05, msg=(U, i))
                 checked += 1
         self.assertGreater(checked, 8)
@@ -241,7 +242,8 @@ class Pictures(unittest.TestCase):
             inside = (U > U0) & (U <= U0 + duration)
             wanted = np.log10(self.data["interface/slip_rate"][inside, 30].max() / fixture.V)
             _, column = frame.pixel((U0 + duration / 2) / fixture.U_END, 0)
-            seen = [-1 + 5 * invert(picture[row, k], bar) for k in range(column - 4, column + 5)
+            seen = [DECADES[0] + (DECADES[1] - DECADES[0]) * invert(picture[row, k], bar)
+                    for k in range(column - 4, column + 5)
                     if np.abs(picture[row, k] - STICK).max() > 1]
             self.assertAlmostEqual(max(seen), wanted, delta=0.05, msg=U0)
 
@@ -329,8 +331,31 @@ class Variants(unittest.TestCase):
         self.draw("contact-density")
         picture = read_picture(self.folder, "contact-density")
         frame = Frame(picture, BLUE)
-        self.assertLess(picture[frame.pixel(0.02, 0.05)].sum(), 200)      # phi = 0: dark
+        self.assertTrue(is_color(picture[frame.pixel(0.02, 0.05)], OPEN))
         self.assertGreater(picture[frame.pixel(0.02, 0.5)].sum(), 600)    # phi near 1: light
+
+    def test_weak_precursors_fill_the_scale(self):
+        """At a tenth of v_c: the bar starts at 0.75 or 0.9, and they are as dark as it says."""
+        for peak, low in ((0.2, 0.75), (0.08, 0.9)):
+            def weaken(data, _):
+                U, rate = data["series/rod_displacement"], data["interface/slip_rate"]
+                before = U < fixture.SLIDES[-1]
+                rate[before] *= peak * fixture.V_CRITICAL / rate[before & (U > 0.0035)].max()
+            data, _ = fixture.make(self.folder, change=weaken)
+            self.draw("contact-density")
+            picture = read_picture(self.folder, "contact-density")
+            frame = Frame(picture, BLUE)
+            columns = groups(is_color(picture, INK).sum(axis=0) > 0.4 * picture.shape[0])
+            bar = bar_colors(picture, columns, frame)
+            row = frame.pixel(0, data["nodes/x"][40])[0]
+            last = int(frame.left + 0.9 * (frame.right - frame.left))   # sliding comes after
+            seen = [low + (1 - low) * invert(color, bar)
+                    for color in picture[row, int(frame.left) + 4:last]
+                    if not is_color(color, INK, 120)]
+            U = data["series/rod_displacement"]
+            shown = (U > 0.0044) & (U < fixture.SLIDES[-1])
+            wanted = 1 - data["interface/slip_rate"][shown, 40].max() / fixture.V_CRITICAL
+            self.assertAlmostEqual(min(seen), wanted, delta=0.02 * (1 - low))
 
     def test_killed_run(self):
         """history.h5.part, without tables: drawn, the sliding found in mu itself."""
