@@ -93,8 +93,8 @@ typedef struct Scene {
 } Scene;
 
 // Reads and checks a scene; `overrides` ([override_count]) are "key=value" as typed after --set,
-// the value in YAML's flow style. An override of a single key replaces its value; one of a whole map
-// ("time.until={t: 5}") replaces the map. mesh.file is taken relative to the scene file's folder.
+// the value in YAML's flow style. An override of a single key replaces its value; one of a whole
+// map ("time.until={t: 5}") replaces the map. mesh.file is relative to the scene file's folder.
 // Errors (ERROR_INPUT) give file:line:column (or the --set text), the key, what was found and what
 // is allowed; an unknown key comes with the nearest known one.
 bool scene_read(const char *path, const char *const *overrides, int32_t override_count,
