@@ -113,6 +113,7 @@ static void test_overrides(void **state)
     assert_true(scene.mesh.parameters[6].value == 2.5);
     assert_int_equal(scene.output.figures.count, 0);
     assert_false(scene.output.fields);
+    assert_false(scene.given[scene_key_index("output.fields.every_U")]);
     assert_true(scene.output.fields_every_U == 0 && !scene.output.fields_at_events);
     assert_int_equal(scene.rod.kind, ROD_BONDED);
     assert_true(scene.time.until_U == 0 && scene.time.until_t == 12);   // the map is replaced

@@ -98,6 +98,11 @@ static const BadScene bad_values[] = {
      "time: {until: {U: 0.1}, tolerance: 2}",
      "s.yaml:8:36: time.tolerance",
      {"a number from 0 to 1"}},
+    {3, "mesh: {file: b.geo, set: {nx: 1e999}}", "s.yaml:3:31: mesh.set: found `1e999`", {0}},
+    {6,
+     "load: {pressure: 1, tractions: [{group: a, z: -1e999}]}",
+     "s.yaml:6:47: load.tractions.z: found `-1e999`",
+     {0}},
     // choices
     {2,
      "units: SI",

@@ -56,11 +56,12 @@ static void test_refusals(void **state)
 {
     (void)state;
     static const char *const cases[][2] = {
-        {"", "length"},         {"foo", "length"},   {"Mm/s", "length"},   {"m/s/s", "velocity"},
-        {"m0", "length"},       {"m99", "length"},   {"m^", "velocity"},   {"/s", "1"},
-        {"m/", "length"},       {"m s", "velocity"}, {"km/h", "velocity"}, {"pa", "stress"},
-        {"Pa", "length"},       {"kk", "length"},    {"k", "length"},      {"m!", "length"},
-        {"\xC2\xB5", "length"}, {"m", "1"},          {"m..", "length"},    {"mm2", "length"},
+        {"", "length"},     {"foo", "length"},       {"Mm/s", "length"},     {"m/s/s", "velocity"},
+        {"m0", "length"},   {"m99", "length"},       {"m^", "velocity"},     {"/s", "1"},
+        {"m/", "length"},   {"m s", "velocity"},     {"km/h", "velocity"},   {"pa", "stress"},
+        {"Pa", "length"},   {"kk", "length"},        {"k", "length"},        {"m!", "length"},
+        {"m m0", "length"}, {"kg/m/m/m", "density"}, {"\xC2\xB5", "length"}, {"m", "1"},
+        {"m..", "length"},  {"mm2", "length"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
         double value = 1;
