@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What `amontons info` says of a scene and of a result that the test writes itself; every failed
+// allocation is an error and leaks nothing.
+#include "amontons.h"
+#include "base/memory.h"
+#include "io/result_file.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include <cmocka.h>
+
+static char folder[] = "/tmp/info-test-XXXXXX";
+
+static void write_text(const char *name, const char *text)
+{
+    char path[200];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    assert_int_equal(fclose(file), 0);
+}
+
+// Three states at two contact nodes, and one event of each kind.
+static void write_history(void)
+{
+    static const double x[] = {0, 1}, pad[] = {0, 0};
+    static const double rod[] = {0, 0.25, 0.5}, mu[] = {0, 0.375, 0.125};
+    static const double kinds[] = {0, 1, 2}, numbers[] = {0.1, 0.2, 0.3};
+    ResultHead head = {.title = "By hand",
+                       .units = "normalised",
+                       .version = "0",
+                       .contact_count = 2,
+                       .nodes = {[NODES_X] = x, [NODES_WEIGHT] = x, [NODES_PAD] = pad}};
+    Error err = {0};
+    ArrayFile *file = result_file_create(folder, &head, &err);
+    assert_non_null(file);
+    array_file_append(file, result_series_name(SERIES_ROD), rod, 3, &err);
+    array_file_append(file, result_series_name(SERIES_MU), mu, 3, &err);
+    for (int32_t table = EVENTS_KIND; table < RESULT_TABLES_COUNT; table++)
+        result_file_write_table(file, (ResultTable)table, table == EVENTS_KIND ? kinds : numbers, 3,
+                                &err);
+    if (!array_file_close(file, &err)) fail_msg("%s", err.message);
+}
+
+static void assert_info_holds(const char *path, const char *const *parts)
+{
+    char *text = NULL;
+    size_t size = 0;
+    Error err = {0};
+    FILE *out = open_memstream(&text, &size);
+    if (!amontons_info(path, out, &err)) fail_msg("%s", err.message);
+    fclose(out);
+    for (; *parts; parts++)
+        if (!strstr(text, *parts)) fail_msg("no `%s` in\n%s", *parts, text);
+    free(text);
+}
+
+static void assert_faults_are_clean(const char *path)
+{
+    int64_t live = memory_counters().live;
+    bool done = false;
+    for (int64_t k = 0; !done; k++) {
+        assert_true(k < 400);
+        Error err = {0};
+        FILE *out = fopen("/dev/null", "w");
+        memory_fail_after(k);
+        done = amontons_info(path, out, &err);
+        memory_fail_after(-1);
+        fclose(out);
+        if (!done) assert_int_equal(err.code, ERROR_MEMORY);
+        assert_int_equal(memory_counters().live, live);
+    }
+}
+
+static void test_result(void **state)
+{
+    (void)state;
+    static const char *const unfinished[] = {"no run.json", "By hand", NULL};
+    static const char *const whole[] = {
+        "status             done",
+        "mu_M               0.25",
+        "mu_M spread        none",
+        "3 states at 2 contact nodes, U from 0 to 0.5, largest mu 0.375",
+        "quasi-static            0.1          0.1          0.1            0.1",
+        "bounded rapid           0.2",
+        "leading rapid           0.3",
+        NULL};
+    write_history();
+    assert_info_holds(folder, unfinished);
+    write_text("run.json", "{\"status\": \"done\", \"results\": {\"mu_M\": 0.25, "
+                           "\"mu_M_spread\": null}}");
+    assert_info_holds(folder, whole);
+    assert_faults_are_clean(folder);
+}
+
+static void test_scene(void **state)
+{
+    (void)state;
+    static const char *const parts[] = {"By hand", "material.poisson             0.3\n",
+                                        "rod.kind                     push   (default)\n", NULL};
+    char path[200];
+    write_text("s.yaml", "title: By hand\nmesh: {file: b.geo}\nmaterial: {poisson: 0.3}\n"
+                         "friction: {law: coulomb, mu_static: 0.5}\nload: {pressure: 0.01}\n"
+                         "rod: {velocity: 1e-4}\ntime: {until: {U: 0.1}}\n");
+    snprintf(path, sizeof path, "%s/s.yaml", folder);
+    assert_info_holds(path, parts);
+    assert_faults_are_clean(path);
+}
+
+static void test_broken_results(void **state)
+{
+    (void)state;
+    Error err = {0};
+    char path[200];
+    write_text("run.json", "{\"status\": ");
+    assert_false(amontons_info(folder, stdout, &err));
+    assert_non_null(strstr(err.message, "run.json:1:"));
+    snprintf(path, sizeof path, "%s/run.json", folder);
+    unlink(path);
+    snprintf(path, sizeof path, "%s/history.h5", folder);
+    unlink(path);
+    error_clear(&err);
+    assert_false(amontons_info(folder, stdout, &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+    assert_non_null(strstr(err.message, "not a result folder"));
+}
+
+int main(void)
+{
+    assert_non_null(mkdtemp(folder));
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_result),
+        cmocka_unit_test(test_scene),
+        cmocka_unit_test(test_broken_results),
+    };
+    int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    char path[200];
+    snprintf(path, sizeof path, "%s/s.yaml", folder);
+    unlink(path);
+    rmdir(folder);
+    return failed;
+}
