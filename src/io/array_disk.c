@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Of the calls of a driver only those are here that HDF5 needs to create a file and write it. All of
-// them succeed in HDF5's eyes (0); `failure` holds what really happened.
+// Of the calls of a driver only those are here that HDF5 needs to create a file and write it. They
+// all succeed in HDF5's eyes (0); `failure` holds what really happened.
 #include "io/array_disk.h"
 
 #include <errno.h>
@@ -100,8 +100,8 @@ static herr_t disk_read(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_t a
     return 0;
 }
 
-// After a failure nothing more is written: what the last flush made known stays readable, unless the
-// disk failed in the middle of a flush.
+// After a failure nothing more is written: what the last flush made known stays readable, unless
+// the disk failed in the middle of a flush.
 static herr_t disk_write(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_t address,
                          size_t size, const void *buffer)
 {

@@ -45,7 +45,7 @@ vtkSmartPointer<Array> borrow(const Value *values, int64_t count, int components
     return array;
 }
 
-// One field, borrowed where it is stored as it is, converted where it is stored in single precision.
+// One field: borrowed where it is stored as it is, converted where in single precision.
 vtkSmartPointer<vtkDataArray> make_array(const FieldArray &field, int64_t count)
 {
     const int64_t size = count * field.components;
