@@ -326,6 +326,26 @@ static void test_group_lookup(void **state)
     mesh_file_destroy(&mesh);
 }
 
+// A node on no element stays in the arrays, for bulk/mesh to complain about (format 4.1 says which
+// surface it is on; with 2.2, gmsh drops it by itself).
+static void test_lone_node(void **state)
+{
+    (void)state;
+    char path[PATH_SIZE];
+    MeshFile mesh;
+    write_file("lone.msh",
+               "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"
+               "$Entities\n0 0 1 0\n1 0 0 0 1 1 0 0 0\n$EndEntities\n"
+               "$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n5 7 0\n$EndNodes\n"
+               "$Elements\n1 1 1 1\n2 1 2 1\n1 1 2 3\n$EndElements\n",
+               path);
+    read_well(path, NULL, 0, &mesh);
+    assert_int_equal(mesh.node_count, 4);
+    assert_int_equal(mesh.node_number[3], 4);
+    assert_true(mesh.position[6] == 5 && mesh.position[7] == 7);
+    mesh_file_destroy(&mesh);
+}
+
 // Format 2.2 writes what is in two groups twice; the mesh has it once.
 static void test_two_groups_in_22(void **state)
 {
@@ -521,14 +541,23 @@ static void test_memory_faults(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_element_kinds),      cmocka_unit_test(test_node_order),
-        cmocka_unit_test(test_formats_agree),      cmocka_unit_test(test_second_read_is_clean),
-        cmocka_unit_test(test_drawing_aids),       cmocka_unit_test(test_by_hand),
-        cmocka_unit_test(test_groups_by_number),   cmocka_unit_test(test_group_lookup),
-        cmocka_unit_test(test_two_groups_in_22),   cmocka_unit_test(test_shared_number_in_22),
-        cmocka_unit_test(test_not_a_mesh),         cmocka_unit_test(test_truncated),
-        cmocka_unit_test(test_elements_refused),   cmocka_unit_test(test_repeated_names),
-        cmocka_unit_test(test_parameters_refused), cmocka_unit_test(test_gmsh_that_would_crash),
+        cmocka_unit_test(test_second_read_is_clean),   // first: gmsh is as it comes
+        cmocka_unit_test(test_element_kinds),
+        cmocka_unit_test(test_node_order),
+        cmocka_unit_test(test_formats_agree),
+        cmocka_unit_test(test_drawing_aids),
+        cmocka_unit_test(test_by_hand),
+        cmocka_unit_test(test_groups_by_number),
+        cmocka_unit_test(test_group_lookup),
+        cmocka_unit_test(test_lone_node),
+        cmocka_unit_test(test_two_groups_in_22),
+        cmocka_unit_test(test_shared_number_in_22),
+        cmocka_unit_test(test_not_a_mesh),
+        cmocka_unit_test(test_truncated),
+        cmocka_unit_test(test_elements_refused),
+        cmocka_unit_test(test_repeated_names),
+        cmocka_unit_test(test_parameters_refused),
+        cmocka_unit_test(test_gmsh_that_would_crash),
         cmocka_unit_test(test_memory_faults),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
