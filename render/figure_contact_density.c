@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Figure 1(d): the normalised density of the real contact area, phi = max(0, 1 - |slip rate| / v_c)
-// (the paper's Methods), in the last precursors before sliding. Where the block has lifted off it is
-// 0 for another reason, which has its own colour.
+// (the paper's Methods), in the last precursors before sliding. Where the block has lifted off it
+// is 0 for another reason, which has its own colour.
 #include "render/figures.h"
 
 #include "render/map_page.h"

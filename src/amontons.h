@@ -53,7 +53,7 @@ typedef struct RunCounters {
     int64_t contact_iterations;    // active-set iterations over all of them
     int64_t contact_fallbacks;     // contact problems that the plain iteration did not settle
     int64_t certificates;          // dissipativity checks
-    int64_t loop_allocations;      // arrays allocated in the time loop (0 but for new rungs, output)
+    int64_t loop_allocations;      // arrays allocated in the time loop (0 but new rungs, output)
 } RunCounters;
 
 // What a run came to, for the closing lines; run.json holds more.

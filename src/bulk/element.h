@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Matrices of one element: K = int B' D_el B, C = int B' D_vis B, and a lumped mass that is positive
-// at every node. Used by bulk/assembly.
+// Matrices of one element: K = int B' D_el B, C = int B' D_vis B, and a lumped mass that is
+// positive at every node. Used by bulk/assembly.
 #ifndef AMONTONS_BULK_ELEMENT_H
 #define AMONTONS_BULK_ELEMENT_H
 

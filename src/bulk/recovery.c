@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Strains are taken at the nodes of each element. On a regular mesh the mean over the elements at an
-// inner node is a central difference, one order better than each of them.
+// Strains are taken at the nodes of each element. On a regular mesh the mean over the elements at
+// an inner node is a central difference, one order better than each of them.
 #include "bulk/recovery.h"
 
 #include "base/memory.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Judges a contact state by its conditions alone: knows neither solver nor statuses. Used by run/ on
-// every accepted step and by the tests.
+// Judges a contact state by its conditions alone: knows neither solver nor statuses. Used by run/
+// on every accepted step and by the tests.
 #ifndef AMONTONS_CONTACT_CONTACT_CHECK_H
 #define AMONTONS_CONTACT_CONTACT_CHECK_H
 

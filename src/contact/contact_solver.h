@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Active-set Newton for the contact problem of one stage (Alart and Curnier, Comp. Meth. Appl. Mech.
-// Eng. 92, 1991, in its status form). For given statuses the unknowns are the slipping tangents, both
-// components of open nodes and the rod nodes that have let go; everything else is held. One Newton
-// step on those, with the true derivative of mu(v) p,
+// Active-set Newton for the contact problem of one stage (Alart and Curnier, Comp. Meth. Appl.
+// Mech. Eng. 92, 1991, in its status form). For given statuses the unknowns are the slipping
+// tangents, both components of open nodes and the rod nodes that have let go; everything else is
+// held. One Newton step on those, with the true derivative of mu(v) p,
 //
 //     row of a slipping tangent:   S_t + s mu S_n + mu'(|v_t|) r_n e_t,     s = sign of slip,
 //

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Precursors, told apart while the run goes on. Quasi-static slip goes at about the rod's velocity or
-// below; a rapid event begins when some contact node slips faster than `rate_start` and ends when
-// all are below `rate_stop`. It is leading when it carried the whole interface (every node slipped
-// from the trailing to the leading edge), bounded otherwise. Between slidings the slow growth of the
-// front is one quasi-static event. Read by run/peaks, run/fields and run/report.
+// Precursors, told apart while the run goes on. Quasi-static slip goes at about the rod's velocity
+// or below; a rapid event begins when some contact node slips faster than `rate_start` and ends
+// when all are below `rate_stop`. It is leading when it carried the whole interface (every node
+// slipped from the trailing to the leading edge), bounded otherwise. Between slidings the slow
+// growth of the front is one quasi-static event. Read by run/peaks, run/fields and run/report.
 #ifndef AMONTONS_RUN_EVENTS_H
 #define AMONTONS_RUN_EVENTS_H
 
@@ -47,7 +47,7 @@ typedef struct Events {
 
 const char *event_name(EventKind kind);   // static storage
 
-// rate_scale: the rod's velocity, or what else quasi-static slip goes at; rapid starts at twice that.
+// rate_scale: the rod's velocity, or what else quasi-static slip goes at; rapid is twice that.
 bool events_create(const Interface *interface, double rate_scale, Events *events, Error *err);
 void events_destroy(Events *events);
 bool events_record(void *self, const Observation *seen, Error *err);   // a Recorder

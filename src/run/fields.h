@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The bulk and the interface as ParaView sees them: fields/bulk_*.vtu, fields/interface_*.vtp and the
-// fields.pvd that lists them against time, at times the scene chose and where rapid events begin,
-// cross and end. Nothing is recovered in between. A Recorder of run/simulation, after run/events.
+// The bulk and the interface as ParaView sees them: fields/bulk_*.vtu, fields/interface_*.vtp and
+// the fields.pvd that lists them against time, at times the scene chose and where rapid events
+// begin, cross and end. Nothing is recovered in between. A Recorder of run/simulation, after
+// run/events.
 #ifndef AMONTONS_RUN_FIELDS_H
 #define AMONTONS_RUN_FIELDS_H
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The peaks of F_T/F_N: the largest mu between two slidings, known when a leading event has crossed
-// the interface. The first belongs to the start, not to the periodic regime; mu_M is the mean of the
-// last peaks that agree with the very last one within a tolerance. Fed after run/events.
+// the interface. The first belongs to the start, not to the periodic regime; mu_M is the mean of
+// the last peaks that agree with the very last one within a tolerance. Fed after run/events.
 #ifndef AMONTONS_RUN_PEAKS_H
 #define AMONTONS_RUN_PEAKS_H
 

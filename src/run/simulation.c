@@ -12,9 +12,9 @@
 #include <stdio.h>
 #include <string.h>
 
-// Static balance of moments is asked of frames in which inertia has no part: the longest step was taken
-// there, and the last rapid event, the last state that was not certified and the rod's start lie this
-// many times (crossing time + viscous time) back.
+// Static balance of moments is asked of frames in which inertia has no part: the longest step was
+// taken there, and the last rapid event, the last state that was not certified and the rod's start
+// lie this many times (crossing time + viscous time) back.
 static const double QUIET_TIME = 20;
 
 static bool writes_results(const Simulation *simulation)
@@ -244,8 +244,8 @@ static bool draw_figures(Simulation *simulation, Error *err)
     return true;
 }
 
-// Closes history, draws, reports. failure: NULL, or why the run ended early; it is reported, and what
-// was computed is kept.
+// Closes history, draws, reports. failure: NULL, or why the run ended early; it is reported, and
+// what was computed is kept.
 static bool finish_run(Simulation *simulation, const Error *failure, RunSummary *summary,
                        Error *err)
 {

@@ -5,8 +5,8 @@
 //     W = diag(-mu'(|v_i|) r_n,i) on J, 0 elsewhere     (linear law: (mu_S - mu_K) p_i w_i / v_c).
 //
 //   * S_C[F,F] - W positive definite, S_C the Schur complement of the damping C alone: viscosity
-//     takes more out of any slip than weakening puts in. No perturbation can gain energy, and any step
-//     that accuracy allows may be taken. First lost at about l_sc.
+//     takes more out of any slip than weakening puts in. No perturbation can gain energy, and any
+//     step that accuracy allows may be taken. First lost at about l_sc.
 //   * S(dt)[F,F] - W positive definite for a rung's S(dt) = (M s + C + K/s) condensed, s = 1/(gamma
 //     dt): nothing grows faster than s. Lost: a real growth rate above s exists, the step hides it.
 //

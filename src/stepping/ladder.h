@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The step sizes dt_max 2^-k. A rung's matrix A = M/(gamma dt) + C + gamma dt K is factored when the
-// rung is first used and kept; changing the step then costs nothing. Used by stepping/sdirk2.
+// The step sizes dt_max 2^-k. A rung's matrix A = M/(gamma dt) + C + gamma dt K is factored when
+// the rung is first used and kept; changing the step then costs nothing. Used by stepping/sdirk2.
 #ifndef AMONTONS_STEPPING_LADDER_H
 #define AMONTONS_STEPPING_LADDER_H
 

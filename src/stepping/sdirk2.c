@@ -74,7 +74,8 @@ cleanup:
 }
 
 // Local error of u: the scheme's quadrature against the one that is exact for v quadratic in time,
-// through v_n, v_1 and v_2, at 0, gamma and 1:   w_1 = 1/(6 gamma (1 - gamma)), w_2 = 1/2 - gamma w_1.
+// through v_n, v_1 and v_2, at 0, gamma and 1:
+//     w_1 = 1/(6 gamma (1 - gamma)),   w_2 = 1/2 - gamma w_1.
 static double estimate_error(const double *v0, const double *v1, const double *v2, int32_t count,
                              double step)
 {

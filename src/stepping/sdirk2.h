@@ -8,8 +8,8 @@
 //                | 1-gamma  gamma     u_1* = u_n                      w_1 = v_n
 //                                     u_2* = u_n + (1-gamma) dt v_1   w_2 = v_n + (1-gamma) dt a_1
 //
-// with a_1 = (v_1 - v_n)/(gamma dt). Contact, friction and rod hold at each stage, hence at the end of
-// the step. Called by stepping/step_control.
+// with a_1 = (v_1 - v_n)/(gamma dt). Contact, friction and rod hold at each stage, hence at the end
+// of the step. Called by stepping/step_control.
 #ifndef AMONTONS_STEPPING_SDIRK2_H
 #define AMONTONS_STEPPING_SDIRK2_H
 
@@ -41,8 +41,8 @@ bool sdirk2_create(BulkOperator *system, const Interface *interface, const Frict
                    Rod *rod, Sdirk2 *scheme, Error *err);
 void sdirk2_destroy(Sdirk2 *scheme);
 
-// From `from` with rung k of the ladder to `to`. false: a library failed (err says what); an unsolved
-// contact problem is no error but an outcome.
+// From `from` with rung k of the ladder to `to`. false: a library failed (err says what); an
+// unsolved contact problem is no error but an outcome.
 bool sdirk2_step(Sdirk2 *scheme, Ladder *ladder, int32_t k, const State *from, State *to,
                  StepOutcome *outcome, Error *err);
 
