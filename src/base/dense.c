@@ -22,7 +22,11 @@ bool dense_cholesky(double *a, int32_t n)
 {
     int info = 0;
     if (n > 0) dpotrf_("L", &n, a, &n, &info, 1);
-    return info == 0;
+    if (info != 0) return false;
+    for (int64_t k = 0; k < n; k++) {   // LAPACK lets NaN pass
+        if (!(a[k * n + k] > 0)) return false;
+    }
+    return true;
 }
 
 bool dense_lu(double *a, int32_t n, int32_t *pivots)

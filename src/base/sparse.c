@@ -63,7 +63,32 @@ static cholmod_sparse sparse_view(const SparsePattern *pattern, double *values)
                             .packed = 1};
 }
 
-// The order that keeps the border last, checked: postordering must not have mixed it in.
+// Whether the analysis left the border's unknowns (member 1) last.
+static bool border_is_last(const SparseAnalysis *analysis, const int32_t *member)
+{
+    const int32_t *permutation = analysis->symbolic->Perm;
+    int32_t size = (int32_t)analysis->pattern->nrow, first = size - analysis->border_count;
+    for (int32_t k = 0; k < size; k++) {
+        if ((member[permutation[k]] == 1) != (k >= first)) return false;
+    }
+    return true;
+}
+
+static bool analyse_in_order(SparseAnalysis *analysis, int32_t *order, bool postorder, Error *err)
+{
+    cholmod_common *common = &analysis->common;
+    cholmod_free_factor(&analysis->symbolic, common);
+    common->postorder = postorder;
+    analysis->symbolic = cholmod_analyze_p(analysis->pattern, order, NULL, 0, common);
+    if (!analysis->symbolic)
+        FAIL(err, ERROR_LIBRARY, "CHOLMOD: the analysis failed (status %d)", common->status);
+cleanup:
+    return error_is_clean(err);
+}
+
+// The order that keeps the border last, checked. Postordering makes larger supernodes and keeps the
+// border where it is when the interior is connected, as in a mesh; where it is not, CAMD's own order
+// is taken as it is.
 static bool analyse_with_border(SparseAnalysis *analysis, const int32_t *border, Error *err)
 {
     cholmod_common *common = &analysis->common;
@@ -79,18 +104,13 @@ static bool analyse_with_border(SparseAnalysis *analysis, const int32_t *border,
     common->method[0].ordering = CHOLMOD_GIVEN;
     common->supernodal = CHOLMOD_SUPERNODAL;
     common->final_ll = 1;
-    common->postorder = 1;
-    analysis->symbolic = cholmod_analyze_p(analysis->pattern, order, NULL, 0, common);
-    if (!analysis->symbolic)
-        FAIL(err, ERROR_LIBRARY, "CHOLMOD: the analysis failed (status %d)", common->status);
+    TRY(analyse_in_order(analysis, order, true, err));
+    if (!border_is_last(analysis, member)) TRY(analyse_in_order(analysis, order, false, err));
+    if (!border_is_last(analysis, member))
+        FAIL(err, ERROR_LIBRARY, "CHOLMOD did not keep the interface last in its order");
 
     const int32_t *permutation = analysis->symbolic->Perm;
-    int32_t first = size - count;
-    for (int32_t k = 0; k < size; k++) {
-        if ((member[permutation[k]] == 1) != (k >= first))
-            FAIL(err, ERROR_LIBRARY, "CHOLMOD did not keep the interface last in its order");
-        order[permutation[k]] = k - first;
-    }
+    for (int32_t k = 0; k < size; k++) order[permutation[k]] = k - (size - count);
     for (int32_t j = 0; j < count; j++) analysis->border_position[j] = order[border[j]];
 cleanup:
     memory_free(member);

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// LAPACK and BLAS behind base/dense against linear algebra written out by hand, over random
+// matrices; only the lower triangle may be looked at.
+#include "base/dense.h"
+
+#include "dense_by_hand.h"
+#include "near.h"
+#include "random_numbers.h"
+
+enum { SIZE_MAX_TRIED = 24 };
+
+// L L' with a random lower triangle that is far from singular.
+static void random_positive(Random *random, int32_t n, double *lower, double *a)
+{
+    for (int32_t j = 0; j < n; j++)
+        for (int32_t i = 0; i < n; i++)
+            lower[j * n + i] =
+                i < j ? 0
+                      : (i == j ? random_between(random, 1, 2) : random_between(random, -0.5, 0.5));
+    for (int32_t j = 0; j < n; j++) {
+        for (int32_t i = 0; i < n; i++) {
+            a[j * n + i] = 0;
+            for (int32_t k = 0; k < n; k++) a[j * n + i] += lower[k * n + i] * lower[k * n + j];
+        }
+    }
+}
+
+static void spoil_upper(double *a, int32_t n)
+{
+    for (int32_t j = 0; j < n; j++)
+        for (int32_t i = 0; i < j; i++) a[j * n + i] = NAN;
+}
+
+static void test_cholesky_and_triangles(void **state)
+{
+    (void)state;
+    dense_use_one_thread();
+    Random random = {.state = 1};
+    for (int32_t n = 0; n <= SIZE_MAX_TRIED; n++) {
+        double lower[SIZE_MAX_TRIED * SIZE_MAX_TRIED], a[SIZE_MAX_TRIED * SIZE_MAX_TRIED];
+        double square[SIZE_MAX_TRIED * SIZE_MAX_TRIED], x[SIZE_MAX_TRIED], y[SIZE_MAX_TRIED];
+        random_positive(&random, n, lower, a);
+        for (int32_t k = 0; k < n; k++) x[k] = random_between(&random, -1, 1);
+        double wanted[SIZE_MAX_TRIED];
+        hand_apply(a, n, n, x, wanted);
+        spoil_upper(a, n);
+        dense_symmetric_apply(a, n, x, y);
+        assert_all_near("A x", y, wanted, n, 1e-14);
+
+        double through[SIZE_MAX_TRIED];   // L (L' x) is A x
+        memcpy(through, x, sizeof through);
+        dense_lower_apply_transposed(lower, n, through);
+        dense_lower_apply(lower, n, through);
+        assert_all_near("L L' x", through, wanted, n, 1e-13);
+        spoil_upper(lower, n);
+        dense_lower_square(lower, n, square);
+        hand_apply(square, n, n, x, y);
+        assert_all_near("square", y, wanted, n, 1e-13);
+
+        assert_true(dense_cholesky(a, n));
+        for (int32_t j = 0; j < n; j++)
+            for (int32_t i = j; i < n; i++) assert_near("L", a[j * n + i], lower[j * n + i], 1e-12);
+    }
+}
+
+// A matrix with one eigenvalue below zero is told from one with all above, however close.
+static void test_not_definite(void **state)
+{
+    (void)state;
+    for (double least = 1e-9; least > -2e-9; least -= 2e-9) {
+        double a[] = {1 + least, 1, 1, 1 + least};   // eigenvalues least and 2 + least
+        assert_int_equal(dense_cholesky(a, 2), least > 0);
+    }
+    double zero[] = {0}, negative[] = {-1}, none[] = {NAN};
+    assert_false(dense_cholesky(zero, 1));
+    assert_false(dense_cholesky(negative, 1));
+    assert_false(dense_cholesky(none, 1));
+}
+
+static void test_lu(void **state)
+{
+    (void)state;
+    Random random = {.state = 2};
+    for (int32_t n = 0; n <= SIZE_MAX_TRIED; n++) {
+        double a[SIZE_MAX_TRIED * SIZE_MAX_TRIED], copy[SIZE_MAX_TRIED * SIZE_MAX_TRIED];
+        double b[SIZE_MAX_TRIED], wanted[SIZE_MAX_TRIED];
+        int32_t pivots[SIZE_MAX_TRIED];
+        for (int32_t k = 0; k < n * n; k++) a[k] = random_between(&random, -1, 1);
+        if (n > 1) a[0] = 0;   // not solvable without exchanging rows
+        for (int32_t k = 0; k < n; k++) b[k] = wanted[k] = random_between(&random, -1, 1);
+        memcpy(copy, a, sizeof copy);
+        assert_true(hand_solve(copy, n, wanted, 1));
+        assert_true(dense_lu(a, n, pivots));
+        dense_lu_solve(a, n, pivots, b);
+        assert_all_near("x", b, wanted, n, 1e-9);
+    }
+    double singular[] = {1, 2, 2, 4};
+    int32_t pivots[2];
+    assert_false(dense_lu(singular, 2, pivots));
+}
+
+static void test_vectors(void **state)
+{
+    (void)state;
+    const double x[] = {1, -5, 2}, y[] = {3, 1, -1};
+    assert_near("dot", dense_dot(x, y, 3), -4, 0);
+    assert_near("dot of nothing", dense_dot(x, y, 0), 0, 0);
+    assert_near("largest", dense_max_abs(x, 3), 5, 0);
+    assert_near("largest of nothing", dense_max_abs(x, 0), 0, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_cholesky_and_triangles),
+        cmocka_unit_test(test_not_definite),
+        cmocka_unit_test(test_lu),
+        cmocka_unit_test(test_vectors),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

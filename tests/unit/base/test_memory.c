@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/memory.h"
+
+#include "near.h"
+
+static void test_zeroed_and_aligned(void **state)
+{
+    (void)state;
+    Error err = {0};
+    for (int64_t count = 0; count < 300; count += 7) {
+        unsigned char *dirt = memory_array(count, 1, &err);   // the next array may get its place
+        memset(dirt, 0xAB, (size_t)count);
+        memory_free(dirt);
+        unsigned char *bytes = memory_array(count, 1, &err);
+        assert_non_null(bytes);
+        assert_int_equal((uintptr_t)bytes % 64, 0);
+        for (int64_t k = 0; k < count; k++) assert_int_equal(bytes[k], 0);
+        memory_free(bytes);
+    }
+    assert_true(error_is_clean(&err));
+}
+
+static void test_impossible_sizes(void **state)
+{
+    (void)state;
+    const struct {
+        int64_t count;
+        size_t size;
+    } impossible[] = {{-1, 8},        {INT64_MIN, 1},
+                      {INT64_MAX, 8}, {1LL << 61, 8}, {1LL << 62, 4},
+                      {3, 0},         {2, SIZE_MAX},  {1, SIZE_MAX / 2 + 1}};
+    MemoryCounters before = memory_counters();
+    for (size_t k = 0; k < sizeof impossible / sizeof impossible[0]; k++) {
+        Error err = {0};
+        assert_null(memory_array(impossible[k].count, impossible[k].size, &err));
+        assert_int_equal(err.code, ERROR_MEMORY);
+        assert_non_null(strstr(err.message, "is not possible"));
+    }
+    assert_int_equal(memory_counters().allocations, before.allocations);
+    assert_int_equal(memory_counters().live, before.live);
+}
+
+static void test_counters(void **state)
+{
+    (void)state;
+    Error err = {0};
+    MemoryCounters before = memory_counters();
+    double *a = NEW_ARRAY(double, 10, &err);
+    char *text = memory_text("interface", &err);
+    assert_string_equal(text, "interface");
+    assert_int_equal(memory_counters().allocations, before.allocations + 2);
+    assert_int_equal(memory_counters().live, before.live + 2);
+    memory_free(a);
+    memory_free(text);
+    memory_free(NULL);
+    assert_int_equal(memory_counters().allocations, before.allocations + 2);
+    assert_int_equal(memory_counters().live, before.live);
+}
+
+static void test_resize(void **state)
+{
+    (void)state;
+    Error err = {0};
+    int64_t live = memory_counters().live;
+    int32_t *list = memory_resize(NULL, 0, 3, sizeof(int32_t), &err);
+    for (int32_t k = 0; k < 3; k++) list[k] = k + 1;
+    list = memory_resize(list, 3, 100, sizeof(int32_t), &err);
+    for (int32_t k = 0; k < 100; k++) assert_int_equal(list[k], k < 3 ? k + 1 : 0);
+    list = memory_resize(list, 100, 2, sizeof(int32_t), &err);
+    assert_int_equal(list[0], 1);
+    assert_int_equal(list[1], 2);
+    assert_int_equal(memory_counters().live, live + 1);
+
+    memory_fail_after(0);   // the old items stay where they are
+    assert_null(memory_resize(list, 2, 50, sizeof(int32_t), &err));
+    memory_fail_after(-1);
+    assert_int_equal(err.code, ERROR_MEMORY);
+    assert_int_equal(list[1], 2);
+    assert_int_equal(memory_counters().live, live + 1);
+    memory_free(list);
+    assert_int_equal(memory_counters().live, live);
+}
+
+static void test_faults(void **state)
+{
+    (void)state;
+    memory_fail_after(2);
+    for (int32_t k = 0; k < 6; k++) {
+        Error err = {0};
+        char *text = memory_text("x", &err);
+        assert_int_equal(text != NULL, k < 2);   // and every later one fails too
+        assert_int_equal(err.code, k < 2 ? ERROR_NONE : ERROR_MEMORY);
+        memory_free(text);
+    }
+    memory_fail_after(-1);
+    Error err = {0};
+    void *array = memory_array(4, 8, &err);
+    assert_non_null(array);
+    memory_free(array);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_zeroed_and_aligned),
+        cmocka_unit_test(test_impossible_sizes),
+        cmocka_unit_test(test_counters),
+        cmocka_unit_test(test_resize),
+        cmocka_unit_test(test_faults),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
