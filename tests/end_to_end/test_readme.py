@@ -10,12 +10,13 @@ import unittest
 from pathlib import Path
 
 import h5py
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
 
 SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
 PROGRAM = Path(os.environ.get("AMONTONS_BIN", SOURCE / "build/bin")) / "amontons"
 README = (SOURCE / "README.md").read_text()
 SCENE = SOURCE / "validation/paper/fig1.yaml"
-SMALL = ["mesh.set.nx=12", "mesh.set.nz=12", "time.until.U=4e-4", "output.fields=none",
+SMALL = ["mesh.set.nx=12", "mesh.set.nz=12", "time.until.U=4e-4", "output.fields.every_U=2e-4",
          "output.figures=[]"]
 
 
@@ -39,7 +40,7 @@ class Text(unittest.TestCase):
             self.skipTest("not a git checkout")
         entries = {name.split("/")[0] for name in tracked.stdout.split("\n") if name}
         known = {"README.md", "CHANGELOG.md", "LICENSE", "CMakeLists.txt", "CMakePresets.json"}
-        listed = re.search(r"## How the project lies\n\n((?:    .*\n)+)", README)[1]
+        listed = re.search(r"## Layout\n\n((?:    .*\n)+)", README)[1]
         named = {line.split()[0].rstrip("/") for line in listed.splitlines()}
         self.assertEqual(named, {e for e in entries if not e.startswith(".")} - known)
 
@@ -71,7 +72,7 @@ class Program(unittest.TestCase):
         self.assertIn("no-such-scene.yaml", done.stderr)
 
 
-class History(unittest.TestCase):
+class Result(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
@@ -109,6 +110,25 @@ class History(unittest.TestCase):
             held = set(history.attrs)
         self.assertLessEqual(held, named)
         self.assertLessEqual(named - held, {"mu_macroscopic", "critical_length"})
+
+    def test_table_of_fields(self):
+        rows = re.findall(r"^\| `(\.vt[up])` \| ([^|]+) \|", README, re.M)
+        for kind, reader in ((".vtu", vtkXMLUnstructuredGridReader()),
+                             (".vtp", vtkXMLPolyDataReader())):
+            named = [name for suffix, names in rows if suffix == kind
+                     for name in re.findall(r"`(\w+)`", names)]
+            reader.SetFileName(str(sorted(self.result.glob(f"fields/*{kind}"))[-1]))
+            reader.Update()
+            arrays = reader.GetOutput().GetPointData()
+            stored = [arrays.GetArrayName(k) for k in range(arrays.GetNumberOfArrays())]
+            self.assertEqual(sorted(named), sorted(stored))
+
+    def test_files(self):
+        """Every file of the README's table is there (figures were not asked for)."""
+        block = re.search(r"\| file \| what it is \|\n(.*?)\n\n", README, re.S)[1]
+        for pattern in re.findall(r"`([\w*./]+\.(?:\w+|\*))`", block):
+            if not pattern.startswith("figures/"):
+                self.assertTrue(list(self.result.glob(pattern)), pattern)
 
     def test_python_lines(self):
         code = code_blocks("python")[0]
