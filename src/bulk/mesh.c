@@ -29,6 +29,7 @@ void mesh_destroy(Mesh *mesh)
     *mesh = (Mesh){0};
 }
 
+// Moves the arrays; `file` is empty afterwards, so destroying both is always right.
 static void take_over(MeshFile *file, const char *path, Mesh *mesh)
 {
     *mesh = (Mesh){.node_count = file->node_count,
@@ -45,6 +46,7 @@ static void take_over(MeshFile *file, const char *path, Mesh *mesh)
     *file = (MeshFile){0};
 }
 
+// The block's bounding box. Nodes of no element would spoil it, but those end in an error.
 static void find_extent(Mesh *mesh)
 {
     mesh->x_min = mesh->z_min = INFINITY;
@@ -68,6 +70,7 @@ static const char *group_of_node(const Mesh *mesh, int32_t i)
     return NULL;
 }
 
+// A node of no element has no stiffness: the matrix would be singular.
 static bool check_nodes(const Mesh *mesh, Error *err)
 {
     bool *used = NEW_ARRAY(bool, mesh->node_count, err);
@@ -87,6 +90,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// A quadrilateral with two corners in one node is a triangle in disguise: its Jacobian is zero.
 static bool check_repeats(const Mesh *mesh, Error *err)
 {
     for (int32_t e = 0; e < mesh->element_count; e++)
@@ -125,6 +129,9 @@ typedef struct ProbePoints {
     ShapeValues shape[ELEMENT_KIND_COUNT][ELEMENT_NODES_MAX + QUADRATURE_POINTS_MAX];
 } ProbePoints;
 
+// Evaluated once a mesh, not once an element. Nodes, because a corner's angle may exceed 180
+// degrees while the quadrature points see nothing of it; quadrature points, because integrals are
+// taken there.
 static void set_probes(ProbePoints *probes)
 {
     for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++) {
@@ -241,6 +248,7 @@ cleanup:
 
 // --- building -----------------------------------------------------------------------------------
 
+// In this order: each check may rely on those before it.
 bool mesh_build(MeshFile *file, const char *path, Mesh *mesh, Error *err)
 {
     take_over(file, path, mesh);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Named curves, and the contact line that several of them make together.
+// Contact is unilateral against the rigid line z = 0, node by node, so what is checked is what that
+// needs: nodes on the line, in distinct places, on the block's edge, nothing of the block below.
 #include "bulk/mesh.h"
 
 #include "base/memory.h"
@@ -13,11 +15,13 @@
 // extent: coordinates computed by gmsh are exact to about 1e-12 of it.
 static const double PLACE_TOLERANCE = 1e-9;
 
+// The larger side of the block.
 static double extent(const Mesh *mesh)
 {
     return fmax(mesh->x_max - mesh->x_min, mesh->z_max - mesh->z_min);
 }
 
+// By x, then z. `position` comes third, as qsort_r passes it: no state outside the call.
 static int compare_places(const void *a, const void *b, void *position)
 {
     const double *first = (const double *)position + 2 * *(const int32_t *)a;
@@ -60,11 +64,13 @@ void mesh_contact_destroy(MeshContact *contact)
     *contact = (MeshContact){0};
 }
 
+// The names taken where a scene gives none.
 static bool is_contact_name(const char *name)
 {
     return strcmp(name, "contact") == 0 || strncmp(name, "contact_", strlen("contact_")) == 0;
 }
 
+// Curves by their first node, which is their leftmost.
 static int compare_starts(const void *a, const void *b, void *position)
 {
     const MeshCurve *first = a, *second = b;
@@ -92,6 +98,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Names the node farthest off the line: with a rough contact face, one of many.
 static bool check_flat(const Mesh *mesh, const MeshCurve *curve, Error *err)
 {
     int32_t worst = curve->nodes[0];
@@ -162,6 +169,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Two nodes in one place are two sides of a crack, or a mesh whose parts were never glued.
 static bool check_places(const Mesh *mesh, const MeshContact *contact, Error *err)
 {
     double tolerance = PLACE_TOLERANCE * extent(mesh);

@@ -11,6 +11,7 @@ static int32_t corner_count(ElementKind kind)
     return kind == ELEMENT_T3 || kind == ELEMENT_T6 ? 3 : 4;
 }
 
+// In the bucket of the lower end; NULL: not there (yet).
 static MeshEdge *find_edge(const MeshEdges *table, int32_t low, int32_t high)
 {
     for (int32_t k = table->first[low]; k < table->last[low]; k++)
@@ -18,6 +19,7 @@ static MeshEdge *find_edge(const MeshEdges *table, int32_t low, int32_t high)
     return NULL;
 }
 
+// Puts an edge into the table, or counts one more element on it. `edge` comes with elements = 1.
 static bool add_edge(const Mesh *mesh, int32_t element, const MeshEdge *edge, int32_t low,
                      MeshEdges *table, Error *err)
 {
@@ -43,6 +45,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Mid-side node k of a quadratic element follows its corners: it is on the edge from corner k.
 static bool fill_edges(const Mesh *mesh, MeshEdges *table, Error *err)
 {
     for (int32_t e = 0; e < mesh->element_count; e++) {
@@ -62,6 +65,8 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Buckets are sized by a first pass that counts an edge once for each element on it, which is
+// enough and at most twice too much.
 bool mesh_edges_build(const Mesh *mesh, MeshEdges *table, Error *err)
 {
     *table = (MeshEdges){0};

@@ -10,6 +10,7 @@
 #include <math.h>
 #include <stddef.h>
 
+// Reference coordinates of the nodes, in gmsh's order: corners, mid-sides, centre.
 static const double TRIANGLE_NODES[6][2] = {{0, 0}, {1, 0}, {0, 1}, {.5, 0}, {.5, .5}, {0, .5}};
 static const double SQUARE_NODES[9][2] = {{-1, -1}, {1, -1}, {1, 1},  {-1, 1}, {0, -1},
                                           {1, 0},   {0, 1},  {-1, 0}, {0, 0}};
@@ -26,11 +27,13 @@ void shape_node(ElementKind kind, int32_t a, double *xi, double *eta)
     *eta = node[1];
 }
 
+// N = (1 - xi - eta, xi, eta), the area coordinates L themselves.
 static void shape_t3(double xi, double eta, ShapeValues *shape)
 {
     *shape = (ShapeValues){.value = {1 - xi - eta, xi, eta}, .slope = {{-1, -1}, {1, 0}, {0, 1}}};
 }
 
+// Mid-side node 3 + a lies between corners a and a + 1.
 static void shape_t6(double xi, double eta, ShapeValues *shape)
 {
     ShapeValues area;   // L_0, L_1, L_2 and their slopes
@@ -47,6 +50,7 @@ static void shape_t6(double xi, double eta, ShapeValues *shape)
     }
 }
 
+// N_a = (1 + xi_a xi)(1 + eta_a eta) / 4.
 static void shape_q4(double xi, double eta, ShapeValues *shape)
 {
     for (int32_t a = 0; a < 4; a++) {
@@ -57,6 +61,7 @@ static void shape_q4(double xi, double eta, ShapeValues *shape)
     }
 }
 
+// With p = 1 + xi_a xi and q = 1 + eta_a eta; mid-sides 4 and 6 have xi_a = 0, 5 and 7 eta_a = 0.
 static void shape_q8(double xi, double eta, ShapeValues *shape)
 {
     for (int32_t a = 0; a < 8; a++) {
@@ -85,6 +90,7 @@ static double quadratic(double c, double s, double *slope)
     return c == 0 ? 1 - s * s : s * (s + c) / 2;
 }
 
+// N_a = l_a(xi) l_a(eta), l the quadratic through -1, 0, 1.
 static void shape_q9(double xi, double eta, ShapeValues *shape)
 {
     for (int32_t a = 0; a < 9; a++) {

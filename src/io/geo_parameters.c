@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A scanner for the one construct of gmsh's language that matters here:
 //     DefineConstant[ nx = 80, shape = "quad", order = {1, Choices{1, 2}, Name "Mesh/order"} ];
+// It knows comments, strings, brackets and Include; it does not evaluate anything. A DefineConstant
+// inside an If counts, whether or not gmsh would reach it.
 #include "io/geo_parameters.h"
 
 #include "base/memory.h"
@@ -14,6 +16,7 @@
 #include <stdio.h>
 #include <string.h>
 
+// LIST_SIZE: of the list of names in a message; what is longer is cut.
 enum { INCLUDE_DEPTH_MAX = 8, LIST_SIZE = 800 };
 
 void geo_parameters_destroy(GeoParameters *known)
@@ -55,6 +58,7 @@ static const char *skip_opaque(const char *at)
     return at;
 }
 
+// Past white space and comments.
 static const char *skip_blank(const char *at)
 {
     for (;;) {
@@ -67,6 +71,7 @@ static const char *skip_blank(const char *at)
     }
 }
 
+// Of the name or number that begins at `at`; 0: none does.
 static size_t word_length(const char *at)
 {
     size_t length = 0;
@@ -82,6 +87,7 @@ static bool is_text_value(const char *at)
     return *at == '"' || strncmp(at, "Str", 3) == 0;
 }
 
+// Appends one; a name of more than GROUP_NAME_SIZE - 1 bytes is cut, as nobody can give it anyway.
 static bool add_parameter(GeoParameters *known, const char *name, size_t length, bool is_text,
                           Error *err)
 {
@@ -127,6 +133,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Two functions that call each other, as deep as includes are nested.
 static bool scan_file(const char *path, int32_t depth, GeoParameters *known, Error *err);
 
 // Follows `Include "name"`; the name is relative to the file that includes it.
@@ -151,6 +158,7 @@ static bool scan_file(const char *path, int32_t depth, GeoParameters *known, Err
         FAIL(err, ERROR_INPUT, "%s: files include each other more than %d deep", path,
              INCLUDE_DEPTH_MAX);
     if (!(text = read_text(path, err))) goto cleanup;
+    // Word by word: a name inside a longer one, a string or a comment must not count.
     const char *at = text;
     while (*at) {
         size_t length = word_length(at);
@@ -181,6 +189,7 @@ bool geo_parameters_read(const char *path, GeoParameters *known, Error *err)
     return scan_file(path, 0, known, err);
 }
 
+// By name; NULL: unknown.
 static const GeoParameter *find_parameter(const GeoParameters *known, const char *name)
 {
     for (int32_t k = 0; k < known->count; k++)
@@ -188,6 +197,7 @@ static const GeoParameter *find_parameter(const GeoParameters *known, const char
     return NULL;
 }
 
+// Always fails: lists the names there are, and the one that was probably meant.
 static bool fail_unknown(const GeoParameters *known, const char *path, const char *name, Error *err)
 {
     char list[LIST_SIZE] = "none at all", hint[GROUP_NAME_SIZE + 32] = "";

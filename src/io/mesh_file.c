@@ -15,6 +15,9 @@
 #include <string.h>
 #include <sys/stat.h>
 
+// CHUNK_SIZE: bytes read at once when looking for the end mark. HEAD_LINES: how far down the head
+// is looked for (comments may precede it). LIST_SIZE: of the list of groups in a message; what is
+// longer is cut.
 enum { CHUNK_SIZE = 1 << 16, HEAD_LINES = 200, LIST_SIZE = 1200 };
 
 int32_t element_node_count(ElementKind kind)
@@ -63,12 +66,14 @@ void mesh_file_destroy(MeshFile *mesh)
 
 // --- before gmsh --------------------------------------------------------------------------------
 
+// By the name alone: gmsh, too, goes by the ending.
 static bool ends_with(const char *path, const char *ending)
 {
     size_t length = strlen(path), wanted = strlen(ending);
     return length >= wanted && strcmp(path + length - wanted, ending) == 0;
 }
 
+// What the system says of the path, before anybody opens it.
 static bool check_file(const char *path, Error *err)
 {
     struct stat status;
@@ -109,6 +114,8 @@ static bool file_holds(FILE *file, const char *mark, char *chunk)
     return false;
 }
 
+// A .msh must have its head, and the mark that ends the elements: without that mark it was cut off,
+// possibly inside its last number, which gmsh would take as it stands.
 static bool check_msh(const char *path, double *version, Error *err)
 {
     char *chunk = NULL;
@@ -125,6 +132,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Every parameter given must be one the script takes: gmsh would pass over the others in silence.
 static bool check_geo(const char *path, const MeshParameter *parameters, int32_t count, Error *err)
 {
     GeoParameters known = {0};
@@ -178,6 +186,7 @@ static void list_groups(const MeshFile *mesh, char list[LIST_SIZE])
                                    mesh->groups[k].name, words[mesh->groups[k].dimension & 3]);
 }
 
+// By name; NULL: none. Names are unique: mesh_raw_convert sees to it.
 static const MeshGroup *find_group(const MeshFile *mesh, const char *name)
 {
     for (int32_t k = 0; k < mesh->group_count; k++)

@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // From gmsh's tags to arrays indexed from 0. Order everywhere: ascending tags.
+//
+//   1  pick the elements of the body                      (raw_elements)
+//   2  sort the nodes by tag, so that a tag is found fast (NodeTable)
+//   3  mark the nodes to keep: those of the elements, those of named curves, lone ones
+//   4  number them in the order of their tags, copy positions, check the plane
+//   5  write elements and groups with the new numbers
 #include "io/mesh_raw.h"
 
 #include "base/memory.h"
@@ -39,6 +45,7 @@ void mesh_raw_destroy(MeshRaw *raw)
 
 // --- nodes --------------------------------------------------------------------------------------
 
+// A tag and where its node stands in the raw arrays, for sorting.
 typedef struct TagAt {
     int64_t number, source;
 } TagAt;
@@ -49,6 +56,7 @@ static int compare_tags(const void *a, const void *b)
     return (first->number > second->number) - (first->number < second->number);
 }
 
+// All nodes, none marked yet: index is -1 throughout.
 static bool table_build(const MeshRaw *raw, const char *path, NodeTable *table, Error *err)
 {
     TagAt *tags = NEW_ARRAY(TagAt, raw->node_count, err);
@@ -71,6 +79,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Accepts a half-built table, as every destroy does.
 static void table_destroy(NodeTable *table)
 {
     memory_free(table->number);
@@ -96,6 +105,8 @@ static int32_t table_find(const NodeTable *table, int64_t number)
     return -1;
 }
 
+// Marks the nodes of the body's elements. A tag that no node has is a broken file: gmsh lets some
+// of those pass.
 static bool mark_elements(const RawElements *elements, const char *path, NodeTable *table,
                           Error *err)
 {
@@ -154,6 +165,7 @@ static bool number_nodes(const MeshRaw *raw, const char *path, NodeTable *table,
         if (table->index[k] == 0) table->index[k] = mesh->node_count++;
     if (!(mesh->position = NEW_ARRAY(double, 2 * (int64_t)mesh->node_count, err))) goto cleanup;
     if (!(mesh->node_number = NEW_ARRAY(int64_t, mesh->node_count, err))) goto cleanup;
+    // The extent is measured from the first node: it only scales the plane's tolerance.
     double extent = 0, deepest = 0;
     int64_t worst = 0;
     for (int32_t k = 0; k < table->count; k++) {
@@ -183,6 +195,8 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Writes the elements with indices for tags; offsets as in a compressed row format, since kinds may
+// be mixed.
 static bool store_elements(const RawElements *elements, const NodeTable *table, MeshFile *mesh,
                            Error *err)
 {
@@ -211,12 +225,14 @@ cleanup:
 
 // --- groups -------------------------------------------------------------------------------------
 
+// Of node indices, ascending.
 static int compare_indices(const void *a, const void *b)
 {
     int32_t first = *(const int32_t *)a, second = *(const int32_t *)b;
     return (first > second) - (first < second);
 }
 
+// By dimension, then by number: the order promised in io/mesh_file.h.
 static int compare_groups(const void *a, const void *b)
 {
     const MeshGroup *first = a, *second = b;
@@ -244,6 +260,8 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Copies the edges of a curve. Every node of theirs is in the mesh: mark_curves saw to it. Edges of
+// two and of three nodes in one group mean that the order was changed halfway.
 static bool store_group_edges(const char *path, const RawElements *edges, const NodeTable *table,
                               MeshGroup *group, Error *err)
 {
@@ -268,6 +286,8 @@ cleanup:
     return error_is_clean(err);
 }
 
+// One group: its name (or its number in decimal), and its edges and nodes unless it is a surface,
+// whose elements are in the mesh already.
 static bool convert_group(const MeshRaw *raw, const char *path, const NodeTable *table,
                           const RawGroup *from, MeshGroup *group, Error *err)
 {
@@ -288,6 +308,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// All groups; a name must tell which one is meant, whatever its dimension, so it is there once.
 static bool convert_groups(const MeshRaw *raw, const char *path, const NodeTable *table,
                            MeshFile *mesh, Error *err)
 {

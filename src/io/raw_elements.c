@@ -8,8 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+// gmsh's numbers for what points and curves are made of; surfaces are in ELEMENT_KINDS.
 enum { GMSH_POINT = 15, GMSH_LINE_2 = 1, GMSH_LINE_3 = 8, KIND_LIST_SIZE = 64 };
 
+// The ElementKind of a gmsh type, -1: none of ours.
 static int32_t kind_of_type(int32_t gmsh_type)
 {
 #define X(kind, nodes, edge_nodes, type, name)                                                     \
@@ -19,6 +21,7 @@ static int32_t kind_of_type(int32_t gmsh_type)
     return -1;
 }
 
+// Tags of entities are signed in some files: the sign is the orientation.
 bool raw_group_holds(const RawGroup *group, const RawBlock *block)
 {
     if (group->dimension != block->dimension) return false;
@@ -34,6 +37,7 @@ int32_t raw_block_groups(const MeshRaw *raw, const RawBlock *block)
     return count;
 }
 
+// Whether the file says which surfaces count.
 static bool has_surface_group(const MeshRaw *raw)
 {
     for (int32_t k = 0; k < raw->group_count; k++)
@@ -41,12 +45,14 @@ static bool has_surface_group(const MeshRaw *raw)
     return false;
 }
 
+// By element tag.
 static int compare_numbers(const void *a, const void *b)
 {
     const RawElement *first = a, *second = b;
     return (first->number > second->number) - (first->number < second->number);
 }
 
+// By node tags, so that copies of one element come together; among copies the lowest tag first.
 static int compare_nodes(const void *a, const void *b)
 {
     const RawElement *first = a, *second = b;
@@ -73,6 +79,8 @@ static void drop_copies(RawElements *elements)
     elements->count = kept;
 }
 
+// Appends the elements of one block; they go on pointing into it. INT32_MAX / ELEMENT_NODES_MAX
+// elements keep every index into element_nodes within int32_t.
 static bool append_block(RawElements *elements, const RawBlock *block, int32_t groups, Error *err)
 {
     int64_t total = elements->count + block->count;
@@ -93,6 +101,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// By tag. gmsh mostly delivers them so already: then one look is all.
 static void sort_elements(RawElements *elements, bool may_repeat)
 {
     if (may_repeat) drop_copies(elements);
@@ -104,6 +113,7 @@ static void sort_elements(RawElements *elements, bool may_repeat)
         }
 }
 
+// "T3, T6, Q4, Q8, Q9", for messages.
 static void list_kinds(char list[KIND_LIST_SIZE])
 {
     int length = 0;
@@ -165,6 +175,8 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Edges of more than three nodes (order 3 on) are refused here; their surface elements are refused
+// as well, but a message about the group says more.
 bool raw_pick_group(const MeshRaw *raw, const char *path, const RawGroup *from, const char *name,
                     RawElements *picked, Error *err)
 {

@@ -70,7 +70,7 @@ static void test_lists(void **state)
            "DefineConstant [ order = {1, Choices{1 = \"one\", 2}, Name \"Mesh/order\"},\n"
            "  file = {\"x\", Kind \"file\"}, bare ];\n"
            "nothing = 4; y = x[3]; DefineConstants = 1;\n"
-           "DefineConstant[last = (1 + 2)];",
+           "DefineConstant[last = Max(1, 2) + other];",
            6, names, texts);
 }
 
