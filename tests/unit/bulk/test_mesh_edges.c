@@ -14,10 +14,10 @@
 
 #include <cmocka.h>
 
-// 0 in the row below, 3 above: one square and a triangle on its right.
+// A square, and on its right a triangle on the same side.
 //     3---2
-//     |   | \.
-//     0---1--4
+//     |   | .
+//     0---1---4
 static const double PLACES[][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {2, 0}};
 static const int32_t NODES[] = {0, 1, 2, 3, 1, 4, 2, 0};
 
