@@ -51,6 +51,16 @@ static void periodic_with_precursors_comes_first(void **state)
     assert_true(zoom.U_high > 2.0 && zoom.U_high < 2.1);
 }
 
+static void periodic_comes_before_precursors(void **state)
+{
+    (void)state;
+    const ViewEvent events[] = {
+        {VIEW_BOUNDED, 0.8, 0.81}, {VIEW_LEADING, 1.0, 1.01}, {VIEW_LEADING, 3.0, 3.01}};
+    ResultView view = with_events(3, 3);
+    view.events = (ViewEvent *)events;
+    assert_true(fabs(zoom_choose(&view).U_slide - 3.0) < 1e-12);   // the peak at 1.0 does not count
+}
+
 static void without_peaks_precursors_decide(void **state)
 {
     (void)state;
@@ -130,6 +140,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(periodic_with_precursors_comes_first),
+        cmocka_unit_test(periodic_comes_before_precursors),
         cmocka_unit_test(without_peaks_precursors_decide),
         cmocka_unit_test(without_precursors_the_last_of_the_cycle),
         cmocka_unit_test(many_precursors_are_cut),
