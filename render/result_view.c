@@ -21,15 +21,43 @@ cleanup:
     return error_is_clean(err);
 }
 
+void result_view_range(const ResultView *view, double *low, double *high)
+{
+    *low = INFINITY;
+    *high = -INFINITY;
+    for (int64_t row = 0; row < view->rows; ++row) {
+        if (!isfinite(view->U[row])) continue;
+        *low = fmin(*low, view->U[row]);
+        *high = fmax(*high, view->U[row]);
+    }
+}
+
+static bool range_check(const ResultView *view, Error *err)
+{
+    double low = 0, high = 0;
+    if (view->rows < 2)
+        FAIL(err, ERROR_INPUT, "the history holds %lld step%s: a picture needs two at least",
+             (long long)view->rows, view->rows == 1 ? "" : "s");
+    result_view_range(view, &low, &high);
+    if (!(high > low))
+        FAIL(err, ERROR_INPUT,
+             "the rod does not move in this history: pictures are drawn against "
+             "its displacement U");
+cleanup:
+    return error_is_clean(err);
+}
+
+// One value a row and node; `rows` shrinks likewise.
 static bool interface_read(ResultView *view, ResultSeries series, double **values, Error *err)
 {
     int64_t rows = 0;
     int32_t width = 0;
     TRY(result_file_read_series(view->file, series, values, &rows, &width, err));
-    if (width != view->nodes || rows < view->rows)
-        FAIL(err, ERROR_FILE, "%s is %lld by %d, but the history has %lld steps and %d nodes",
-             result_series_name(series), (long long)rows, width, (long long)view->rows,
-             view->nodes);
+    if (width != view->nodes)
+        FAIL(err, ERROR_FILE, "%s has %d columns, but there are %d contact nodes",
+             result_series_name(series), width, view->nodes);
+    if (rows < view->rows) view->rows = rows;
+    TRY(range_check(view, err));
 cleanup:
     if (!error_is_clean(err)) {
         memory_free(*values);
@@ -95,32 +123,6 @@ static bool events_read(ResultView *view, Error *err)
     view->event_count = count;
 cleanup:
     for (int32_t k = 0; k < 3; ++k) memory_free(column[k]);
-    return error_is_clean(err);
-}
-
-void result_view_range(const ResultView *view, double *low, double *high)
-{
-    *low = INFINITY;
-    *high = -INFINITY;
-    for (int64_t row = 0; row < view->rows; ++row) {
-        if (!isfinite(view->U[row])) continue;
-        *low = fmin(*low, view->U[row]);
-        *high = fmax(*high, view->U[row]);
-    }
-}
-
-static bool range_check(const ResultView *view, Error *err)
-{
-    double low = 0, high = 0;
-    if (view->rows < 2)
-        FAIL(err, ERROR_INPUT, "the history holds %lld step%s: a picture needs two at least",
-             (long long)view->rows, view->rows == 1 ? "" : "s");
-    result_view_range(view, &low, &high);
-    if (!(high > low))
-        FAIL(err, ERROR_INPUT,
-             "the rod does not move in this history: pictures are drawn against "
-             "its displacement U");
-cleanup:
     return error_is_clean(err);
 }
 

@@ -3,6 +3,7 @@
 with its colour. The module is called as the program calls it, through its one entry."""
 import ctypes
 import os
+import re
 import shutil
 import struct
 import subprocess
@@ -36,6 +37,16 @@ class Request(ctypes.Structure):
                 ("height", ctypes.c_int32)]
 
 
+def preload_sanitizer(module):
+    """A module built with the address sanitizer wants its runtime to be in the process first."""
+    needed = subprocess.run(["ldd", module], capture_output=True, text=True, check=True).stdout
+    runtime = re.findall(r"/\S*libasan\S*", needed)
+    if runtime and "LD_PRELOAD" not in os.environ:
+        environment = dict(os.environ, LD_PRELOAD=runtime[0], ASAN_OPTIONS="detect_leaks=0")
+        os.execve(sys.executable, [sys.executable, *sys.argv], environment)
+
+
+preload_sanitizer(os.path.join(MODULES, "amontons_render.so"))
 LIBRARY = ctypes.CDLL(os.path.join(MODULES, "amontons_render.so"))
 LIBRARY.amontons_render.restype = ctypes.c_bool
 
@@ -470,6 +481,14 @@ class Errors(unittest.TestCase):
         fixture.make(self.folder, change=forget)
         self.expect(ERROR_INPUT, "critical velocity", figures=("contact-density",))
         self.expect(ERROR_INPUT, "how fast the rod moves", figures=("slip-map",))
+
+    def test_last_rows_not_flushed(self):
+        """A run killed between two series: what all of them have is drawn."""
+        def shorten(data, _):
+            data["interface/slip_rate"] = data["interface/slip_rate"][:-40]
+            data["series/mu"] = data["series/mu"][:-20]
+        fixture.make(self.folder, change=shorten)
+        self.assertEqual(render(self.folder, "force", "slip-map", "contact-density"), (0, ""))
 
     def test_arrays_that_do_not_fit(self):
         def narrow(data, _):
