@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// All is laid out from the frame outwards: ticks, their numbers, the name. The margins that figures
+// keep free are sums of the same sizes, so nothing is cut off at the edge of the picture.
 #include "render/axes.h"
 
 #include <math.h>
@@ -21,6 +23,7 @@ Point axes_place(const Axes *axes, double x, double y)
                    box->bottom - up * (box->bottom - box->top)};
 }
 
+// The widest number of an axis, pixels: the room left of the frame depends on it.
 static double number_width(const Page *page, const Axes *axes, const Ticks *ticks)
 {
     double widest = 0;
@@ -32,6 +35,7 @@ static double number_width(const Page *page, const Axes *axes, const Ticks *tick
     return widest;
 }
 
+// Ticks are chosen for the numbers shown, that is, in the unit of the axis.
 static Ticks axis_ticks(const Axis *axis, int32_t wanted)
 {
     return ticks_choose(axis->low * axis->factor, axis->high * axis->factor, wanted);
@@ -49,6 +53,7 @@ static Ticks ticks_along_x(const Page *page, const Axes *axes)
     return ticks;
 }
 
+// Numbers stand one above the other: their height limits how many there can be.
 static Ticks ticks_along_y(const Page *page, const Axes *axes)
 {
     double room = (axes->box.bottom - axes->box.top) / page->point;
@@ -71,12 +76,14 @@ double axes_bottom_margin(const Axes *axes)
     return TICK_LENGTH + NUMBER_GAP + axes->number_size * text_digit_height() + name;
 }
 
+// A power of ten stands above the axis and needs a line of its own.
 double axes_top_margin(const Axes *axes)
 {
     Ticks ticks = axis_ticks(&axes->y, TICKS_Y_MAX);
     return ticks.exponent == 0 ? axes->number_size * 0.6 : axes->number_size * 1.8;
 }
 
+// The power of ten that all numbers of an axis are to be multiplied by, where there is one.
 static void exponent_write(const Page *page, const TextStyle *style, Point place,
                            const Ticks *ticks)
 {
@@ -86,6 +93,7 @@ static void exponent_write(const Page *page, const TextStyle *style, Point place
     text_draw(page->text, style, place, words);
 }
 
+// A tick from `foot` on the frame outwards: downwards, or else to the left.
 static void tick_mark(const Page *page, const Axes *axes, Point foot, bool below, double length)
 {
     Stroke stroke = {.color = axes->color, .width = FRAME_WIDTH * page->point};

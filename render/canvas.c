@@ -64,6 +64,7 @@ static const char FRAGMENT_SOURCE[] =
     "}\n";
 
 // --- what OpenGL needs before the first triangle -------------------------------------------------
+// Compiles one stage into `program`; what the compiler says goes into the error.
 static bool shader_compile(GLuint program, GLenum stage, const char *source, Error *err)
 {
     GLint done = GL_FALSE;
@@ -82,6 +83,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Texture units are fixed: 0 the glyph sheet, 1 the colour map, 2 the heat texture.
 static bool program_create(Canvas *canvas, Error *err)
 {
     GLint done = GL_FALSE;
@@ -101,6 +103,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Tells OpenGL where in a Vertex the shader's input number `place` lies.
 static void attribute_set(GLuint place, GLint numbers, size_t offset)
 {
     glEnableVertexAttribArray(place);
@@ -118,6 +121,7 @@ static void layout_create(Canvas *canvas)
     attribute_set(2, 4, offsetof(Vertex, color));
 }
 
+// An empty texture on its own unit, where it stays bound for the canvas's life.
 static GLuint texture_create(GLenum unit, GLint filter)
 {
     GLuint texture = 0;
@@ -148,6 +152,8 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Drawing goes into a buffer with several samples a pixel, which canvas_read averages into a plain
+// one: that is all the antialiasing there is. Glyphs bring their own, from FreeType.
 static bool targets_create(Canvas *canvas, Error *err)
 {
     GLint samples = 0;
@@ -222,6 +228,7 @@ Error *canvas_failure(Canvas *canvas)
 }
 
 // --- drawing -------------------------------------------------------------------------------------
+// Hands what has gathered to OpenGL. Whoever changes a texture or the clip calls it first.
 static void batch_draw(Canvas *canvas)
 {
     if (canvas->batched == 0) return;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// The bar is a heat map of one column, so it shows exactly the colours of the map beside it.
 #include "render/colorbar.h"
 
 #include <math.h>
@@ -23,6 +24,7 @@ static Ticks bar_ticks(const Colorbar *bar)
     return ticks;
 }
 
+// The number at tick k; "≤" before the lowest where smaller values share its colour.
 static void bar_label(const Colorbar *bar, const Ticks *ticks, int32_t k, char *label)
 {
     char number[TICK_LABEL_SIZE];
@@ -33,6 +35,7 @@ static void bar_label(const Colorbar *bar, const Ticks *ticks, int32_t k, char *
         snprintf(label, LABEL_LENGTH, "%s%s", bar->clipped && k == 0 ? "\u2264" : "", number);
 }
 
+// Points that the widest number takes, the neutral colour's name included.
 static double numbers_width(const Page *page, const Colorbar *bar)
 {
     Ticks ticks = bar_ticks(bar);
@@ -52,6 +55,7 @@ double colorbar_width(const Page *page, const Colorbar *bar)
            1.35 * LABEL_SIZE + EDGE_GAP;
 }
 
+// The neutral colour and its name, below the bar.
 static void patch_draw(const Page *page, const Colorbar *bar, const Box *patch)
 {
     TextStyle style = {.size = NUMBER_SIZE * page->point, .color = INK, .up = 0.5};
@@ -63,6 +67,7 @@ static void patch_draw(const Page *page, const Colorbar *bar, const Box *patch)
     text_draw(page->text, &style, place, bar->neutral);
 }
 
+// Ticks and numbers to the right of the bar, then its name, rising.
 static void scale_draw(const Page *page, const Colorbar *bar, const Box *colors)
 {
     Ticks ticks = bar_ticks(bar);

@@ -20,6 +20,7 @@ typedef struct Station {
 static const Station STATION[STATIONS] = {{96, 20, 97}, {80, 56, 76},  {63, 72, 51},
                                           {46, 66, 24}, {29, 52, 352}, {14, 36, 310}};
 
+// From lightness, chroma, hue to Cartesian CIELAB.
 static Lab station_place(int32_t k)
 {
     double hue = STATION[k].hue * 3.14159265358979323846 / 180;
@@ -48,12 +49,14 @@ static Lab path_at(double place)
                  spline(p.b, q.b, r.b, t.b, s)};
 }
 
+// Inverse of CIELAB's cube root with its linear foot.
 static double lab_inverse(double f)
 {
     const double knee = 6.0 / 29;
     return f > knee ? f * f * f : 3 * knee * knee * (f - 4.0 / 29);
 }
 
+// The transfer function of sRGB; what is outside its gamut by rounding is clipped.
 static uint8_t srgb_byte(double linear)
 {
     double value = linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
@@ -81,6 +84,7 @@ static Lab path_point(int32_t k)
     return path_at((double)k * (STATIONS - 1) / PATH_POINTS);
 }
 
+// Walks the path twice: for its length, then to drop an entry each 1 / (MAP_SIZE - 1) of it.
 void colormap_fill(uint8_t *colors)
 {
     double length = 0, walked = 0;

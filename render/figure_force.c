@@ -31,6 +31,7 @@ typedef struct Level {
     double y;   // of the name's middle, pixels
 } Level;
 
+// mu against U, clipped to the frame: the inset draws the same curve in other axes.
 static bool curve_draw(const Page *page, const ResultView *view, const Axes *axes, Error *err)
 {
     Stroke stroke = {.color = CURVE_COLOR, .width = CURVE_WIDTH * page->point};
@@ -65,6 +66,7 @@ static bool mu_range(const ResultView *view, const double U[2], double range[2])
     return range[1] >= range[0];
 }
 
+// The levels that the result knows: mu_M is missing in a run that did not end.
 static int32_t levels_list(const ResultView *view, Level level[LEVELS_MAX])
 {
     static const struct {
@@ -94,6 +96,7 @@ static void names_spread(const Axes *axes, Level *level, int32_t count, double s
     for (int32_t k = 1; k < count; ++k) level[k].y = fmax(level[k].y, level[k - 1].y + spacing);
 }
 
+// Dashed lines across the frame, their names right of it.
 static void levels_draw(const Page *page, const Axes *axes, Level *level, int32_t count)
 {
     double point = page->point;

@@ -41,6 +41,7 @@ static void grid_to_levels(PixelGrid *grid, const Colorbar *bar, double V)
     }
 }
 
+// The critical length of the quasi-static precursor, as the paper's figure has it: a dashed line.
 static void critical_length_draw(const Page *page, const Axes *axes, double length)
 {
     Stroke stroke = {.color = INK, .width = 0.6 * page->point, .dash = 3 * page->point};

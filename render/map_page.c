@@ -72,6 +72,7 @@ void map_page_layout(const Page *page, const ResultView *view, double U_low, dou
                             .rows = (int32_t)(axes->box.bottom - axes->box.top)};
 }
 
+// What space_time needs of a result; the statuses only where a figure asks for them.
 static SpaceTime view_space_time(const ResultView *view)
 {
     return (SpaceTime){.rows = view->rows,
@@ -103,6 +104,7 @@ static void gap_draw(const Page *page, const Axes *axes, double low, double high
     shape_hatch(page->canvas, &hatch, &box, HATCH_SPACING * page->point);
 }
 
+// Gaps are what no node stands for, found on a walk over the nodes along x.
 void map_page_draw_field(const Page *page, const ResultView *view, const MapPage *map)
 {
     const Axes *axes = &map->axes;

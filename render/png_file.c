@@ -14,6 +14,7 @@
 // Large areas of one colour: a low level is five times as fast as the default and 10 % larger.
 enum { COMPRESSION_LEVEL = 3, TEXTS = 2 };
 
+// libpng's way to report: keep the cause, then jump back into picture_write.
 static void fault_keep(png_structp png, png_const_charp message)
 {
     Error *err = png_get_error_ptr(png);
@@ -27,6 +28,7 @@ static void warning_drop(png_structp png, png_const_charp message)
     (void)message;
 }
 
+// Size, colour space, density for print, title and program: everything before the rows.
 static void head_write(png_structp png, png_infop info, const PngPicture *picture)
 {
     png_uint_32 density = (png_uint_32)lround(picture->pixels_per_metre);

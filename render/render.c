@@ -28,6 +28,7 @@ typedef struct Figure {
     FigureFunction draw;
 } Figure;
 
+// The table of figures: names from the contract, shapes and functions from here.
 static Figure figure_get(FigureId id)
 {
     static const char *const name_title[FIGURE_COUNT][2] = {
@@ -85,6 +86,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// One picture from nothing to its file. Whatever fails, all that was made for it is freed.
 static bool figure_make(const RenderRequest *request, const Figure *figure, ResultView *view,
                         Error *err)
 {
@@ -121,6 +123,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// All names are checked before anything is read or drawn.
 static bool request_check(const RenderRequest *request, Error *err)
 {
     struct stat about;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// What is read is checked here once; the figures trust it.
 #include "render/result_view.h"
 
 #include "base/memory.h"
@@ -32,6 +33,7 @@ void result_view_range(const ResultView *view, double *low, double *high)
     }
 }
 
+// A picture needs two steps between which the rod has moved.
 static bool range_check(const ResultView *view, Error *err)
 {
     double low = 0, high = 0;
@@ -66,6 +68,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Positions and pads of the contact nodes.
 static bool nodes_read(ResultView *view, Error *err)
 {
     int32_t pads = 0;

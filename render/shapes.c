@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// Lines are quads with a disc at each joint. They are opaque, so overlapping pieces do not show.
 #include "render/shapes.h"
 
 #include <math.h>
@@ -13,6 +14,7 @@ static Vertex vertex_at(Color color, double x, double y)
     return (Vertex){.x = (float)x, .y = (float)y, .color = color};
 }
 
+// Two triangles; the corners go round.
 static void quad_fill(Canvas *canvas, Color color, const Point corner[4])
 {
     static const int32_t order[6] = {0, 1, 2, 0, 2, 3};
@@ -31,6 +33,7 @@ void shape_fill(Canvas *canvas, Color color, const Box *box)
     quad_fill(canvas, color, corner);
 }
 
+// A regular polygon with as many sides as keep its edge round to a fraction of a pixel.
 void shape_disc(Canvas *canvas, Color color, Point centre, double radius)
 {
     int32_t sides = (int32_t)ceil(3 * sqrt(radius)) + DISC_SIDES_MIN;
@@ -106,6 +109,7 @@ void shape_segment(Canvas *canvas, const Stroke *stroke, Point from, Point to)
         piece_draw(canvas, stroke, from, to);
 }
 
+// Four bars that overlap at the corners, so these are square.
 void shape_outline(Canvas *canvas, const Stroke *stroke, const Box *box)
 {
     double half = stroke->width / 2;

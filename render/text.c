@@ -62,6 +62,7 @@ static const char *const FONT_FILES[] = {
     "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf", "/usr/share/fonts/dejavu/DejaVuSans.ttf",
     "/usr/share/fonts/TTF/DejaVuSans.ttf", "/usr/local/share/fonts/dejavu/DejaVuSans.ttf"};
 
+// AMONTONS_FONT is taken at its word: where it is wrong, no other font is tried.
 static bool font_open(Text *text, Error *err)
 {
     const char *given = getenv("AMONTONS_FONT");
@@ -131,6 +132,8 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Rasterises the letter at its size and slant, and puts it onto the sheet. Not hinted: letters keep
+// their shape at print size, and the same file comes out wherever FreeType is set up otherwise.
 static bool glyph_make(Text *text, Glyph *glyph, Error *err)
 {
     FT_Matrix shear = {0x10000, (FT_Fixed)(SLANT * 0x10000), 0, 0x10000};
@@ -195,6 +198,7 @@ static uint32_t letter_next(const char **words)
     return letter;
 }
 
+// A quad of whole pixels, so that a texel is a pixel; turned by a quarter for rising text.
 static void glyph_draw(Text *text, const Line *line, const Pen *pen, const Glyph *glyph)
 {
     static const int32_t order[6] = {0, 1, 2, 2, 1, 3};
@@ -228,6 +232,7 @@ static Pen pen_marked(const Pen *pen, char mark)
     return inner;
 }
 
+// Goes along the words, letter by letter, opening and closing marks; draws or only measures.
 static void line_walk(Text *text, Line *line, const char *words)
 {
     Pen pen[NEST_MAX + 1] = {{.size = line->style->size}};

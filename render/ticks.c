@@ -10,6 +10,8 @@ enum { EXPONENT_LOW = -2, EXPONENT_HIGH = 3, DECIMALS_MAX = 12 };
 // A tick this close to the end of the axis, in steps, still belongs to it.
 static const double END_SLACK = 1e-6;
 
+// The step is the smallest of 1, 2 and 5 times a power of ten that gives no more ticks than wanted;
+// minor ticks then divide it into handy parts (5, 4 and 5 of them).
 Ticks ticks_choose(double low, double high, int32_t wanted)
 {
     Ticks ticks = {0};

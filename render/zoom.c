@@ -18,6 +18,7 @@ typedef struct Cycle {
     bool periodic;   // its peak counts for mu_M
 } Cycle;
 
+// Counts the bounded precursors of a cycle and finds where the first of the last few starts.
 static void cycle_count_events(const ResultView *view, Cycle *cycle)
 {
     cycle->bounded = 0;
@@ -37,6 +38,7 @@ static void cycle_count_events(const ResultView *view, Cycle *cycle)
     }
 }
 
+// A cycle is periodic when a peak of mu inside it counts for mu_M.
 static void cycle_match_peak(const ResultView *view, Cycle *cycle)
 {
     cycle->periodic = false;
@@ -47,6 +49,7 @@ static void cycle_match_peak(const ResultView *view, Cycle *cycle)
     }
 }
 
+// Periodic weighs more than having precursors; both is best.
 static int32_t cycle_merit(const Cycle *cycle)
 {
     return (cycle->periodic ? 2 : 0) + (cycle->bounded > 0 ? 1 : 0);
