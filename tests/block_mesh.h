@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Rectangular blocks of any element, written down without gmsh: corner nodes on a grid, those inside
-// moved at random if asked, mid-side nodes half-way, centre nodes in the middle. Groups: contact
-// (z = 0), leading, top, rod (x = 0).
+// Rectangular blocks of any element, written down without gmsh: corner nodes on a grid, those
+// inside moved at random if asked, mid-side nodes half-way, centre nodes in the middle. Groups:
+// contact (z = 0), leading, top, rod (x = 0).
 #ifndef AMONTONS_TESTS_BLOCK_MESH_H
 #define AMONTONS_TESTS_BLOCK_MESH_H
 

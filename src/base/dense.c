@@ -12,6 +12,10 @@ void dpotrf_(const char *uplo, const int *n, double *a, const int *lda, int *inf
 void dgetrf_(const int *m, const int *n, double *a, const int *lda, int *pivots, int *info);
 void dgetrs_(const char *trans, const int *n, const int *nrhs, const double *a, const int *lda,
              const int *pivots, double *b, const int *ldb, int *info, size_t trans_size);
+void dpotri_(const char *uplo, const int *n, double *a, const int *lda, int *info,
+             size_t uplo_size);
+void dsyev_(const char *jobz, const char *uplo, const int *n, double *a, const int *lda, double *w,
+            double *work, const int *lwork, int *info, size_t jobz_size, size_t uplo_size);
 
 void dense_use_one_thread(void)
 {
@@ -67,6 +71,56 @@ void dense_lower_square(const double *lower, int32_t n, double *c)
     }
     cblas_dtrmm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, n, n, 1.0, lower,
                 n, c, n);
+}
+
+bool dense_invert_factored(double *a, int32_t n)
+{
+    int info = 0;
+    if (n > 0) dpotri_("L", &n, a, &n, &info, 1);
+    for (int64_t j = 0; j < n; j++) {
+        for (int64_t i = j + 1; i < n; i++) a[i * n + j] = a[j * n + i];
+    }
+    return info == 0;
+}
+
+int64_t dense_eigen_work(int32_t n)
+{
+    return 34 * (int64_t)n + 64;   // (block size 32 + 2) n
+}
+
+bool dense_eigen(double *a, int32_t n, double *values, double *work)
+{
+    int info = 0, size = (int)dense_eigen_work(n);
+    if (n > 0) dsyev_("V", "L", &n, a, &n, values, work, &size, &info, 1, 1);
+    return info == 0;
+}
+
+void dense_multiply_transposed(DenseView a, DenseView b, double factor, double keep, double *c)
+{
+    if (a.columns == 0 || b.columns == 0) return;
+    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, a.columns, b.columns, a.rows, factor,
+                a.values, a.rows, b.values, b.rows, keep, c, a.columns);
+}
+
+void dense_multiply(DenseView a, DenseView b, double factor, double keep, double *c)
+{
+    if (a.columns == 0 || b.columns == 0) return;
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, a.rows, b.columns, a.columns, factor,
+                a.values, a.rows, b.values, b.rows, keep, c, a.rows);
+}
+
+void dense_apply(DenseView a, const double *x, double factor, double keep, double *y)
+{
+    if (a.columns == 0) return;
+    cblas_dgemv(CblasColMajor, CblasNoTrans, a.rows, a.columns, factor, a.values, a.rows, x, 1,
+                keep, y, 1);
+}
+
+void dense_apply_transposed(DenseView a, const double *x, double factor, double keep, double *y)
+{
+    if (a.columns == 0) return;
+    cblas_dgemv(CblasColMajor, CblasTrans, a.rows, a.columns, factor, a.values, a.rows, x, 1, keep,
+                y, 1);
 }
 
 double dense_dot(const double *x, const double *y, int32_t n)

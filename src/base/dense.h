@@ -29,6 +29,27 @@ void dense_lower_apply_transposed(const double *lower, int32_t n, double *x);
 // c = L L' (all of c is written); lower, c: [n * n], distinct.
 void dense_lower_square(const double *lower, int32_t n, double *c);
 
+// Inverse, both triangles, of a symmetric positive definite `a` [n * n] from its Cholesky factor.
+bool dense_invert_factored(double *a, int32_t n);
+
+// Eigenvalues, ascending, and orthonormal eigenvectors (columns, in place) of a symmetric `a` [n *
+// n]. values: [n]; work: [dense_eigen_work(n)].
+int64_t dense_eigen_work(int32_t n);
+bool dense_eigen(double *a, int32_t n, double *values, double *work);
+
+// A general matrix: column-major, `rows` long columns, no gaps.
+typedef struct DenseView {
+    const double *values;
+    int32_t rows, columns;
+} DenseView;
+
+// c = factor a' b + keep c, c = factor a b + keep c; c has the rows and columns that follow.
+void dense_multiply_transposed(DenseView a, DenseView b, double factor, double keep, double *c);
+void dense_multiply(DenseView a, DenseView b, double factor, double keep, double *c);
+// y = factor a x + keep y, y = factor a' x + keep y
+void dense_apply(DenseView a, const double *x, double factor, double keep, double *y);
+void dense_apply_transposed(DenseView a, const double *x, double factor, double keep, double *y);
+
 double dense_dot(const double *x, const double *y, int32_t n);
 double dense_max_abs(const double *x, int32_t n);
 

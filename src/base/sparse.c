@@ -36,6 +36,19 @@ void sparse_pattern_destroy(SparsePattern *pattern)
     *pattern = (SparsePattern){0};
 }
 
+int32_t sparse_entry(const SparsePattern *pattern, int32_t row, int32_t column)
+{
+    int32_t low = pattern->start[row], high = pattern->start[row + 1] - 1;
+    while (low < high) {
+        int32_t middle = (low + high) / 2;
+        if (pattern->index[middle] < column)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
 void sparse_apply(const SparsePattern *pattern, const double *values, const double *x, double *y)
 {
     const int32_t *start = pattern->start, *index = pattern->index;
@@ -87,8 +100,8 @@ cleanup:
 }
 
 // The order that keeps the border last, checked. Postordering makes larger supernodes and keeps the
-// border where it is when the interior is connected, as in a mesh; where it is not, CAMD's own order
-// is taken as it is.
+// border where it is when the interior is connected, as in a mesh; where it is not, CAMD's own
+// order is taken as it is.
 static bool analyse_with_border(SparseAnalysis *analysis, const int32_t *border, Error *err)
 {
     cholmod_common *common = &analysis->common;
@@ -276,5 +289,48 @@ bool sparse_expand(SparseFactor *factor, const double *x_border, double *x, Erro
     const double *permuted = solution->x;
     for (int32_t k = 0; k < size; k++) x[permutation[k]] = permuted[k];
 cleanup:
+    return error_is_clean(err);
+}
+
+enum { RESPONSE_BLOCK = 32 };
+
+bool sparse_border_responses(SparseFactor *factor, double *x, Error *err)
+{
+    cholmod_common *common = &factor->analysis->common;
+    const int32_t *permutation = factor->numeric->Perm,
+                  *position = factor->analysis->border_position;
+    int64_t size = (int64_t)factor->numeric->n, count = factor->analysis->border_count;
+    cholmod_dense *forward = cholmod_zeros((size_t)size, RESPONSE_BLOCK, CHOLMOD_REAL, common);
+    cholmod_dense *solution = NULL, *work_y = NULL, *work_e = NULL;
+    if (!forward) FAIL(err, ERROR_MEMORY, "no memory for %d right-hand sides", RESPONSE_BLOCK);
+    for (int64_t first = 0; first < count; first += RESPONSE_BLOCK) {
+        int64_t columns = count - first < RESPONSE_BLOCK ? count - first : RESPONSE_BLOCK;
+        forward->ncol = (size_t)columns;
+        forward->nzmax = (size_t)(columns * size);
+        for (int64_t c = 0; c < columns; c++) {
+            double *border = (double *)forward->x + c * size + (size - count);
+            memset(border, 0, (size_t)count * sizeof *border);
+            border[position[first + c]] = 1;
+            dense_lower_apply_transposed(factor->border_factor, (int32_t)count, border);
+        }
+        if (!cholmod_solve2(CHOLMOD_Lt, factor->numeric, forward, NULL, &solution, NULL, &work_y,
+                            &work_e, common))
+            FAIL(err, ERROR_MEMORY, "CHOLMOD: a block substitution failed (status %d)",
+                 common->status);
+        for (int64_t c = 0; c < columns; c++) {
+            const double *permuted = (double *)solution->x + c * size;
+            double *column = x + (first + c) * size;
+            for (int64_t k = 0; k < size; k++) column[permutation[k]] = permuted[k];
+        }
+    }
+cleanup:
+    if (forward) {
+        forward->ncol = RESPONSE_BLOCK;
+        forward->nzmax = (size_t)(RESPONSE_BLOCK * size);
+    }
+    cholmod_free_dense(&forward, common);
+    cholmod_free_dense(&solution, common);
+    cholmod_free_dense(&work_y, common);
+    cholmod_free_dense(&work_e, common);
     return error_is_clean(err);
 }

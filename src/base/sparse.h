@@ -25,6 +25,9 @@ typedef struct SparsePattern {
 } SparsePattern;
 void sparse_pattern_destroy(SparsePattern *pattern);
 
+// Where (row, column), which the pattern holds, stands among the values.
+int32_t sparse_entry(const SparsePattern *pattern, int32_t row, int32_t column);
+
 // y = A x; values: [start[size]].
 void sparse_apply(const SparsePattern *pattern, const double *values, const double *x, double *y);
 
@@ -47,5 +50,9 @@ const double *sparse_schur(const SparseFactor *factor);
 bool sparse_condense(SparseFactor *factor, const double *rhs, double *g, Error *err);
 // x_border: [border_count] -> x: [size]; nothing is allocated after the first solve.
 bool sparse_expand(SparseFactor *factor, const double *x_border, double *x, Error *err);
+
+// Column j of x [size * border_count]: the solution with x_border = e_j and no load inside, that is
+// [-A_ii^-1 A_ib e_j; e_j]. Solved in blocks of columns.
+bool sparse_border_responses(SparseFactor *factor, double *x, Error *err);
 
 #endif

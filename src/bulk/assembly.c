@@ -83,19 +83,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-static int32_t entry_of(const SparsePattern *pattern, int32_t row, int32_t column)
-{
-    int32_t low = pattern->start[row], high = pattern->start[row + 1] - 1;
-    while (low < high) {
-        int32_t middle = (low + high) / 2;
-        if (pattern->index[middle] < column)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
-}
-
 static void add_element(const Mesh *mesh, int32_t e, const ElementMatrices *matrices, Bulk *bulk)
 {
     const int32_t *element = mesh->element_nodes + mesh->first_node[e];
@@ -105,7 +92,7 @@ static void add_element(const Mesh *mesh, int32_t e, const ElementMatrices *matr
             int32_t row = 2 * element[a] + d;
             bulk->mass[row] += matrices->mass[a];
             for (int32_t b = 0; b < nodes; b++) {
-                int32_t entry = entry_of(&bulk->pattern, row, 2 * element[b]);
+                int32_t entry = sparse_entry(&bulk->pattern, row, 2 * element[b]);
                 for (int32_t f = 0; f < 2; f++) {
                     bulk->stiffness[entry + f] += matrices->stiffness[2 * a + d][2 * b + f];
                     bulk->damping[entry + f] += matrices->damping[2 * a + d][2 * b + f];

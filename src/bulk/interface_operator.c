@@ -1,26 +1,62 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// The reduced operator keeps, for each A, the inverse of its interior block and the map
+//
+//     B = A_qq^-1 A_qb,   S = A_bb - A_bq B,   g = rhs_b - B' rhs_q,   v_q = A_qq^-1 rhs_q - B v_b.
 #include "bulk/interface_operator.h"
 
+#include "base/dense.h"
 #include "base/memory.h"
 
+#include <math.h>
 #include <string.h>
 
 struct InterfaceOperator {
     BulkOperator *system;   // not owned
-    SparseFactor *factor;   // owned
-    double *schur;   // [interface_count^2] S without the shift; owned
+    double *schur;   // [interface_count^2] S, not lifted; owned
+    SparseFactor *factor;   // full; owned
+    double *inverse;   // reduced: [interior^2] A_qq^-1; owned
+    double *map;   // reduced: [interior * interface] B; owned
+    double *half;   // reduced: [interior] A_qq^-1 rhs_q; owned
 };
 
-bool bulk_operator_create(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
-                          BulkOperator *system, Error *err)
+bool bulk_operator_create(const Bulk *bulk, const double *position, const int32_t *interface_dofs,
+                          int32_t interface_count, BulkOperator *system, Error *err)
 {
     *system = (BulkOperator){
         .dof_count = bulk->dof_count, .interface_count = interface_count, .bulk = bulk};
     system->interface_dofs = NEW_ARRAY(int32_t, interface_count, err);
+    system->load = NEW_ARRAY(double, bulk->dof_count, err);
+    system->rotation = NEW_ARRAY(double, bulk->dof_count, err);
     system->values = NEW_ARRAY(double, bulk->pattern.start[bulk->dof_count], err);
-    if (!system->interface_dofs || !system->values) goto cleanup;
+    if (!error_is_clean(err)) goto cleanup;
     memcpy(system->interface_dofs, interface_dofs, (size_t)interface_count * sizeof(int32_t));
+    memcpy(system->load, bulk->load, (size_t)bulk->dof_count * sizeof(double));
+    for (int32_t dof = 0; dof < bulk->dof_count; dof += 2) {
+        system->rotation[dof] = -position[dof + 1];
+        system->rotation[dof + 1] = position[dof];
+        system->mass_total += bulk->mass[dof];
+    }
     system->analysis = sparse_analyse(&bulk->pattern, interface_dofs, interface_count, err);
+cleanup:
+    return error_is_clean(err);
+}
+
+bool bulk_operator_reduce(const ReducedBulk *reduced, const double *interface_rotation,
+                          double mass_total, BulkOperator *system, Error *err)
+{
+    *system = (BulkOperator){.dof_count = reduced->count,
+                             .interface_count = reduced->interface_count,
+                             .reduced = reduced,
+                             .mass_total = mass_total};
+    system->interface_dofs = NEW_ARRAY(int32_t, reduced->interface_count, err);
+    system->load = NEW_ARRAY(double, reduced->count, err);
+    system->rotation = NEW_ARRAY(double, reduced->count, err);
+    if (!error_is_clean(err)) goto cleanup;
+    // A rigid motion is a static mode: its interior coordinates are 0.
+    memcpy(system->rotation, interface_rotation, (size_t)reduced->interface_count * sizeof(double));
+    for (int32_t k = 0; k < reduced->interface_count; k++) system->interface_dofs[k] = k;
+    for (int32_t k = 0; k < reduced->count; k++)
+        system->load[k] = reduced->scales.load * reduced->load[k];
 cleanup:
     return error_is_clean(err);
 }
@@ -28,52 +64,154 @@ cleanup:
 void bulk_operator_destroy(BulkOperator *system)
 {
     memory_free(system->interface_dofs);
+    memory_free(system->load);
+    memory_free(system->rotation);
     memory_free(system->values);
     sparse_analysis_destroy(system->analysis);
     *system = (BulkOperator){0};
 }
 
+static void apply_reduced(const ReducedBulk *reduced, BulkTerm term, const double *x, double *y)
+{
+    const BulkScales *scales = &reduced->scales;
+    double factor = scales->stiffness;
+    int32_t scaled = reduced->count;
+    if (term == BULK_STIFFNESS) {
+        dense_symmetric_apply(reduced->stiffness, reduced->interface_count, x, y);
+        memcpy(y + reduced->interface_count, x + reduced->interface_count,
+               (size_t)reduced->interior_count * sizeof(double));
+    } else {
+        factor = term == BULK_MASS ? scales->mass : scales->damping;
+        dense_symmetric_apply(term == BULK_MASS ? reduced->mass : reduced->damping, reduced->count,
+                              x, y);
+    }
+    for (int32_t k = 0; k < scaled; k++) y[k] *= factor;
+}
+
 void bulk_operator_apply(const BulkOperator *system, BulkTerm term, const double *x, double *y)
 {
     const Bulk *bulk = system->bulk;
-    sparse_apply(&bulk->pattern, term == BULK_STIFFNESS ? bulk->stiffness : bulk->damping, x, y);
+    if (!bulk) {
+        apply_reduced(system->reduced, term, x, y);
+    } else if (term == BULK_MASS) {
+        for (int32_t k = 0; k < system->dof_count; k++) y[k] = bulk->mass[k] * x[k];
+    } else {
+        sparse_apply(&bulk->pattern, term == BULK_STIFFNESS ? bulk->stiffness : bulk->damping, x,
+                     y);
+    }
 }
 
-// A = m M + c C + k K + shift on the interface's diagonal.
-static void combine_terms(BulkOperator *system, OperatorTerms terms)
+double bulk_operator_size(const BulkOperator *system, const double *x)
+{
+    if (system->bulk) return dense_max_abs(x, system->dof_count);
+    int32_t m = system->interface_count;
+    double interior = sqrt(dense_dot(x + m, x + m, system->dof_count - m));
+    return fmax(interior, dense_max_abs(x, m));
+}
+
+void bulk_operator_recover(const BulkOperator *system, const double *x, double *full)
+{
+    if (system->bulk)
+        memcpy(full, x, (size_t)system->dof_count * sizeof(double));
+    else
+        reduction_recover(system->reduced, x, full);
+}
+
+// A = m M + c C + k K; returns its largest diagonal entry on the interface.
+static double combine_sparse(BulkOperator *system, OperatorTerms terms)
 {
     const Bulk *bulk = system->bulk;
     const int32_t *start = bulk->pattern.start, *index = bulk->pattern.index;
-    double *values = system->values;
+    double *values = system->values, largest = 0;
     for (int32_t column = 0; column < bulk->dof_count; column++) {
         for (int32_t k = start[column]; k < start[column + 1]; k++) {
             values[k] = terms.damping * bulk->damping[k] + terms.stiffness * bulk->stiffness[k];
             if (index[k] == column) values[k] += terms.mass * bulk->mass[column];
         }
     }
-    for (int32_t j = 0; terms.shift != 0 && j < system->interface_count; j++) {
-        int32_t column = system->interface_dofs[j];
-        for (int32_t k = start[column]; k < start[column + 1]; k++) {
-            if (index[k] == column) values[k] += terms.shift;
-        }
+    for (int32_t j = 0; j < system->interface_count; j++)
+        largest = fmax(largest, values[sparse_entry(&bulk->pattern, system->interface_dofs[j],
+                                                    system->interface_dofs[j])]);
+    return largest;
+}
+
+static bool condense_sparse(InterfaceOperator *condensed, OperatorTerms terms, Error *err)
+{
+    BulkOperator *system = condensed->system;
+    int64_t m = system->interface_count;
+    double largest = combine_sparse(system, terms), shift = terms.lift ? largest : 0;
+    for (int32_t j = 0; j < m; j++) {
+        int32_t dof = system->interface_dofs[j];
+        system->values[sparse_entry(&system->bulk->pattern, dof, dof)] += shift;
     }
+    condensed->factor = sparse_factorise(system->analysis, system->values, err);
+    if (!condensed->factor) return false;
+    memcpy(condensed->schur, sparse_schur(condensed->factor), (size_t)(m * m) * sizeof(double));
+    for (int64_t j = 0; j < m; j++) condensed->schur[j * m + j] -= shift;
+    return true;
+}
+
+// An entry of A, by its row and column in the reduced system.
+static double reduced_entry(const ReducedBulk *reduced, OperatorTerms terms, int64_t row,
+                            int64_t column)
+{
+    const BulkScales *scales = &reduced->scales;
+    int64_t at = column * reduced->count + row, m = reduced->interface_count;
+    double entry = terms.mass * scales->mass * reduced->mass[at] +
+                   terms.damping * scales->damping * reduced->damping[at];
+    if (row < m && column < m)
+        entry += terms.stiffness * scales->stiffness * reduced->stiffness[column * m + row];
+    else if (row == column)
+        entry += terms.stiffness * scales->stiffness;
+    return entry;
+}
+
+static bool condense_dense(InterfaceOperator *condensed, OperatorTerms terms, Error *err)
+{
+    const ReducedBulk *reduced = condensed->system->reduced;
+    int64_t m = reduced->interface_count, r = reduced->interior_count;
+    double *coupling = NEW_ARRAY(double, r *m, err);
+    condensed->inverse = NEW_ARRAY(double, r *r, err);
+    condensed->map = NEW_ARRAY(double, r *m, err);
+    condensed->half = NEW_ARRAY(double, r, err);
+    if (!error_is_clean(err)) goto cleanup;
+    for (int64_t column = 0; column < r; column++) {
+        for (int64_t row = 0; row < r; row++)
+            condensed->inverse[column * r + row] =
+                reduced_entry(reduced, terms, m + row, m + column);
+    }
+    for (int64_t column = 0; column < m; column++) {
+        for (int64_t row = 0; row < r; row++)
+            coupling[column * r + row] = reduced_entry(reduced, terms, m + row, column);
+        for (int64_t row = 0; row < m; row++)
+            condensed->schur[column * m + row] = reduced_entry(reduced, terms, row, column);
+    }
+    if (!dense_cholesky(condensed->inverse, (int32_t)r) ||
+        !dense_invert_factored(condensed->inverse, (int32_t)r))
+        FAIL(err, ERROR_COMPUTE, "the interior of the reduced bulk is not positive definite");
+    DenseView inverse = {condensed->inverse, (int32_t)r, (int32_t)r};
+    DenseView couple = {coupling, (int32_t)r, (int32_t)m};
+    DenseView map = {condensed->map, (int32_t)r, (int32_t)m};
+    dense_multiply(inverse, couple, 1, 0, condensed->map);
+    dense_multiply_transposed(couple, map, -1, 1, condensed->schur);
+cleanup:
+    memory_free(coupling);
+    return error_is_clean(err);
 }
 
 InterfaceOperator *interface_operator_create(BulkOperator *system, OperatorTerms terms, Error *err)
 {
-    int64_t count = system->interface_count;
+    int64_t m = system->interface_count;
     InterfaceOperator *condensed = NEW_ARRAY(InterfaceOperator, 1, err);
     if (!condensed) goto cleanup;
     condensed->system = system;
-    condensed->schur = NEW_ARRAY(double, count *count, err);
+    condensed->schur = NEW_ARRAY(double, m *m, err);
     if (!condensed->schur) goto cleanup;
-    combine_terms(system, terms);
-    condensed->factor = sparse_factorise(system->analysis, system->values, err);
-    if (!condensed->factor) goto cleanup;
+    if (system->bulk)
+        TRY(condense_sparse(condensed, terms, err));
+    else
+        TRY(condense_dense(condensed, terms, err));
     system->factorisations++;
-    memcpy(condensed->schur, sparse_schur(condensed->factor),
-           (size_t)(count * count) * sizeof(double));
-    for (int64_t j = 0; j < count; j++) condensed->schur[j * count + j] -= terms.shift;
 cleanup:
     if (error_is_clean(err)) return condensed;
     interface_operator_destroy(condensed);
@@ -85,6 +223,9 @@ void interface_operator_destroy(InterfaceOperator *condensed)
     if (!condensed) return;
     sparse_factor_destroy(condensed->factor);
     memory_free(condensed->schur);
+    memory_free(condensed->inverse);
+    memory_free(condensed->map);
+    memory_free(condensed->half);
     memory_free(condensed);
 }
 
@@ -96,12 +237,24 @@ const double *interface_operator_schur(const InterfaceOperator *condensed)
 bool interface_operator_condense(InterfaceOperator *condensed, const double *rhs, double *g,
                                  Error *err)
 {
-    return sparse_condense(condensed->factor, rhs, g, err);
+    if (condensed->factor) return sparse_condense(condensed->factor, rhs, g, err);
+    const ReducedBulk *reduced = condensed->system->reduced;
+    int32_t m = reduced->interface_count, r = reduced->interior_count;
+    memcpy(g, rhs, (size_t)m * sizeof(double));
+    dense_apply_transposed((DenseView){condensed->map, r, m}, rhs + m, -1, 1, g);
+    dense_symmetric_apply(condensed->inverse, r, rhs + m, condensed->half);
+    return true;
 }
 
 bool interface_operator_expand(InterfaceOperator *condensed, const double *interface, double *v,
                                Error *err)
 {
     condensed->system->solves++;
-    return sparse_expand(condensed->factor, interface, v, err);
+    if (condensed->factor) return sparse_expand(condensed->factor, interface, v, err);
+    const ReducedBulk *reduced = condensed->system->reduced;
+    int32_t m = reduced->interface_count, r = reduced->interior_count;
+    memcpy(v, interface, (size_t)m * sizeof(double));
+    memcpy(v + m, condensed->half, (size_t)r * sizeof(double));
+    dense_apply((DenseView){condensed->map, r, m}, interface, -1, 1, v + m);
+    return true;
 }

@@ -5,38 +5,58 @@
 //     M u'' + C u' + K u = f + G' r
 //
 // and asks for A = m M + c C + k K condensed on the interface, S v_b = g + r_b, and for v from v_b.
-// Here the unknowns are those of the full mesh and A is factored by CHOLMOD with the interface
-// last; a reduced bulk fills the same struct with dense matrices.
+// Two makers fill the same struct. Full: the unknowns of the mesh, A factored by CHOLMOD with the
+// interface last. Reduced (bulk/reduction): the interface first, then a small interior basis,
+// dense.
 #ifndef AMONTONS_BULK_INTERFACE_OPERATOR_H
 #define AMONTONS_BULK_INTERFACE_OPERATOR_H
 
 #include "bulk/assembly.h"
+#include "bulk/reduction.h"
 
-typedef enum BulkTerm { BULK_STIFFNESS, BULK_DAMPING } BulkTerm;
+typedef enum BulkTerm { BULK_STIFFNESS, BULK_DAMPING, BULK_MASS } BulkTerm;
 
 typedef struct BulkOperator {
     int32_t dof_count;
     int32_t interface_count;
-    int32_t *interface_dofs;   // [interface_count] indices of unknowns; owned
-    const Bulk *bulk;   // K, C, M, f; not owned
-    SparseAnalysis *analysis;   // owned
-    double *values;   // [entries] work: A; owned
-    int64_t factorisations;   // counted
-    int64_t solves;   // counted
+    int32_t *interface_dofs;      // [interface_count] indices of unknowns; owned
+    double *load;                 // [dof_count] f, force/width; owned
+    double *rotation;             // [dof_count] the unit rotation about the origin, (-z, x); owned
+    double mass_total;            // of the block, mass/width
+    const Bulk *bulk;             // full: K, C, M; not owned; NULL when reduced
+    const ReducedBulk *reduced;   // reduced: likewise; not owned; NULL when full
+    SparseAnalysis *analysis;     // full; owned
+    double *values;               // full: [entries] work, A; owned
+    int64_t factorisations;       // counted: sparse, or dense of the interior
+    int64_t solves;               // counted
 } BulkOperator;
 
-// `bulk` must outlive the operator.
-bool bulk_operator_create(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
-                          BulkOperator *system, Error *err);
+// position: [dof_count] of `bulk`, x and z of its nodes, length. All arguments but the last must
+// outlive the operator.
+bool bulk_operator_create(const Bulk *bulk, const double *position, const int32_t *interface_dofs,
+                          int32_t interface_count, BulkOperator *system, Error *err);
+
+// interface_position: [interface_count] what the rotation does there: -z for a u_x, x for a u_z.
+bool bulk_operator_reduce(const ReducedBulk *reduced, const double *interface_rotation,
+                          double mass_total, BulkOperator *system, Error *err);
 void bulk_operator_destroy(BulkOperator *system);
 
-// y = K x or C x; [dof_count]
+// y = K x, C x or M x; [dof_count]
 void bulk_operator_apply(const BulkOperator *system, BulkTerm term, const double *x, double *y);
+
+// The size of a displacement, length, or of a velocity: the largest component on the full mesh; on
+// a reduced one the largest on the interface or, if larger, sqrt(2 elastic energy / E) of the
+// interior.
+double bulk_operator_size(const BulkOperator *system, const double *x);
+
+// full: [2 * nodes] from the system's unknowns, a copy or modes * x.
+void bulk_operator_recover(const BulkOperator *system, const double *x, double *full);
 
 typedef struct OperatorTerms {
     double mass, damping, stiffness;   // factors of M, C, K in A
-    double shift;   // added to A's interface diagonal before factoring and taken
-        // off S afterwards: lets C alone, which is singular, be used
+    bool lift;   // A may be singular in the interface's own motion (C or K alone): its interface
+                 // diagonal is raised to factor it, and S lowered again
+                                       // again
 } OperatorTerms;
 
 typedef struct InterfaceOperator InterfaceOperator;   // A, factored

@@ -16,12 +16,6 @@ void rod_destroy(Rod *rod)
     *rod = (Rod){0};
 }
 
-void rod_touch(Rod *rod, const Interface *interface, const double *displacement)
-{
-    for (int32_t j = 0; j < rod->count; j++)
-        rod->origin[j] = displacement[interface->dofs[interface_rod(interface, j)]];
-}
-
 double rod_force(const Interface *interface, const double *reaction)
 {
     double force = 0;

@@ -22,10 +22,7 @@ typedef struct Rod {
 bool rod_build(const Interface *interface, RodKind kind, double velocity, Rod *rod, Error *err);
 void rod_destroy(Rod *rod);
 
-// Touches the face where it is: origin_j = u_x,j. displacement: [bulk unknowns].
-void rod_touch(Rod *rod, const Interface *interface, const double *displacement);
-
-// F_T and its moment about the origin, from the reactions on the interface [interface->count].
+// F_T, from the reactions on the interface [interface->count].
 double rod_force(const Interface *interface, const double *reaction);
 
 #endif

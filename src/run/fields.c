@@ -29,6 +29,8 @@ static bool fill_bulk_grid(Fields *fields, Error *err)
     int64_t corners = mesh->first_node[cells];
     fields->points = NEW_ARRAY(double, 3 * nodes, err);
     fields->vectors = NEW_ARRAY(double, 6 * nodes, err);
+    fields->displacement = NEW_ARRAY(double, 2 * nodes, err);
+    fields->velocity = NEW_ARRAY(double, 2 * nodes, err);
     fields->offsets = NEW_ARRAY(int64_t, cells + 1, err);
     fields->connectivity = NEW_ARRAY(int64_t, corners, err);
     fields->cell_types = NEW_ARRAY(uint8_t, cells, err);
@@ -89,6 +91,8 @@ void fields_destroy(Fields *fields)
     nodal_stress_destroy(&fields->stress);
     memory_free(fields->points);
     memory_free(fields->vectors);
+    memory_free(fields->displacement);
+    memory_free(fields->velocity);
     memory_free(fields->offsets);
     memory_free(fields->connectivity);
     memory_free(fields->cell_types);
@@ -108,13 +112,15 @@ static bool write_bulk(Fields *fields, const Observation *seen, const char *name
     const State *state = seen->state;
     int64_t nodes = mesh->node_count;
     double *displacement = fields->vectors, *velocity = fields->vectors + 3 * nodes;
+    bulk_operator_recover(seen->system, state->displacement, fields->displacement);
+    bulk_operator_recover(seen->system, state->velocity, fields->velocity);
     for (int64_t i = 0; i < nodes; i++) {
         for (int d = 0; d < 2; d++) {
-            displacement[3 * i + d] = state->displacement[2 * i + d];
-            velocity[3 * i + d] = state->velocity[2 * i + d];
+            displacement[3 * i + d] = fields->displacement[2 * i + d];
+            velocity[3 * i + d] = fields->velocity[2 * i + d];
         }
     }
-    nodal_stress_recover(mesh, fields->material, state->displacement, state->velocity,
+    nodal_stress_recover(mesh, fields->material, fields->displacement, fields->velocity,
                          &fields->stress);
     FieldArray arrays[] = {
         {.name = "displacement", .components = 3, .values = displacement},
@@ -140,6 +146,7 @@ static bool write_line(Fields *fields, const Observation *seen, const char *name
 {
     const Interface *interface = seen->interface;
     const State *state = seen->state;
+    const int32_t *dofs = seen->system->interface_dofs;
     int64_t count = interface->contact_count;
     double *columns[LINE_ARRAYS];
     for (int k = 0; k < LINE_ARRAYS; k++) columns[k] = fields->line_values + k * count;
@@ -147,8 +154,8 @@ static bool write_line(Fields *fields, const Observation *seen, const char *name
         int32_t t = interface_tangent(i), n = interface_normal(i);
         double slip_rate = state->slip_rate[t];
         columns[0][i] = slip_rate;
-        columns[1][i] = state->displacement[interface->dofs[t]];
-        columns[2][i] = state->displacement[interface->dofs[n]];
+        columns[1][i] = state->displacement[dofs[t]];
+        columns[2][i] = state->displacement[dofs[n]];
         columns[3][i] = state->reaction[n] / interface->weight[i];
         columns[4][i] = -state->reaction[t] / interface->weight[i];
         columns[5][i] = state->status[i] == CONTACT_OPEN

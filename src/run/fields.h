@@ -26,6 +26,7 @@ typedef struct Fields {
     NodalStress stress;   // owned, like all that follows
     double *points;   // [nodes * 3]
     double *vectors;   // [nodes * 6] displacement, velocity
+    double *displacement, *velocity;   // [nodes * 2] of the whole mesh
     int64_t *offsets, *connectivity;
     uint8_t *cell_types;
     double *line_points;   // [contact_count * 3]

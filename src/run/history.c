@@ -81,7 +81,7 @@ static double node_value(const History *history, const Observation *seen, Result
     case SERIES_SLIP_RATE:
         return state->slip_rate[t];
     case SERIES_SLIP:
-        return state->displacement[seen->interface->dofs[t]] - history->slip_origin[i];
+        return state->displacement[seen->system->interface_dofs[t]] - history->slip_origin[i];
     case SERIES_PRESSURE:
         return state->reaction[n] / seen->interface->weight[i];
     case SERIES_SHEAR:
@@ -100,7 +100,7 @@ bool history_record(void *self, const Observation *seen, Error *err)
     if (history->rows == 0) {
         for (int32_t i = 0; i < count; i++)
             history->slip_origin[i] =
-                seen->state->displacement[seen->interface->dofs[interface_tangent(i)]];
+                seen->state->displacement[seen->system->interface_dofs[interface_tangent(i)]];
     }
     for (ResultSeries series = 0; series < RESULT_SERIES_COUNT; series++) {
         bool per_node = result_series_is_per_node(series);

@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "base/dense.h"
+#include "base/memory.h"
 #include "stepping/relaxation.h"
 
 #include <math.h>
@@ -14,7 +15,6 @@ static const double TOLERANCES[] = {
 
 static const double STEP_MAX_SLIP = 0.2;   // rung 0: the rod moves this part of that slip
 static const double STEPS_AT_LEAST = 50;   // and a run has at least so many
-static const double WAVE_STEP = 0.1;   // of L / c_L, while not certified
 static const double STEP_RANGE = 1e-10;   // step_min over step_max
 static const double ROD_HEIGHT = 0.5, ROD_WIDTH = 0.1;   // of H
 
@@ -81,6 +81,48 @@ cleanup:
     return error_is_clean(err);
 }
 
+// E, eta, rho L^2 and the size of the load: what the reduced matrices are normalised with.
+static BulkScales bulk_scales(const Simulation *simulation)
+{
+    const Material *material = &simulation->material;
+    double length = simulation->model.length;
+    return (BulkScales){.stiffness = material->young,
+                        .damping = material->eta1 + material->eta2,
+                        .mass = material->density * length * length,
+                        .load = dense_max_abs(simulation->bulk.load, simulation->bulk.dof_count)};
+}
+
+static bool reduce_bulk(Simulation *simulation, Error *err)
+{
+    const Interface *interface = &simulation->interface;
+    const Bulk *bulk = &simulation->bulk;
+    ReductionDef def = {.tolerance = simulation->scene.reduction.tolerance,
+                        .scales = bulk_scales(simulation)};
+    double mass = 0;
+    double *rotation = NEW_ARRAY(double, interface->count, err);
+    if (!rotation) goto cleanup;
+    TRY(reduction_build(bulk, interface->dofs, interface->count, &def, &simulation->reduced, err));
+    for (int32_t k = 0; k < interface->count; k++) {
+        const double *position = simulation->mesh.position + 2 * (interface->dofs[k] / 2);
+        rotation[k] = interface->dofs[k] % 2 == 0 ? -position[1] : position[0];
+    }
+    for (int32_t dof = 0; dof < bulk->dof_count; dof += 2) mass += bulk->mass[dof];
+    TRY(bulk_operator_reduce(&simulation->reduced, rotation, mass, &simulation->system, err));
+cleanup:
+    memory_free(rotation);
+    return error_is_clean(err);
+}
+
+static bool make_operator(Simulation *simulation, Error *err)
+{
+    const Scene *scene = &simulation->scene;
+    const Interface *interface = &simulation->interface;
+    bool viscous = scene->material.eta1 > 0;
+    if (scene->reduction.use != REDUCE_NEVER && viscous) return reduce_bulk(simulation, err);
+    return bulk_operator_create(&simulation->bulk, simulation->mesh.position, interface->dofs,
+                                interface->count, &simulation->system, err);
+}
+
 bool model_assemble(Simulation *simulation, Error *err)
 {
     const Scene *scene = &simulation->scene;
@@ -97,12 +139,11 @@ bool model_assemble(Simulation *simulation, Error *err)
                         .rod_width = scene->rod.width > 0 ? scene->rod.width : ROD_WIDTH * height};
     TRY(interface_build(&simulation->mesh, &def, &simulation->interface, err));
     const Interface *interface = &simulation->interface;
-    TRY(bulk_operator_create(&simulation->bulk, interface->dofs, interface->count,
-                             &simulation->system, err));
+    TRY(make_operator(simulation, err));
     simulation->model.contact_nodes = interface->contact_count;
     simulation->model.rod_nodes = interface->rod_count;
     simulation->model.full_dofs = simulation->bulk.dof_count;
-    simulation->model.reduced_dofs = simulation->bulk.dof_count;
+    simulation->model.reduced_dofs = simulation->system.dof_count;
     simulation->scales.length = simulation->model.length;
     const Material *material = &simulation->material;
     simulation->scales.time = simulation->model.length / material_speeds(material).longitudinal +
@@ -142,16 +183,29 @@ bool model_prepare_steps(Simulation *simulation, Error *err)
         def.step_max = fmin(def.step_max, STEP_MAX_SLIP * slip / velocity);
     if (scene->time.step_max > 0) def.step_max = scene->time.step_max;
     def.step_min = scene->time.step_min > 0 ? scene->time.step_min : STEP_RANGE * def.step_max;
-    def.wave_step = WAVE_STEP * simulation->model.length /
+    def.wave_step = scene->time.wave_step * simulation->model.length /
                     material_speeds(&simulation->material).longitudinal;
     RodKind kind = scene->start.rod == START_ROD_HELD && scene->rod.kind != ROD_NONE
                        ? (scene->rod.kind == ROD_PUSH ? ROD_PUSHES : ROD_IS_BONDED)
                        : ROD_AWAY;
     TRY(rod_build(&simulation->interface, kind, 0, &simulation->rod, err));
-    TRY(step_control_create(&simulation->system, &simulation->interface, &simulation->law,
-                            &simulation->rod, &def, &simulation->control, err));
+    Block block = {.system = &simulation->system,
+                   .interface = &simulation->interface,
+                   .law = &simulation->law,
+                   .rod = &simulation->rod};
+    TRY(step_control_create(&block, &def, &simulation->control, err));
 cleanup:
     return error_is_clean(err);
+}
+
+// The rod comes to the face where that is now.
+static void touch_rod(Simulation *simulation)
+{
+    const Interface *interface = &simulation->interface;
+    const State *now = &simulation->control.now;
+    for (int32_t j = 0; j < interface->rod_count; j++)
+        simulation->rod.origin[j] =
+            now->displacement[simulation->system.interface_dofs[interface_rod(interface, j)]];
 }
 
 bool model_relax(Simulation *simulation, Error *err)
@@ -170,7 +224,7 @@ bool model_relax(Simulation *simulation, Error *err)
         simulation->rod.kind = ROD_AWAY;
     } else {
         simulation->rod.kind = scene->rod.kind == ROD_PUSH ? ROD_PUSHES : ROD_IS_BONDED;
-        rod_touch(&simulation->rod, &simulation->interface, simulation->control.now.displacement);
+        touch_rod(simulation);
     }
     step_control_restart(&simulation->control);
 cleanup:

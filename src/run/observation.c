@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "run/observation.h"
 
+#include "base/dense.h"
+
 #include <math.h>
 
 static double slip_front(const Interface *interface, const State *state)
@@ -18,32 +20,26 @@ typedef struct Moments {
     double forces, inertia;
 } Moments;
 
-static Moments sum_moments(const StepControl *control, const Mesh *mesh)
+static Moments sum_moments(const StepControl *control)
 {
-    const Bulk *bulk = control->scheme.system->bulk;
+    const BulkOperator *system = control->scheme.system;
     const Interface *interface = control->scheme.interface;
     const State *state = &control->now;
-    Moments sum = {0};
-    for (int32_t node = 0; node < mesh->node_count; node++) {
-        double x = mesh->position[2 * node], z = mesh->position[2 * node + 1];
-        const double *load = bulk->load + 2 * node, *a = state->acceleration + 2 * node;
-        sum.forces += x * load[1] - z * load[0];
-        sum.inertia += bulk->mass[2 * node] * (x * a[1] - z * a[0]);
-    }
-    for (int32_t i = 0; i < interface->contact_count; i++)
-        sum.forces += interface->x[i] * state->reaction[interface_normal(i)];
-    for (int32_t j = 0; j < interface->rod_count; j++)
-        sum.forces -= interface->rod_z[j] * state->reaction[interface_rod(interface, j)];
+    Moments sum = {.forces = dense_dot(system->rotation, system->load, system->dof_count),
+                   .inertia = dense_dot(system->rotation, state->inertia, system->dof_count)};
+    for (int32_t k = 0; k < interface->count; k++)
+        sum.forces += system->rotation[system->interface_dofs[k]] * state->reaction[k];
     return sum;
 }
 
-Observation observe(const StepControl *control, const Mesh *mesh, const ObservationScales *scales)
+Observation observe(const StepControl *control, const ObservationScales *scales)
 {
     const Sdirk2 *scheme = &control->scheme;
     const Interface *interface = scheme->interface;
     const State *state = &control->now;
     Observation seen = {.state = state,
                         .interface = interface,
+                        .system = scheme->system,
                         .t = state->time,
                         .U = scheme->rod->velocity * state->time,
                         .step_size = control->counters.accepted > 0 ? control->last_step : 0,
@@ -55,7 +51,7 @@ Observation observe(const StepControl *control, const Mesh *mesh, const Observat
         seen.normal_force += state->reaction[interface_normal(i)];
         seen.max_slip_rate = fmax(seen.max_slip_rate, fabs(state->slip_rate[interface_tangent(i)]));
     }
-    Moments moments = sum_moments(control, mesh);
+    Moments moments = sum_moments(control);
     double moment_scale = scales->load * scales->length;
     seen.moment_error = fabs(moments.forces - moments.inertia) / moment_scale;
     seen.moment_static_error = fabs(moments.forces) / moment_scale;

@@ -9,6 +9,7 @@
 
 typedef struct Observation {
     const State *state;   // not owned
+    const BulkOperator *system;     // not owned: where the interface stands in the state
     const Interface *interface;   // not owned
     double t, U;   // time, length
     double step_size;   // of the step that ended here; 0 at the start
@@ -34,6 +35,6 @@ typedef struct ObservationScales {
     double slip_velocity;   // velocity
 } ObservationScales;
 
-Observation observe(const StepControl *control, const Mesh *mesh, const ObservationScales *scales);
+Observation observe(const StepControl *control, const ObservationScales *scales);
 
 #endif

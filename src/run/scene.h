@@ -21,6 +21,7 @@ typedef enum SceneRodKind { ROD_PUSH, ROD_BONDED, ROD_NONE } SceneRodKind;
 typedef enum SceneStartFriction { START_FRICTION_OFF, START_FRICTION_ON } SceneStartFriction;
 typedef enum SceneStartRod { START_ROD_AWAY, START_ROD_HELD } SceneStartRod;
 typedef enum SceneScheme { SCHEME_SDIRK2 } SceneScheme;
+typedef enum SceneReduce { REDUCE_AUTO, REDUCE_ALWAYS, REDUCE_NEVER } SceneReduce;
 typedef enum SceneAccuracy { ACCURACY_DRAFT, ACCURACY_STANDARD, ACCURACY_FINE } SceneAccuracy;
 
 typedef struct SceneNames {
@@ -78,10 +79,16 @@ typedef struct Scene {
         SceneAccuracy accuracy;
         double tolerance;   // of a step, relative; 0: by accuracy
         double step_max, step_min;   // 0: chosen from the block's size and speeds
+        double wave_step;              // longest step while not certified, in L / c_L
         bool certificate;   // limit the step by the certificate (off only to study it)
         double energy_tolerance;   // of the ledger, relative to the work done
         double periodic_tolerance;   // peaks agree within this, relative
     } time;
+    struct {
+        SceneReduce use;
+        double tolerance;              // of the interior basis, relative
+        bool cache;                    // keep the basis on disk for the next run of the shape
+    } reduction;
     struct {
         bool history;
         bool fields;   // output.fields: none, or {every_U, every_t, at_events}

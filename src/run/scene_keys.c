@@ -16,6 +16,7 @@ static const char *const rod_choices[] = {"push", "bonded", "none", NULL};
 static const char *const switch_choices[] = {"off", "on", NULL};
 static const char *const start_rod_choices[] = {"away", "held", NULL};
 static const char *const scheme_choices[] = {"sdirk2", NULL};
+static const char *const reduce_choices[] = {"auto", "always", "never", NULL};
 static const char *const accuracy_choices[] = {"draft", "standard", "fine", NULL};
 static const char *const figure_choices[] = {
 #define X(symbol, name, title) name,
@@ -110,6 +111,9 @@ static const SceneKey keys[] = {
      .sentence = "Longest step; 0: from the block's size and wave speeds."},
     {"time.step_min", KEY_NUMBER, offsetof(Scene, time.step_min), "time", RANGE_NOT_NEGATIVE, "0",
      .sentence = "Shortest step; 0: from the block's size and wave speeds."},
+    {"time.wave_step", KEY_NUMBER, offsetof(Scene, time.wave_step), "1", RANGE_PART, "0.1",
+     .sentence = "Longest step while slip is not certified to be stable, in wave crossings of the "
+                 "block, L / c_L."},
     {"time.certificate", KEY_FLAG, offsetof(Scene, time.certificate), "1", RANGE_ANY, "true",
      .sentence = "Resolve waves wherever slip is not certified to be stable; off gives wrong "
                  "answers and is "
@@ -120,6 +124,15 @@ static const SceneKey keys[] = {
     {"time.periodic_tolerance", KEY_NUMBER, offsetof(Scene, time.periodic_tolerance), "1",
      RANGE_PART, "1e-2",
      .sentence = "Peaks that agree within this, relative, make a periodic regime."},
+    {"reduction.use", KEY_CHOICE, offsetof(Scene, reduction.use), "1", RANGE_ANY, "auto",
+     .sentence = "Reduce the bulk to its interface and a small interior basis before stepping; "
+                 "`auto`: where that is expected to be faster.",
+     .choices = reduce_choices},
+    {"reduction.tolerance", KEY_NUMBER, offsetof(Scene, reduction.tolerance), "1", RANGE_PART,
+     "1e-3",
+     .sentence = "Interior responses smaller than this, relative, are left out of the basis."},
+    {"reduction.cache", KEY_FLAG, offsetof(Scene, reduction.cache), "1", RANGE_ANY, "true",
+     .sentence = "Keep the basis on disk for the next run of the same shape."},
     {"output.history", KEY_FLAG, offsetof(Scene, output.history), "1", RANGE_ANY, "true",
      .sentence = "Write history.h5: time series and the interface at every step."},
     {"output.fields", KEY_FIELDS, offsetof(Scene, output.fields), "1", RANGE_ANY, "none",
@@ -181,8 +194,9 @@ static const char *last_word(const char *name)
 
 const char *scene_key_nearest(const char *name)
 {
-    static const char *const groups[] = {"mesh", "groups", "material", "friction",   "load",
-                                         "rod",  "start",  "time",     "time.until", "output"};
+    static const char *const groups[] = {"mesh",       "groups",    "material", "friction",
+                                         "load",       "rod",       "start",    "time",
+                                         "time.until", "reduction", "output"};
     enum { GROUP_COUNT = sizeof groups / sizeof groups[0], COUNT = GROUP_COUNT + KEY_COUNT };
     const char *names[COUNT], *words[COUNT];
     for (int32_t k = 0; k < GROUP_COUNT; k++) names[k] = groups[k];

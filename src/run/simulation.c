@@ -105,7 +105,7 @@ static bool record_step(Simulation *simulation, Error *err)
 {
     StepControl *control = &simulation->control;
     double started = clock_seconds();
-    Observation seen = observe(control, &simulation->mesh, &simulation->scales);
+    Observation seen = observe(control, &simulation->scales);
     simulation->seen = seen;
     RunErrors *errors = &simulation->errors;
     errors->energy = fmax(errors->energy, seen.energy_error);
@@ -293,6 +293,7 @@ void amontons_simulation_destroy(Simulation *simulation)
     step_control_destroy(&simulation->control);
     rod_destroy(&simulation->rod);
     bulk_operator_destroy(&simulation->system);
+    reduction_destroy(&simulation->reduced);
     interface_destroy(&simulation->interface);
     bulk_destroy(&simulation->bulk);
     mesh_destroy(&simulation->mesh);

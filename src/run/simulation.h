@@ -20,6 +20,7 @@ struct Simulation {
     FrictionLaw law;
     Bulk bulk;
     Interface interface;
+    ReducedBulk reduced;           // count 0: the full mesh is stepped
     BulkOperator system;
     Rod rod;
     StepControl control;

@@ -6,25 +6,16 @@
 
 #include <math.h>
 
-bool certificate_create(BulkOperator *system, const Interface *interface, const FrictionLaw *law,
-                        Certificate *certificate, Error *err)
+bool certificate_create(const Block *block, Certificate *certificate, Error *err)
 {
-    *certificate = (Certificate){.interface = interface, .law = law};
-    int64_t count = interface->count;
+    *certificate = (Certificate){.interface = block->interface, .law = block->law};
+    int64_t count = block->interface->count;
     certificate->matrix = NEW_ARRAY(double, count *count, err);
     certificate->weakening = NEW_ARRAY(double, count, err);
     certificate->moving = NEW_ARRAY(int32_t, count, err);
     if (!error_is_clean(err)) return false;
-    // C alone is singular (rigid motion); a shift of the interface's own size is taken off again.
-    const Bulk *bulk = system->bulk;
-    double shift = 0;
-    for (int32_t k = 0; k < interface->count; k++) {
-        int32_t dof = interface->dofs[k];
-        for (int32_t e = bulk->pattern.start[dof]; e < bulk->pattern.start[dof + 1]; e++)
-            if (bulk->pattern.index[e] == dof) shift = fmax(shift, bulk->damping[e]);
-    }
-    OperatorTerms terms = {.damping = 1, .shift = shift};
-    certificate->damping = interface_operator_create(system, terms, err);
+    OperatorTerms terms = {.damping = 1, .lift = true};
+    certificate->damping = interface_operator_create(block->system, terms, err);
     // Without viscosity (or with eta1 = 0) there is nothing that could certify a weakening slip.
     if (err->code == ERROR_COMPUTE) error_clear(err);
     return error_is_clean(err);

@@ -27,8 +27,7 @@ typedef struct Certificate {
     int64_t checks;   // counted: Cholesky factorisations
 } Certificate;
 
-bool certificate_create(BulkOperator *system, const Interface *interface, const FrictionLaw *law,
-                        Certificate *certificate, Error *err);
+bool certificate_create(const Block *block, Certificate *certificate, Error *err);
 void certificate_destroy(Certificate *certificate);
 
 // The slip set of `state` cannot gain energy.

@@ -5,19 +5,16 @@
 
 #include <math.h>
 
-void energy_store(const BulkOperator *system, const State *state, EnergyLedger *ledger)
+void energy_store(const State *state, EnergyLedger *ledger)
 {
-    double kinetic = 0;
-    for (int32_t k = 0; k < state->dof_count; k++)
-        kinetic += system->bulk->mass[k] * state->velocity[k] * state->velocity[k];
-    ledger->kinetic = 0.5 * kinetic;
+    ledger->kinetic = 0.5 * dense_dot(state->velocity, state->momentum, state->dof_count);
     ledger->elastic = 0.5 * dense_dot(state->displacement, state->elastic_force, state->dof_count);
 }
 
-EnergyLedger energy_open(const BulkOperator *system, const State *state)
+EnergyLedger energy_open(const State *state)
 {
     EnergyLedger ledger = {0};
-    energy_store(system, state, &ledger);
+    energy_store(state, &ledger);
     ledger.stored_at_start = ledger.elastic + ledger.kinetic;
     return ledger;
 }

@@ -18,8 +18,8 @@ typedef struct EnergyLedger {
     double stored_at_start;   // elastic + kinetic when the ledger was opened
 } EnergyLedger;
 
-EnergyLedger energy_open(const BulkOperator *system, const State *state);
-void energy_store(const BulkOperator *system, const State *state, EnergyLedger *ledger);
+EnergyLedger energy_open(const State *state);
+void energy_store(const State *state, EnergyLedger *ledger);
 
 // Adds `weight` (time) times the powers of one stage: C v [dof_count], v and r on the interface.
 typedef struct StagePower {

@@ -5,6 +5,15 @@
 
 #include <math.h>
 
+// The largest velocity on the interface, or the root mean square over the block if that is larger.
+static double fastest(const StepControl *control)
+{
+    const State *state = &control->now;
+    double mean_square = dense_dot(state->velocity, state->momentum, state->dof_count) /
+                         control->scheme.system->mass_total;
+    return fmax(sqrt(mean_square), dense_max_abs(state->slip_rate, state->interface_count));
+}
+
 bool relax(StepControl *control, const RelaxationDef *def, int64_t *steps, Error *err)
 {
     double speed = INFINITY;
@@ -17,7 +26,7 @@ bool relax(StepControl *control, const RelaxationDef *def, int64_t *steps, Error
                 "short?)",
                 control->now.time, speed, def->speed_max);
         TRY(step_control_advance(control, INFINITY, err));
-        speed = dense_max_abs(control->now.velocity, control->now.dof_count);
+        speed = fastest(control);
     }
 cleanup:
     if (!error_is_clean(err)) error_context(err, "while relaxing before the rod moves");

@@ -7,12 +7,18 @@
 #include <math.h>
 #include <string.h>
 
-bool sdirk2_create(BulkOperator *system, const Interface *interface, const FrictionLaw *law,
-                   Rod *rod, Sdirk2 *scheme, Error *err)
+bool sdirk2_create(const Block *block, Ladder *ladder, Sdirk2 *scheme, Error *err)
 {
-    *scheme = (Sdirk2){.system = system, .interface = interface, .law = law, .rod = rod};
+    const BulkOperator *system = block->system;
+    const Interface *interface = block->interface;
+    *scheme = (Sdirk2){.system = block->system,
+                       .interface = interface,
+                       .law = block->law,
+                       .rod = block->rod,
+                       .ladder = ladder};
     scheme->rhs = NEW_ARRAY(double, system->dof_count, err);
     scheme->force = NEW_ARRAY(double, system->dof_count, err);
+    scheme->viscous = NEW_ARRAY(double, system->dof_count, err);
     scheme->v1 = NEW_ARRAY(double, system->dof_count, err);
     scheme->predictor = NEW_ARRAY(double, system->dof_count, err);
     scheme->g = NEW_ARRAY(double, interface->count, err);
@@ -28,6 +34,7 @@ void sdirk2_destroy(Sdirk2 *scheme)
     contact_solver_destroy(&scheme->solver);
     memory_free(scheme->rhs);
     memory_free(scheme->force);
+    memory_free(scheme->viscous);
     memory_free(scheme->v1);
     memory_free(scheme->predictor);
     memory_free(scheme->g);
@@ -41,14 +48,15 @@ void sdirk2_destroy(Sdirk2 *scheme)
 static void fill_bounds(Sdirk2 *scheme, const double *predictor, double time, double scaled_step)
 {
     const Interface *interface = scheme->interface;
+    const int32_t *dofs = scheme->system->interface_dofs;
     for (int32_t i = 0; i < interface->contact_count; i++) {
         int32_t n = interface_normal(i);
-        scheme->bound[n] = -predictor[interface->dofs[n]] / scaled_step;
+        scheme->bound[n] = -predictor[dofs[n]] / scaled_step;
     }
     for (int32_t j = 0; j < interface->rod_count; j++) {
         int32_t x = interface_rod(interface, j);
         double target = scheme->rod->origin[j] + scheme->rod->velocity * time;
-        scheme->bound[x] = (target - predictor[interface->dofs[x]]) / scaled_step;
+        scheme->bound[x] = (target - predictor[dofs[x]]) / scaled_step;
     }
 }
 
@@ -68,95 +76,130 @@ static bool solve_stage(Sdirk2 *scheme, InterfaceOperator *rung, ContactSolution
     if (!*solved) goto cleanup;
     TRY(interface_operator_expand(rung, contact->velocity, v, err));
     // What is held is held exactly, not to the rounding of the substitution.
-    for (int32_t k = 0; k < interface->count; k++) v[interface->dofs[k]] = contact->velocity[k];
+    for (int32_t k = 0; k < interface->count; k++)
+        v[scheme->system->interface_dofs[k]] = contact->velocity[k];
 cleanup:
     return error_is_clean(err);
 }
 
 // Local error of u: the scheme's quadrature against the one that is exact for v quadratic in time,
-// through v_n, v_1 and v_2, at 0, gamma and 1:
-//     w_1 = 1/(6 gamma (1 - gamma)),   w_2 = 1/2 - gamma w_1.
-static double estimate_error(const double *v0, const double *v1, const double *v2, int32_t count,
-                             double step)
+// through v_n, v_1 and v_2, at 0, gamma and 1:   w_1 = 1/(6 gamma (1 - gamma)), w_2 = 1/2 - gamma
+// w_1.
+static double estimate_error(Sdirk2 *scheme, const double *v0, const double *v2, double step)
 {
     double gamma = SDIRK2_GAMMA;
     double w1 = 1 / (6 * gamma * (1 - gamma)), w2 = 0.5 - gamma * w1, w0 = 1 - w1 - w2;
     double e1 = w1 - (1 - gamma), e2 = w2 - gamma;
-    double largest = 0;
-    for (int32_t k = 0; k < count; k++)
-        largest = fmax(largest, fabs(w0 * v0[k] + e1 * v1[k] + e2 * v2[k]));
-    return step * largest;
+    const double *v1 = scheme->v1;
+    double *error = scheme->rhs;
+    for (int32_t k = 0; k < scheme->system->dof_count; k++)
+        error[k] = step * (w0 * v0[k] + e1 * v1[k] + e2 * v2[k]);
+    return bulk_operator_size(scheme->system, error);
 }
 
-// Largest |M a + C v + K u - f - r|; viscous: C v at the end.
+// Largest |M a + C v + K u - f - r|; viscous: C v at the end, overwritten.
 static double end_residual(const Sdirk2 *scheme, const State *to, double *viscous)
 {
-    const Bulk *bulk = scheme->system->bulk;
+    const BulkOperator *system = scheme->system;
     for (int32_t k = 0; k < to->dof_count; k++)
-        viscous[k] += bulk->mass[k] * to->acceleration[k] + to->elastic_force[k] - bulk->load[k];
+        viscous[k] += to->inertia[k] + to->elastic_force[k] - system->load[k];
     for (int32_t k = 0; k < to->interface_count; k++)
-        viscous[scheme->interface->dofs[k]] -= to->reaction[k];
+        viscous[system->interface_dofs[k]] -= to->reaction[k];
     return dense_max_abs(viscous, to->dof_count);
 }
 
-bool sdirk2_step(Sdirk2 *scheme, Ladder *ladder, int32_t k, const State *from, State *to,
-                 StepOutcome *outcome, Error *err)
+// The contact as it was, a first guess for a stage that writes into the arrays of `contact`.
+static void guess_contact(const State *from, const ContactSolution *contact)
+{
+    size_t bytes = (size_t)from->interface_count * sizeof(double);
+    memcpy(contact->status, from->status, (size_t)from->contact_count);
+    memcpy(contact->rod_touches, from->rod_touches, (size_t)from->rod_count);
+    memcpy(contact->velocity, from->slip_rate, bytes);
+    memcpy(contact->reaction, from->reaction, bytes);
+}
+
+// A rung of the ladder: its step and its matrix.
+typedef struct Rung {
+    double step;
+    InterfaceOperator *condensed;
+} Rung;
+
+// Stage 1: v_1 from u_n, v_n; leaves M w_2, the momentum stage 2 starts from, in to->inertia.
+static bool first_stage(Sdirk2 *scheme, Rung at, const State *from, State *to, StepOutcome *outcome,
+                        Error *err)
 {
     BulkOperator *system = scheme->system;
-    const Bulk *bulk = system->bulk;
-    int32_t dofs = system->dof_count;
-    double step = ladder_step(ladder, k), scaled = SDIRK2_GAMMA * step;
-    double rest = (1 - SDIRK2_GAMMA) * step;
-    double *rhs = scheme->rhs, *v1 = scheme->v1, *predictor = scheme->predictor;
-    *outcome = (StepOutcome){0};
-    InterfaceOperator *rung = ladder_rung(ladder, k, err);
-    if (!rung) goto cleanup;
-
-    memcpy(to->status, from->status, (size_t)from->contact_count);
-    memcpy(to->rod_touches, from->rod_touches, (size_t)from->rod_count);
-    memcpy(scheme->stage_velocity, from->slip_rate, (size_t)from->interface_count * sizeof(double));
-    memcpy(scheme->stage_reaction, from->reaction, (size_t)from->interface_count * sizeof(double));
-    ContactSolution stage1 = {.velocity = scheme->stage_velocity,
-                              .reaction = scheme->stage_reaction,
-                              .status = to->status,
-                              .rod_touches = to->rod_touches};
-    for (int32_t i = 0; i < dofs; i++)
-        rhs[i] = bulk->mass[i] * from->velocity[i] / scaled + bulk->load[i] -
-                 from->elastic_force[i];
+    double scaled = SDIRK2_GAMMA * at.step, weight = (1 - SDIRK2_GAMMA) / SDIRK2_GAMMA;
+    ContactSolution contact = {.velocity = scheme->stage_velocity,
+                               .reaction = scheme->stage_reaction,
+                               .status = to->status,
+                               .rod_touches = to->rod_touches};
+    guess_contact(from, &contact);
+    for (int32_t i = 0; i < system->dof_count; i++)
+        scheme->rhs[i] = from->momentum[i] / scaled + system->load[i] - from->elastic_force[i];
     fill_bounds(scheme, from->displacement, from->time + scaled, scaled);
-    TRY(solve_stage(scheme, rung, &stage1, v1, &outcome->solved, err));
+    TRY(solve_stage(scheme, at.condensed, &contact, scheme->v1, &outcome->solved, err));
     if (!outcome->solved) goto cleanup;
-    bulk_operator_apply(system, BULK_DAMPING, v1, scheme->force);
-    outcome->power[0] = energy_stage(scheme->interface, v1, scheme->force, dofs, &stage1);
+    bulk_operator_apply(system, BULK_DAMPING, scheme->v1, scheme->viscous);
+    outcome->power[0] =
+        energy_stage(scheme->interface, scheme->v1, scheme->viscous, system->dof_count, &contact);
+    bulk_operator_apply(system, BULK_MASS, scheme->v1, scheme->force);
+    for (int32_t i = 0; i < system->dof_count; i++)
+        to->inertia[i] = from->momentum[i] + weight * (scheme->force[i] - from->momentum[i]);
+    memcpy(to->slip_rate, contact.velocity, (size_t)from->interface_count * sizeof(double));
+    memcpy(to->reaction, contact.reaction, (size_t)from->interface_count * sizeof(double));
+cleanup:
+    return error_is_clean(err);
+}
 
-    memcpy(to->slip_rate, stage1.velocity, (size_t)from->interface_count * sizeof(double));
-    memcpy(to->reaction, stage1.reaction, (size_t)from->interface_count * sizeof(double));
-    ContactSolution stage2 = {.velocity = to->slip_rate,
-                              .reaction = to->reaction,
-                              .status = to->status,
-                              .rod_touches = to->rod_touches};
-    for (int32_t i = 0; i < dofs; i++) predictor[i] = from->displacement[i] + rest * v1[i];
+// Stage 2: v_2, which is the end of the step, and everything the state holds.
+static bool second_stage(Sdirk2 *scheme, Rung at, const State *from, State *to,
+                         StepOutcome *outcome, Error *err)
+{
+    BulkOperator *system = scheme->system;
+    int32_t dofs = system->dof_count;
+    double scaled = SDIRK2_GAMMA * at.step, rest = (1 - SDIRK2_GAMMA) * at.step;
+    double *predictor = scheme->predictor;
+    ContactSolution contact = {.velocity = to->slip_rate,
+                               .reaction = to->reaction,
+                               .status = to->status,
+                               .rod_touches = to->rod_touches};
+    for (int32_t i = 0; i < dofs; i++) predictor[i] = from->displacement[i] + rest * scheme->v1[i];
     bulk_operator_apply(system, BULK_STIFFNESS, predictor, scheme->force);
-    for (int32_t i = 0; i < dofs; i++) {
-        double drift = from->velocity[i] + rest * (v1[i] - from->velocity[i]) / scaled;
-        to->acceleration[i] = drift;
-        rhs[i] = bulk->mass[i] * drift / scaled + bulk->load[i] - scheme->force[i];
-    }
-    fill_bounds(scheme, predictor, from->time + step, scaled);
-    TRY(solve_stage(scheme, rung, &stage2, to->velocity, &outcome->solved, err));
+    for (int32_t i = 0; i < dofs; i++)
+        scheme->rhs[i] = to->inertia[i] / scaled + system->load[i] - scheme->force[i];
+    fill_bounds(scheme, predictor, from->time + at.step, scaled);
+    TRY(solve_stage(scheme, at.condensed, &contact, to->velocity, &outcome->solved, err));
     if (!outcome->solved) goto cleanup;
 
     to->time = from->time + step;
+    bulk_operator_apply(system, BULK_MASS, to->velocity, to->momentum);
     for (int32_t i = 0; i < dofs; i++) {
         to->displacement[i] = predictor[i] + scaled * to->velocity[i];
-        to->acceleration[i] = (to->velocity[i] - to->acceleration[i]) / scaled;
-        outcome->load_work += bulk->load[i] * (to->displacement[i] - from->displacement[i]);
+        to->inertia[i] = (to->momentum[i] - to->inertia[i]) / scaled;
+        outcome->load_work += system->load[i] * (to->displacement[i] - from->displacement[i]);
     }
     bulk_operator_apply(system, BULK_STIFFNESS, to->displacement, to->elastic_force);
-    bulk_operator_apply(system, BULK_DAMPING, to->velocity, scheme->force);
-    outcome->power[1] = energy_stage(scheme->interface, to->velocity, scheme->force, dofs, &stage2);
-    outcome->error = estimate_error(from->velocity, v1, to->velocity, dofs, step);
-    outcome->residual = end_residual(scheme, to, scheme->force);
+    bulk_operator_apply(system, BULK_DAMPING, to->velocity, scheme->viscous);
+    outcome->power[1] =
+        energy_stage(scheme->interface, to->velocity, scheme->viscous, dofs, &contact);
+cleanup:
+    return error_is_clean(err);
+}
+
+bool sdirk2_step(Sdirk2 *scheme, int32_t k, const State *from, State *to, StepOutcome *outcome,
+                 Error *err)
+{
+    double step = ladder_step(scheme->ladder, k);
+    *outcome = (StepOutcome){0};
+    Rung at = {.step = step, .condensed = ladder_rung(scheme->ladder, k, err)};
+    if (!at.condensed) goto cleanup;
+    TRY(first_stage(scheme, at, from, to, outcome, err));
+    if (!outcome->solved) goto cleanup;
+    TRY(second_stage(scheme, at, from, to, outcome, err));
+    if (!outcome->solved) goto cleanup;
+    outcome->error = estimate_error(scheme, from->velocity, to->velocity, step);
+    outcome->residual = end_residual(scheme, to, scheme->viscous);
 cleanup:
     return error_is_clean(err);
 }

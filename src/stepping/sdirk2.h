@@ -18,12 +18,13 @@
 #include "stepping/ladder.h"
 
 typedef struct Sdirk2 {
-    BulkOperator *system;   // not owned, like the next three
+    BulkOperator *system;   // not owned, like the next four
+    Ladder *ladder;
     const Interface *interface;
     const FrictionLaw *law;
     Rod *rod;
     ContactSolver solver;   // owned, like all that follows
-    double *rhs, *force;   // [dof_count] work
+    double *rhs, *force, *viscous;   // [dof_count] work
     double *v1, *predictor;   // [dof_count] work: v_1; u_j*
     double *g, *bound;   // [interface_count] work
     double *stage_velocity, *stage_reaction;   // [interface_count] work: of stage 1
@@ -31,20 +32,19 @@ typedef struct Sdirk2 {
 
 typedef struct StepOutcome {
     bool solved;   // false: a contact problem had no solution; `to` has no meaning
-    double error;   // largest component of the estimate of the local error of u, length
+    double error;   // size of the estimated local error of u (bulk_operator_size), length
     double residual;   // |M a + C v + K u - f - r| at the end, largest component, force/width
     StagePower power[2];   // of the stages
     double load_work;   // of the step
 } StepOutcome;
 
-bool sdirk2_create(BulkOperator *system, const Interface *interface, const FrictionLaw *law,
-                   Rod *rod, Sdirk2 *scheme, Error *err);
+bool sdirk2_create(const Block *block, Ladder *ladder, Sdirk2 *scheme, Error *err);
 void sdirk2_destroy(Sdirk2 *scheme);
 
 // From `from` with rung k of the ladder to `to`. false: a library failed (err says what); an
 // unsolved contact problem is no error but an outcome.
-bool sdirk2_step(Sdirk2 *scheme, Ladder *ladder, int32_t k, const State *from, State *to,
-                 StepOutcome *outcome, Error *err);
+bool sdirk2_step(Sdirk2 *scheme, int32_t k, const State *from, State *to, StepOutcome *outcome,
+                 Error *err);
 
 // The step's weights of the stages: 1 - gamma and gamma.
 void sdirk2_add_energy(const StepOutcome *outcome, double step, EnergyLedger *ledger);

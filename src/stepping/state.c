@@ -14,7 +14,8 @@ bool state_create(const BulkOperator *system, const Interface *interface, State 
     state->displacement = NEW_ARRAY(double, state->dof_count, err);
     state->velocity = NEW_ARRAY(double, state->dof_count, err);
     state->elastic_force = NEW_ARRAY(double, state->dof_count, err);
-    state->acceleration = NEW_ARRAY(double, state->dof_count, err);
+    state->momentum = NEW_ARRAY(double, state->dof_count, err);
+    state->inertia = NEW_ARRAY(double, state->dof_count, err);
     state->slip_rate = NEW_ARRAY(double, state->interface_count, err);
     state->reaction = NEW_ARRAY(double, state->interface_count, err);
     state->status = NEW_ARRAY(uint8_t, state->contact_count, err);
@@ -29,7 +30,8 @@ void state_destroy(State *state)
     memory_free(state->displacement);
     memory_free(state->velocity);
     memory_free(state->elastic_force);
-    memory_free(state->acceleration);
+    memory_free(state->momentum);
+    memory_free(state->inertia);
     memory_free(state->slip_rate);
     memory_free(state->reaction);
     memory_free(state->status);
@@ -45,7 +47,8 @@ void state_copy(const State *from, State *to)
     memcpy(to->displacement, from->displacement, bulk_bytes);
     memcpy(to->velocity, from->velocity, bulk_bytes);
     memcpy(to->elastic_force, from->elastic_force, bulk_bytes);
-    memcpy(to->acceleration, from->acceleration, bulk_bytes);
+    memcpy(to->momentum, from->momentum, bulk_bytes);
+    memcpy(to->inertia, from->inertia, bulk_bytes);
     memcpy(to->slip_rate, from->slip_rate, interface_bytes);
     memcpy(to->reaction, from->reaction, interface_bytes);
     memcpy(to->status, from->status, (size_t)from->contact_count);

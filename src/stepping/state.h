@@ -6,6 +6,14 @@
 #include "bulk/interface_operator.h"
 #include "contact/contact_problem.h"
 
+// What is stepped: the bulk, where it meets the world, and by which laws. Nothing is owned.
+typedef struct Block {
+    BulkOperator *system;
+    const Interface *interface;
+    const FrictionLaw *law;
+    Rod *rod;
+} Block;
+
 typedef struct State {
     double time;
     int32_t dof_count;   // of the bulk
@@ -14,7 +22,8 @@ typedef struct State {
     double *displacement;   // u [dof_count]; owned, like all that follows
     double *velocity;   // v [dof_count]
     double *elastic_force;   // K u [dof_count]
-    double *acceleration;   // [dof_count] of the last stage
+    double *momentum;            // [dof_count] M v
+    double *inertia;             // [dof_count] M a of the last stage
     double *slip_rate;   // [interface_count] v on the interface, exact where it is held
     double *reaction;   // [interface_count] on the block, force/width
     uint8_t *status;   // [contact_count] ContactStatus

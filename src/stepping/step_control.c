@@ -9,15 +9,15 @@
 static const double SAFETY = 0.5;
 static const double ESTIMATE_ORDER = 3;
 
-bool step_control_create(BulkOperator *system, const Interface *interface, const FrictionLaw *law,
-                         Rod *rod, const StepControlDef *def, StepControl *control, Error *err)
+bool step_control_create(const Block *block, const StepControlDef *def, StepControl *control,
+                         Error *err)
 {
     *control = (StepControl){.def = *def, .certified = true};
-    ladder_init(system, def->step_max, def->step_min, &control->ladder);
-    TRY(sdirk2_create(system, interface, law, rod, &control->scheme, err));
-    TRY(certificate_create(system, interface, law, &control->certificate, err));
-    TRY(state_create(system, interface, &control->now, err));
-    TRY(state_create(system, interface, &control->next, err));
+    ladder_init(block->system, def->step_max, def->step_min, &control->ladder);
+    TRY(sdirk2_create(block, &control->ladder, &control->scheme, err));
+    TRY(certificate_create(block, &control->certificate, err));
+    TRY(state_create(block->system, block->interface, &control->now, err));
+    TRY(state_create(block->system, block->interface, &control->next, err));
     step_control_restart(control);
 cleanup:
     return error_is_clean(err);
@@ -38,7 +38,7 @@ void step_control_restart(StepControl *control)
     control->now.time = 0;
     control->counters = (StepCounters){0};
     for (int32_t k = 0; k < LADDER_RUNGS_MAX; k++) control->ladder.accepted[k] = 0;
-    control->ledger = energy_open(control->scheme.system, &control->now);
+    control->ledger = energy_open(&control->now);
     int32_t wave_rung = ladder_find(&control->ladder, control->def.wave_step);
     control->rung = wave_rung < control->ladder.rung_count ? wave_rung
                                                            : control->ladder.rung_count - 1;
@@ -108,7 +108,7 @@ static void accept_step(StepControl *control, int32_t k, const StepOutcome *outc
     control->counters.accepted++;
     control->ladder.accepted[k]++;
     sdirk2_add_energy(outcome, control->last_step, &control->ledger);
-    energy_store(control->scheme.system, &control->now, &control->ledger);
+    energy_store(&control->now, &control->ledger);
 }
 
 bool step_control_advance(StepControl *control, double remaining, Error *err)
@@ -123,8 +123,7 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
     bool shortened = k != control->rung, retried = false, certified = true;
     for (;;) {
         StepOutcome outcome;
-        TRY(sdirk2_step(&control->scheme, &control->ladder, k, &control->now, &control->next,
-                        &outcome, err));
+        TRY(sdirk2_step(&control->scheme, k, &control->now, &control->next, &outcome, err));
         Verdict verdict = judge_step(control, k, &outcome, &certified);
         if (verdict == STEP_ACCEPTED) {
             control->certified = certified;

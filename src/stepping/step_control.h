@@ -40,8 +40,8 @@ typedef struct StepControl {
     StepCounters counters;
 } StepControl;
 
-bool step_control_create(BulkOperator *system, const Interface *interface, const FrictionLaw *law,
-                         Rod *rod, const StepControlDef *def, StepControl *control, Error *err);
+bool step_control_create(const Block *block, const StepControlDef *def, StepControl *control,
+                         Error *err);   // `control` must not be moved afterwards
 void step_control_destroy(StepControl *control);
 
 // One accepted step, at most `remaining` long if a rung that is built already fits (so that a run

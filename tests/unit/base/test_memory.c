@@ -26,9 +26,8 @@ static void test_impossible_sizes(void **state)
     const struct {
         int64_t count;
         size_t size;
-    } impossible[] = {{-1, 8},        {INT64_MIN, 1},
-                      {INT64_MAX, 8}, {1LL << 61, 8}, {1LL << 62, 4},
-                      {3, 0},         {2, SIZE_MAX},  {1, SIZE_MAX / 2 + 1}};
+    } impossible[] = {{-1, 8},        {INT64_MIN, 1}, {INT64_MAX, 8}, {1LL << 61, 8},
+                      {1LL << 62, 4}, {3, 0},         {2, SIZE_MAX},  {1, SIZE_MAX / 2 + 1}};
     MemoryCounters before = memory_counters();
     for (size_t k = 0; k < sizeof impossible / sizeof impossible[0]; k++) {
         Error err = {0};

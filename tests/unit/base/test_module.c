@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Opening modules: the ones that were built, and what is said when one cannot be had. And the clock,
-// which only has to go forward at the right pace.
+// Opening modules: the ones that were built, and what is said when one cannot be had. And the
+// clock, which only has to go forward at the right pace.
 #include "base/module.h"
 
 #include "base/clock.h"

@@ -26,8 +26,8 @@ static void press_on(const Mesh *mesh, const char *name, double x, double z, Bul
     bulk_add_traction(mesh, &curve, (double[2]){x, z}, bulk);
 }
 
-// A uniform strain needs no force but the tractions s n on the four sides: K u = f at every node. And
-// likewise C v = f for a uniform rate.
+// A uniform strain needs no force but the tractions s n on the four sides: K u = f at every node.
+// And likewise C v = f for a uniform rate.
 static void test_patch(void **state)
 {
     (void)state;

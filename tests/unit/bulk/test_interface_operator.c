@@ -28,8 +28,8 @@ static void fixture_build(ElementKind kind, Fixture *fixture)
     assert_true(mesh_curve(&fixture->mesh, "rod", &rod, &err));
     for (int32_t k = 0; k < 8; k++) fixture->dofs[k] = 2 * contact.nodes[k / 2] + k % 2;
     fixture->dofs[8] = 2 * rod.nodes[2];
-    assert_true(bulk_operator_create(&fixture->bulk, fixture->dofs, INTERFACE_COUNT,
-                                     &fixture->system, &err));
+    assert_true(bulk_operator_create(&fixture->bulk, fixture->mesh.position, fixture->dofs,
+                                     INTERFACE_COUNT, &fixture->system, &err));
 }
 
 static void fixture_destroy(Fixture *fixture)
@@ -59,15 +59,15 @@ static void test_schur(void **state)
     Error err = {0};
     const OperatorTerms tried[] = {
         {.mass = 10, .damping = 1, .stiffness = 0.1},   {.mass = 1e4, .damping = 1},
-        {.mass = 1, .damping = 1, .stiffness = 100},    {.damping = 1, .shift = 3},
-        {.damping = 1, .shift = 0.2, .stiffness = 0.1}, {.stiffness = 1, .shift = 1}};
+        {.mass = 1, .damping = 1, .stiffness = 100},    {.damping = 1, .lift = true},
+        {.damping = 1, .stiffness = 0.1, .lift = true}, {.stiffness = 1, .lift = true}};
     const ElementKind kinds[] = {ELEMENT_Q4, ELEMENT_T6, ELEMENT_T3};
     for (int32_t k = 0; k < 3; k++) {
         Fixture fixture;
         fixture_build(kinds[k], &fixture);
         for (size_t t = 0; t < sizeof tried / sizeof *tried; t++) {
             double wanted[INTERFACE_COUNT * INTERFACE_COUNT];
-            double *a = dense_sum(&fixture.bulk, tried[t]);   // without the shift
+            double *a = dense_sum(&fixture.bulk, tried[t]);   // as it is, not lifted
             hand_schur(a, fixture.bulk.dof_count, fixture.dofs, INTERFACE_COUNT, wanted);
             InterfaceOperator *rung = interface_operator_create(&fixture.system, tried[t], &err);
             assert_non_null(rung);
@@ -151,7 +151,8 @@ static void test_memory_faults(void **state)
         BulkOperator system;
         memory_fail_after(k);
         InterfaceOperator *rung = NULL;
-        if (bulk_operator_create(&fixture.bulk, fixture.dofs, INTERFACE_COUNT, &system, &err))
+        if (bulk_operator_create(&fixture.bulk, fixture.mesh.position, fixture.dofs,
+                                 INTERFACE_COUNT, &system, &err))
             rung = interface_operator_create(&system, (OperatorTerms){.mass = 1}, &err);
         memory_fail_after(-1);
         done = rung != NULL;

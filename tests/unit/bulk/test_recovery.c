@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Nodal stresses of motions whose stresses are known: exact for linear ones, exact for quadratic ones
-// in order 2, converging for smooth ones.
+// Nodal stresses of motions whose stresses are known: exact for linear ones, exact for quadratic
+// ones in order 2, converging for smooth ones.
 #include "bulk/recovery.h"
 
 #include "block_mesh.h"
