@@ -172,7 +172,7 @@ static bool second_stage(Sdirk2 *scheme, Rung at, const State *from, State *to,
     TRY(solve_stage(scheme, at.condensed, &contact, to->velocity, &outcome->solved, err));
     if (!outcome->solved) goto cleanup;
 
-    to->time = from->time + step;
+    to->time = from->time + at.step;
     bulk_operator_apply(system, BULK_MASS, to->velocity, to->momentum);
     for (int32_t i = 0; i < dofs; i++) {
         to->displacement[i] = predictor[i] + scaled * to->velocity[i];
