@@ -59,7 +59,12 @@ static Ticks ticks_along_y(const Page *page, const Axes *axes)
     double room = (axes->box.bottom - axes->box.top) / page->point;
     int32_t wanted = (int32_t)(room / (2.4 * axes->number_size));
     if (wanted > TICKS_Y_MAX) wanted = TICKS_Y_MAX;
-    return axis_ticks(&axes->y, wanted < TICKS_MIN ? TICKS_MIN : wanted);
+    if (wanted < TICKS_MIN) wanted = TICKS_MIN;
+    Ticks ticks = axis_ticks(&axes->y, wanted);
+    // One number alone gives no scale: then rather a little crowded.
+    for (int32_t more = 1; ticks.count < TICKS_MIN && more <= TICKS_Y_MAX; ++more)
+        ticks = axis_ticks(&axes->y, wanted + more);
+    return ticks;
 }
 
 double axes_left_margin(const Page *page, const Axes *axes)

@@ -221,6 +221,9 @@ class Pictures(unittest.TestCase):
         box = np.argwhere(red[int(wide[1]) + 150:])
         right = (box[:, 1].max() - frame.left) / (frame.right - frame.left) * fixture.U_END
         self.assertAlmostEqual(right, fixture.SLIDES[-1], delta=6e-5)
+        left = groups(red[int(wide[0]):int(wide[1])].sum(axis=0) > 100)[0]
+        ticks = groups(red[int(wide[0]):int(wide[1]) + 4, int(left) - 14])   # the long ones only
+        self.assertGreaterEqual(len(ticks), 2, "two numbers make a scale")
         inset = self.picture["force"][int(wide[0]) + 5:int(wide[1]) - 5]
         self.assertGreater(is_color(inset, CURVE, 8).any(axis=0).sum(), 800)
 
