@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Contact problems written down number by number, without mesh or bulk: S, g and bounds are what a
+// test says they are.
+#ifndef AMONTONS_TESTS_CONTACT_BY_HAND_H
+#define AMONTONS_TESTS_CONTACT_BY_HAND_H
+
+#include "contact/contact_check.h"
+#include "contact/contact_solver.h"
+#include "near.h"
+#include "random_numbers.h"
+
+enum { HAND_NODES = 40, HAND_RODS = 4, HAND_UNKNOWNS = 2 * HAND_NODES + HAND_RODS };
+
+typedef struct HandContact {
+    Interface interface;   // counts only
+    FrictionLaw law;
+    RodKind rod_kind;
+    double schur[HAND_UNKNOWNS * HAND_UNKNOWNS];
+    double g[HAND_UNKNOWNS], bound[HAND_UNKNOWNS];
+    double velocity[HAND_UNKNOWNS], reaction[HAND_UNKNOWNS];
+    uint8_t status[HAND_NODES], rod_touches[HAND_RODS];
+} HandContact;
+
+static inline void hand_contact_size(HandContact *hand, int32_t contacts, int32_t rods)
+{
+    memset(hand, 0, sizeof *hand);
+    hand->interface.contact_count = contacts;
+    hand->interface.rod_count = rods;
+    hand->interface.count = 2 * contacts + rods;
+    hand->rod_kind = ROD_PUSHES;
+}
+
+static inline ContactProblem hand_problem(const HandContact *hand)
+{
+    return (ContactProblem){.interface = &hand->interface,
+                            .law = &hand->law,
+                            .rod_kind = hand->rod_kind,
+                            .schur = hand->schur,
+                            .g = hand->g,
+                            .bound = hand->bound};
+}
+
+// Solves with a solver of its own, from the statuses that stand there and from rest.
+static inline bool hand_contact_solve(HandContact *hand)
+{
+    Error err = {0};
+    ContactSolver solver;
+    assert_true(contact_solver_create(&hand->interface, contact_solver_def(), &solver, &err));
+    memset(hand->velocity, 0, sizeof hand->velocity);
+    memset(hand->reaction, 0, sizeof hand->reaction);
+    ContactSolution solution = {hand->velocity, hand->reaction, hand->status, hand->rod_touches};
+    ContactProblem problem = hand_problem(hand);
+    bool solved = contact_solve(&solver, &problem, &solution);
+    assert_int_equal(solver.solves, 1);
+    assert_int_equal(solver.unsolved, !solved);
+    contact_solver_destroy(&solver);
+    return solved;
+}
+
+// The largest violation, and of S v = g + r, relative to the forces there are.
+static inline double hand_contact_error(const HandContact *hand)
+{
+    int32_t count = hand->interface.count;
+    double force = 0, diagonal = 0, worst = 0;
+    for (int32_t k = 0; k < count; k++) {
+        force = fmax(force, fmax(fabs(hand->g[k]), fabs(hand->reaction[k])));
+        diagonal = fmax(diagonal, hand->schur[k * count + k]);
+    }
+    ContactProblem problem = hand_problem(hand);
+    ContactResidual residual =
+        contact_residual(&problem, hand->velocity, hand->reaction, force, force / diagonal);
+    worst = contact_residual_max(&residual);
+    for (int32_t i = 0; i < count; i++) {
+        double sum = -hand->g[i] - hand->reaction[i];
+        for (int32_t j = 0; j < count; j++) sum += hand->schur[j * count + i] * hand->velocity[j];
+        worst = fmax(worst, fabs(sum) / force);
+    }
+    return worst;
+}
+
+// S = B B' / count + diagonal: positive definite, everything coupled to everything; coupling 0 keeps
+// tangents and normals apart.
+static inline void hand_random_schur(Random *random, double diagonal, double coupling,
+                                     HandContact *hand)
+{
+    int32_t count = hand->interface.count;
+    static double b[HAND_UNKNOWNS * HAND_UNKNOWNS];
+    for (int32_t k = 0; k < count * count; k++) b[k] = random_between(random, -1, 1);
+    for (int32_t j = 0; j < count; j++) {
+        for (int32_t i = 0; i < count; i++) {
+            double sum = 0;
+            for (int32_t k = 0; k < count; k++) sum += b[k * count + i] * b[k * count + j];
+            bool across = i < 2 * hand->interface.contact_count &&
+                          j < 2 * hand->interface.contact_count && i % 2 != j % 2;
+            hand->schur[j * count + i] = (across ? coupling : 1) * 3 * sum / count +
+                                         (i == j ? diagonal : 0);
+        }
+    }
+}
+
+#endif

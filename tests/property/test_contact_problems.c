@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Random contact problems. Large ones with moderate friction are solved, rightly, from any guess.
+// Small ones are also solved by trying every combination of statuses: what the active set gives up is
+// held against what there is to be found.
+#include "contact_by_hand.h"
+#include "dense_by_hand.h"
+
+static void random_loads(Random *random, HandContact *hand)
+{
+    for (int32_t i = 0; i < hand->interface.contact_count; i++) {
+        hand->g[interface_tangent(i)] = random_between(random, -3, 3);
+        hand->g[interface_normal(i)] = random_between(random, -4, 1.5);
+        hand->bound[interface_normal(i)] = random_between(random, -0.4, 0.1);
+    }
+    for (int32_t j = 0; j < hand->interface.rod_count; j++) {
+        hand->g[interface_rod(&hand->interface, j)] = random_between(random, -1, 1);
+        hand->bound[interface_rod(&hand->interface, j)] = random_between(random, -0.5, 0.5);
+    }
+}
+
+static void random_statuses(Random *random, HandContact *hand)
+{
+    for (int32_t i = 0; i < hand->interface.contact_count; i++)
+        hand->status[i] = (uint8_t)random_index(random, 4);
+    for (int32_t j = 0; j < hand->interface.rod_count; j++)
+        hand->rod_touches[j] = (uint8_t)random_index(random, 2);
+}
+
+static HandContact hand, other;   // large; a test runs alone
+
+// Up to 40 nodes and 4 rod nodes, the three laws in turn, friction and weakening small against S.
+static void test_large_problems(void **state)
+{
+    (void)state;
+    Random random = {.state = 31};
+    int32_t seen[4] = {0}, touching = 0;
+    for (int32_t trial = 0; trial < 150; trial++) {
+        hand_contact_size(&hand, 1 + random_index(&random, HAND_NODES),
+                          random_index(&random, HAND_RODS + 1));
+        hand.law = (FrictionLaw){.kind = (FrictionKind)(trial % 3),
+                                 .mu_static = random_between(&random, 0.1, 0.5),
+                                 .mu_kinetic = 0.1,
+                                 .critical_velocity = random_between(&random, 0.8, 3)};
+        if (trial % 5 == 0) hand.rod_kind = ROD_IS_BONDED;
+        hand_random_schur(&random, 3, 0.5, &hand);
+        random_loads(&random, &hand);
+        random_statuses(&random, &hand);
+        if (!hand_contact_solve(&hand))
+            fail_msg("trial %d with %d nodes is not solved", trial, hand.interface.contact_count);
+        assert_near("judged", hand_contact_error(&hand), 0, 1e-9);
+        other = hand;
+        random_statuses(&random, &other);
+        if (trial % 2) memset(other.status, CONTACT_STICK, sizeof other.status);
+        assert_true(hand_contact_solve(&other));
+        assert_all_near("from another guess", other.velocity, hand.velocity, hand.interface.count,
+                        1e-8);
+        for (int32_t i = 0; i < hand.interface.contact_count; i++) seen[hand.status[i]]++;
+        for (int32_t j = 0; j < hand.interface.rod_count; j++) touching += hand.rod_touches[j];
+    }
+    for (int k = 0; k < 4; k++) assert_true(seen[k] > 200);   // the cases are not one-sided
+    assert_true(touching > 50);
+}
+
+// --- every combination of statuses --------------------------------------------------------------
+typedef enum Branch { OPEN, STICK, FORWARD, BACKWARD, FORWARD_FAST, BACKWARD_FAST } Branch;
+
+static double branch_sign(Branch branch)
+{
+    return branch == FORWARD || branch == FORWARD_FAST ? 1 : -1;
+}
+
+// One linear system for given branches. weakening: [nodes] k r_n of nodes on the weakening branch,
+// where r_n is known beforehand; NULL: mu is constant on every branch.
+static bool solve_branches(const HandContact *problem, const Branch *branch,
+                           const double *weakening, double *velocity)
+{
+    int32_t count = problem->interface.count;
+    double a[8 * 8];
+    for (int32_t row = 0; row < count; row++) {
+        const Branch at = branch[row / 2];
+        int32_t n = row | 1;
+        bool tangent = row % 2 == 0, held = tangent ? at == STICK : at != OPEN;
+        double mu = tangent && at != OPEN ? branch_sign(at) * problem->law.mu_static : 0;
+        if (at >= FORWARD_FAST && tangent) mu = branch_sign(at) * problem->law.mu_kinetic;
+        for (int32_t column = 0; column < count; column++)
+            a[column * count + row] = held ? column == row
+                                           : problem->schur[column * count + row] +
+                                                 mu * problem->schur[column * count + n];
+        velocity[row] = problem->g[row] + mu * problem->g[n];
+        if (held) velocity[row] = tangent ? 0 : problem->bound[row];
+        bool weakens = weakening && tangent && (at == FORWARD || at == BACKWARD);
+        if (weakens) a[row * count + row] -= weakening[row / 2];
+    }
+    return hand_solve(a, count, velocity, 1);
+}
+
+static void find_reaction(HandContact *found)
+{
+    int32_t count = found->interface.count;
+    hand_apply(found->schur, count, count, found->velocity, found->reaction);
+    for (int32_t k = 0; k < count; k++) found->reaction[k] -= found->g[k];
+}
+
+// How many combinations keep all conditions.
+static int32_t count_solutions(const HandContact *problem)
+{
+    bool weakens = problem->law.kind == FRICTION_LINEAR_WEAKENING;
+    int32_t nodes = problem->interface.contact_count, branches = weakens ? 6 : 4;
+    int32_t combinations = 1, solutions = 0;
+    for (int32_t i = 0; i < nodes; i++) combinations *= branches;
+    other = *problem;
+    double slope = (problem->law.mu_static - problem->law.mu_kinetic) /
+                   problem->law.critical_velocity;
+    for (int32_t c = 0; c < combinations; c++) {
+        Branch branch[4];
+        double weakening[4] = {0};
+        for (int32_t i = 0, rest = c; i < nodes; i++, rest /= branches)
+            branch[i] = (Branch)(rest % branches);
+        if (!solve_branches(problem, branch, NULL, other.velocity)) continue;
+        find_reaction(&other);
+        if (weakens) {   // tangents and normals are apart: these r_n hold whatever slips
+            for (int32_t i = 0; i < nodes; i++)
+                weakening[i] = slope * other.reaction[interface_normal(i)];
+            if (!solve_branches(problem, branch, weakening, other.velocity)) continue;
+            find_reaction(&other);
+        }
+        if (hand_contact_error(&other) < 1e-9) solutions++;
+    }
+    return solutions;
+}
+
+// Weakening is weak enough when S - diag(k r_n) on the tangents stays positive definite: slip is then
+// the minimum of a convex energy. Given up: `hand` holds no solution, but where S keeps tangents and
+// normals apart r_n follows from the normals alone, as from the first combination that fits.
+static bool weakening_is_too_strong(const HandContact *problem)
+{
+    int32_t nodes = problem->interface.contact_count, count = problem->interface.count;
+    double slope = (problem->law.mu_static - problem->law.mu_kinetic) /
+                   problem->law.critical_velocity;
+    other = *problem;
+    other.law = (FrictionLaw){.kind = FRICTION_COULOMB, .mu_static = 0};
+    assert_true(hand_contact_solve(&other));
+    double a[4 * 4], values[4];
+    for (int32_t i = 0; i < nodes; i++)
+        for (int32_t j = 0; j < nodes; j++)
+            a[j * nodes + i] = problem->schur[interface_tangent(j) * count + interface_tangent(i)] -
+                               (i == j ? slope * other.reaction[interface_normal(i)] : 0);
+    hand_eigenvalues(a, nodes, values);
+    return values[0] <= 0;
+}
+
+typedef struct Tally {
+    int32_t solved, given_up, several;
+    int32_t convex_given_up;   // of these: weakening is not even too strong
+} Tally;
+
+// S v = g + r with |r_t| <= mu r_n always has a solution when S is positive definite and mu bounded
+// and continuous (by Brouwer's theorem on the friction bounds): enumeration must find one.
+static Tally tally_small_problems(FrictionLaw law, double coupling, double diagonal)
+{
+    Random random = {.state = 32};
+    Tally tally = {0};
+    for (int32_t trial = 0; trial < 150; trial++) {
+        hand_contact_size(&hand, 1 + random_index(&random, 4), 0);
+        hand.law = law;
+        hand_random_schur(&random, diagonal, coupling, &hand);
+        random_loads(&random, &hand);
+        random_statuses(&random, &hand);
+        bool solved = hand_contact_solve(&hand);
+        if (solved) assert_near("judged", hand_contact_error(&hand), 0, 1e-9);
+        int32_t solutions = count_solutions(&hand);
+        if (solutions == 0) fail_msg("trial %d: enumeration finds no solution", trial);
+        tally.solved += solved;
+        tally.given_up += !solved;
+        tally.several += solutions > 1;
+        if (!solved && !weakening_is_too_strong(&hand)) tally.convex_given_up++;
+    }
+    return tally;
+}
+
+// Constant friction with everything coupled: nothing is given up unless friction is both above 1 and
+// carried by a poorly conditioned S; and then few.
+static void test_small_coulomb_problems(void **state)
+{
+    (void)state;
+    const struct {
+        double mu, diagonal;
+        int32_t given_up_max;
+    } cases[] = {{0.3, 0.5, 0}, {0.8, 0.5, 0}, {1.2, 3, 0}, {3, 3, 0}, {3, 0.5, 12}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        FrictionLaw law = {.kind = FRICTION_COULOMB, .mu_static = cases[k].mu};
+        Tally tally = tally_small_problems(law, 1, cases[k].diagonal);
+        assert_true(tally.given_up <= cases[k].given_up_max);
+    }
+}
+
+// Weakening, tangents and normals apart: given up only where it is too strong for S, and a problem
+// may then have several solutions.
+static void test_small_weakening_problems(void **state)
+{
+    (void)state;
+    const double velocities[] = {8, 2, 0.5, 0.125};
+    int32_t given_up = 0, several = 0;
+    for (int32_t k = 0; k < 8; k++) {
+        FrictionLaw law = {
+            .mu_static = 0.6, .mu_kinetic = 0.1, .critical_velocity = velocities[k / 2]};
+        Tally tally = tally_small_problems(law, 0, k % 2 ? 3 : 0.5);
+        assert_int_equal(tally.convex_given_up, 0);
+        if (k / 2 == 0) assert_int_equal(tally.given_up, 0);
+        given_up += tally.given_up;
+        several += tally.several;
+    }
+    assert_true(several > given_up && given_up > 0);   // the hard cases were among them
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_large_problems),
+        cmocka_unit_test(test_small_coulomb_problems),
+        cmocka_unit_test(test_small_weakening_problems),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

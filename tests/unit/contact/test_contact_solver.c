@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// One and two contact nodes and a rod node, with the solutions worked out by hand; every solution is
+// to be found from every first guess.
+#include "contact/contact_solver.h"
+
+#include "base/memory.h"
+#include "contact_by_hand.h"
+
+// One node:  S = [s_t c; c s_n],  with g and bound as they come.
+typedef struct OneNode {
+    double s_t, s_n, coupling;
+    double g_t, g_n, bound;
+} OneNode;
+
+static void one_node(OneNode numbers, FrictionLaw law, HandContact *hand)
+{
+    hand_contact_size(hand, 1, 0);
+    hand->law = law;
+    const double s[] = {numbers.s_t, numbers.coupling, numbers.coupling, numbers.s_n};
+    memcpy(hand->schur, s, sizeof s);
+    hand->g[0] = numbers.g_t;
+    hand->g[1] = numbers.g_n;
+    hand->bound[1] = numbers.bound;
+}
+
+// Solved from all four statuses; v and r as wanted: {v_t, v_n, r_t, r_n}.
+static void expect_one(OneNode numbers, FrictionLaw law, ContactStatus status,
+                       const double wanted[4])
+{
+    for (uint8_t guess = CONTACT_OPEN; guess <= CONTACT_SLIP_BACKWARD; guess++) {
+        HandContact hand;
+        one_node(numbers, law, &hand);
+        hand.status[0] = guess;
+        assert_true(hand_contact_solve(&hand));
+        assert_int_equal(hand.status[0], status);
+        assert_near("v_t", hand.velocity[0], wanted[0], 1e-10);
+        assert_near("v_n", hand.velocity[1], wanted[1], 1e-10);
+        assert_near("r_t", hand.reaction[0], wanted[2], 1e-10);
+        assert_near("r_n", hand.reaction[1], wanted[3], 1e-10);
+    }
+}
+
+static const FrictionLaw COULOMB = {.kind = FRICTION_COULOMB, .mu_static = 0.5};
+
+static void test_stick_and_open(void **state)
+{
+    (void)state;
+    // Pressed with 10, pulled with 4.9 < 0.5 * 10: r = -g.
+    OneNode pressed = {.s_t = 2, .s_n = 3, .coupling = 0.4, .g_t = 4.9, .g_n = -10};
+    expect_one(pressed, COULOMB, CONTACT_STICK, (double[]){0, 0, -4.9, 10});
+    // Pulled up: v = S^-1 g, no force.
+    OneNode lifted = {.s_t = 2, .s_n = 3, .coupling = 1, .g_t = 1, .g_n = 8};
+    expect_one(lifted, COULOMB, CONTACT_OPEN, (double[]){-1, 3, 0, 0});
+    // The plane is 2 below in this step: falling at 1 does not reach it.
+    OneNode falling = {.s_t = 2, .s_n = 3, .g_t = 2, .g_n = -3, .bound = -2};
+    expect_one(falling, COULOMB, CONTACT_OPEN, (double[]){1, -1, 0, 0});
+    // At 0.5 below it lands: r_n = 3 (-0.5) + 3, and 2 pulls against 0.75.
+    falling.bound = -0.5;
+    expect_one(falling, COULOMB, CONTACT_SLIP_FORWARD, (double[]){0.625, -0.5, -0.75, 1.5});
+    // Held by friction where it lands.
+    falling.g_t = 0.7;
+    expect_one(falling, COULOMB, CONTACT_STICK, (double[]){0, -0.5, -0.7, 1.5});
+}
+
+// v_t = (g_t - mu p)/(s_t + mu c): pressed with 10, mu 0.5.
+static void test_coulomb_slip(void **state)
+{
+    (void)state;
+    OneNode pulled = {.s_t = 2, .s_n = 3, .coupling = 0.4, .g_t = 9, .g_n = -10};
+    double v = 4 / (2 + 0.5 * 0.4), p = 10 + 0.4 * v;
+    expect_one(pulled, COULOMB, CONTACT_SLIP_FORWARD, (double[]){v, 0, -0.5 * p, p});
+    pulled.g_t = -9;   // the coupling now lowers the pressure
+    v = -4 / (2 - 0.5 * 0.4), p = 10 + 0.4 * v;
+    expect_one(pulled, COULOMB, CONTACT_SLIP_BACKWARD, (double[]){v, 0, 0.5 * p, p});
+}
+
+// s_t v - g_t + (mu_S - k v)(p + c v) = 0, k = (mu_S - mu_K)/v_c, for 0 < v < v_c; beyond v_c the same
+// with mu_K.
+static void test_weakening_slip(void **state)
+{
+    (void)state;
+    FrictionLaw law = {.mu_static = 0.5, .mu_kinetic = 0.1, .critical_velocity = 2};
+    OneNode numbers = {.s_t = 3, .s_n = 3, .coupling = 0.4, .g_n = -10};
+    double k = 0.4 / 2, p = 10;
+    for (double pull = 5.1; pull < 9; pull += 0.3) {
+        double a = -k * numbers.coupling, b = numbers.s_t + 0.5 * numbers.coupling - k * p;
+        double c = 0.5 * p - pull, v = (-b + sqrt(b * b - 4 * a * c)) / (2 * a), mu = 0.5 - k * v;
+        if (v > 2) {
+            mu = 0.1;
+            v = (pull - 0.1 * p) / (numbers.s_t + 0.1 * numbers.coupling);
+        }
+        double pressing = p + numbers.coupling * v;
+        for (int sign = -1; sign <= 1; sign += 2) {
+            numbers.g_t = sign * pull;
+            OneNode mirrored = numbers;
+            mirrored.coupling *= sign;
+            expect_one(mirrored, law, sign > 0 ? CONTACT_SLIP_FORWARD : CONTACT_SLIP_BACKWARD,
+                       (double[]){sign * v, 0, -sign * mu * pressing, pressing});
+        }
+    }
+}
+
+// s_t < k p: friction falls faster than the block resists. Below the threshold it can stick; just above
+// it only the fast branch is left, and it must be found or the problem given up.
+static void test_strong_weakening(void **state)
+{
+    (void)state;
+    FrictionLaw law = {.mu_static = 0.5, .mu_kinetic = 0.1, .critical_velocity = 0.1};
+    OneNode numbers = {.s_t = 3, .s_n = 3, .g_t = 5.2, .g_n = -10};
+    for (uint8_t guess = CONTACT_OPEN; guess <= CONTACT_SLIP_BACKWARD; guess++) {
+        HandContact hand;
+        one_node(numbers, law, &hand);
+        hand.status[0] = guess;
+        if (!hand_contact_solve(&hand)) continue;
+        assert_near("v_t", hand.velocity[0], (5.2 - 1) / 3, 1e-12);
+        assert_near("judged", hand_contact_error(&hand), 0, 1e-10);
+    }
+}
+
+// The rod beside one contact node that sticks: S couples them.
+static void test_rod(void **state)
+{
+    (void)state;
+    for (int32_t start = 0; start < 2; start++) {
+        HandContact hand;
+        hand_contact_size(&hand, 1, 1);
+        hand.law = COULOMB;
+        const double s[] = {2, 0, -1, 0, 3, 0, -1, 0, 2};
+        memcpy(hand.schur, s, sizeof s);
+        hand.g[1] = -10;
+        hand.bound[2] = 1;   // must reach 1: r = 2 - 0, and -1 on the node, which holds
+        hand.rod_touches[0] = (uint8_t)start;
+        hand.status[0] = CONTACT_STICK;
+        assert_true(hand_contact_solve(&hand));
+        assert_int_equal(hand.status[0], CONTACT_STICK);
+        assert_int_equal(hand.rod_touches[0], 1);
+        assert_near("rod force", hand.reaction[2], 2, 1e-12);
+        assert_near("friction", hand.reaction[0], -1, 1e-12);
+
+        hand.g[2] = 4;   // already goes at 2: the rod lets go
+        assert_true(hand_contact_solve(&hand));
+        assert_int_equal(hand.rod_touches[0], 0);
+        assert_near("velocity", hand.velocity[2], 2, 1e-12);
+        assert_near("rod force", hand.reaction[2], 0, 1e-12);
+
+        hand.rod_kind = ROD_IS_BONDED;   // glued on, it pulls
+        assert_true(hand_contact_solve(&hand));
+        assert_int_equal(hand.rod_touches[0], 1);
+        assert_near("rod force", hand.reaction[2], -2, 1e-12);
+
+        hand.rod_kind = ROD_AWAY;
+        hand.g[2] = 0;
+        assert_true(hand_contact_solve(&hand));
+        assert_int_equal(hand.rod_touches[0], 0);
+        assert_near("rod force", hand.reaction[2], 0, 1e-12);
+        assert_near("velocity", hand.velocity[2], 0, 1e-12);
+    }
+}
+
+// Two like nodes pulled at the first: that one slips and drags at the other through S, which holds
+// or follows. Tangents: [2 -1; -1 2] v = g + r.
+static void test_two_nodes(void **state)
+{
+    (void)state;
+    const struct {
+        double g[2], v[2], r[2];
+    } cases[] = {
+        {{4, 0}, {0, 0}, {-4, 0}},   // holds with 4 of 5
+        {{8, 0}, {1.5, 0}, {-5, -1.5}},   // 2 v = 8 - 5; -v on the second, held
+        {{14, 2}, {5, 1}, {-5, -5}},   // 2 v1 - v2 = 9, 2 v2 - v1 = -3
+        {{14, -12}, {11. / 3, -5. / 3}, {-5, 5}},   // 2 v1 - v2 = 9, 2 v2 - v1 = -7
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        for (int32_t guess = 0; guess < 16; guess++) {
+            HandContact hand;
+            hand_contact_size(&hand, 2, 0);
+            hand.law = COULOMB;
+            const double s[] = {2, 0, -1, 0, 0, 1, 0, 0, -1, 0, 2, 0, 0, 0, 0, 1};
+            memcpy(hand.schur, s, sizeof s);
+            for (int32_t i = 0; i < 2; i++) {
+                hand.g[interface_tangent(i)] = cases[k].g[i];
+                hand.g[interface_normal(i)] = -10;
+                hand.status[i] = (uint8_t)(i ? guess / 4 : guess % 4);
+            }
+            assert_true(hand_contact_solve(&hand));
+            for (int32_t i = 0; i < 2; i++) {
+                assert_near("v", hand.velocity[2 * i], cases[k].v[i], 1e-10);
+                assert_near("r", hand.reaction[2 * i], cases[k].r[i], 1e-10);
+            }
+        }
+    }
+}
+
+// Friction so strong (mu |c| > s_t) that a node may both hold and lift off, and plain iteration may
+// run in circles. What is called solved is right; from the right status it stays; and where the mass of
+// a small step makes s_t large it is always solved.
+static void test_rough_friction(void **state)
+{
+    (void)state;
+    FrictionLaw rough = {.kind = FRICTION_COULOMB, .mu_static = 3};
+    int32_t given_up = 0, cases = 0;
+    for (double g_t = -12; g_t < 12; g_t += 0.7) {
+        for (uint8_t guess = CONTACT_OPEN; guess <= CONTACT_SLIP_BACKWARD; guess++) {
+            for (double mass = 0; mass < 4; mass += 3) {
+                OneNode numbers = {
+                    .s_t = 1 + mass, .s_n = 1 + mass, .coupling = -0.8, .g_t = g_t, .g_n = -3.3};
+                bool holds = fabs(g_t) < 9.9;
+                bool lifts = -3.3 * numbers.s_t + 0.8 * g_t > 0;
+                HandContact hand;
+                one_node(numbers, rough, &hand);
+                hand.status[0] = guess;
+                bool solved = hand_contact_solve(&hand);
+                if (solved) assert_near("judged", hand_contact_error(&hand), 0, 1e-9);
+                if (mass > 0 || (guess == CONTACT_STICK && holds) ||
+                    (guess == CONTACT_OPEN && lifts))
+                    assert_true(solved);
+                cases++;
+                given_up += !solved;
+            }
+        }
+    }
+    assert_true(given_up < cases / 20);
+}
+
+static void test_allocates_nothing(void **state)
+{
+    (void)state;
+    Error err = {0};
+    Random random = {.state = 21};
+    HandContact hand;
+    ContactSolver solver;
+    hand_contact_size(&hand, 20, 2);
+    hand.law = (FrictionLaw){.mu_static = 0.4, .mu_kinetic = 0.1, .critical_velocity = 1};
+    hand_random_schur(&random, 3, 1, &hand);
+    int64_t live = memory_counters().live;
+    assert_true(contact_solver_create(&hand.interface, contact_solver_def(), &solver, &err));
+    int64_t before = memory_counters().allocations;
+    for (int32_t round = 0; round < 20; round++) {
+        for (int32_t k = 0; k < hand.interface.count; k++)
+            hand.g[k] = random_between(&random, -2, 1);
+        ContactSolution solution = {hand.velocity, hand.reaction, hand.status, hand.rod_touches};
+        ContactProblem problem = hand_problem(&hand);
+        contact_solve(&solver, &problem, &solution);
+    }
+    assert_int_equal(memory_counters().allocations, before);
+    assert_int_equal(solver.solves, 20);
+    assert_true(solver.iterations >= 20);
+    contact_solver_destroy(&solver);
+    assert_int_equal(memory_counters().live, live);
+    bool done = false;
+    for (int32_t k = 0; !done; k++) {
+        memory_fail_after(k);
+        error_clear(&err);
+        done = contact_solver_create(&hand.interface, contact_solver_def(), &solver, &err);
+        memory_fail_after(-1);
+        assert_int_equal(err.code, done ? ERROR_NONE : ERROR_MEMORY);
+        contact_solver_destroy(&solver);
+        assert_int_equal(memory_counters().live, live);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_stick_and_open),
+        cmocka_unit_test(test_coulomb_slip),
+        cmocka_unit_test(test_weakening_slip),
+        cmocka_unit_test(test_strong_weakening),
+        cmocka_unit_test(test_rod),
+        cmocka_unit_test(test_two_nodes),
+        cmocka_unit_test(test_rough_friction),
+        cmocka_unit_test(test_allocates_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Which nodes are contact and rod, their order, weights and unknowns; and the rod's own few lines.
+#include "contact/interface.h"
+
+#include "block_mesh.h"
+#include "contact/rod.h"
+
+static BlockDef block_of(ElementKind kind)
+{
+    return (BlockDef){.kind = kind, .nx = 4, .nz = 5, .length = 1, .height = 0.5};
+}
+
+static InterfaceDef def_with_rod(double height, double width)
+{
+    return (InterfaceDef){
+        .has_rod = true, .rod_name = "rod", .rod_height = height, .rod_width = width};
+}
+
+static void test_nodes_and_weights(void **state)
+{
+    (void)state;
+    Error err = {0};
+    int64_t live = memory_counters().live;
+    for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++) {
+        BlockDef block = block_of((ElementKind)kind);
+        InterfaceDef def = def_with_rod(0.25, 0.3);   // 0.1 .. 0.4: rows 1 to 4 of order 1
+        Mesh mesh;
+        Interface interface;
+        block_build(&block, &mesh);
+        assert_true(interface_build(&mesh, &def, &interface, &err));
+        bool second = kind != ELEMENT_T3 && kind != ELEMENT_Q4;
+        assert_int_equal(interface.contact_count, second ? 9 : 5);
+        assert_int_equal(interface.rod_count, second ? 7 : 4);
+        assert_int_equal(interface.count, 2 * interface.contact_count + interface.rod_count);
+        assert_int_equal(interface.pad_count, 1);
+        double sum = 0;
+        for (int32_t i = 0; i < interface.contact_count; i++) {
+            int32_t node = interface.node[i];
+            assert_near("x", interface.x[i], (double)i / (interface.contact_count - 1), 1e-15);
+            assert_near("x of the node", mesh.position[2 * node], interface.x[i], 0);
+            assert_near("z of the node", mesh.position[2 * node + 1], 0, 0);
+            assert_int_equal(interface.pad[i], 0);
+            assert_int_equal(interface.dofs[interface_tangent(i)], 2 * node);
+            assert_int_equal(interface.dofs[interface_normal(i)], 2 * node + 1);
+            sum += interface.weight[i];
+        }
+        assert_near("weights", sum, 1, 1e-14);
+        assert_near("end", interface.weight[0], second ? 0.25 / 6 : 0.125, 1e-15);
+        for (int32_t j = 0; j < interface.rod_count; j++) {
+            int32_t node = interface.rod_node[j];
+            assert_near("z", interface.rod_z[j], 0.1 + 0.3 * j / (interface.rod_count - 1), 1e-14);
+            assert_near("z of the node", mesh.position[2 * node + 1], interface.rod_z[j], 0);
+            assert_near("x of the node", mesh.position[2 * node], 0, 0);
+            assert_int_equal(interface.dofs[interface_rod(&interface, j)], 2 * node);
+        }
+        interface_destroy(&interface);
+        interface_destroy(&interface);   // a second time is harmless
+        mesh_destroy(&mesh);
+    }
+    assert_int_equal(memory_counters().live, live);
+}
+
+// A strip that reaches the ground leaves the corner to the contact; one between nodes is refused.
+static void test_strip(void **state)
+{
+    (void)state;
+    Error err = {0};
+    BlockDef block = block_of(ELEMENT_Q4);
+    Mesh mesh;
+    Interface interface;
+    block_build(&block, &mesh);
+    InterfaceDef low = def_with_rod(0.05, 0.1);
+    assert_true(interface_build(&mesh, &low, &interface, &err));
+    assert_int_equal(interface.rod_count, 1);
+    assert_near("z", interface.rod_z[0], 0.1, 1e-15);
+    interface_destroy(&interface);
+
+    InterfaceDef between = def_with_rod(0.26, 0.04);
+    assert_false(interface_build(&mesh, &between, &interface, &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+    assert_non_null(strstr(err.message, "0.24 <= z <= 0.28"));
+    assert_non_null(strstr(err.message, "the nearest is at z = 0.3"));
+    interface_destroy(&interface);
+
+    error_clear(&err);
+    InterfaceDef none = {.has_rod = false};
+    assert_true(interface_build(&mesh, &none, &interface, &err));
+    assert_int_equal(interface.rod_count, 0);
+    assert_int_equal(interface.count, 10);
+    interface_destroy(&interface);
+
+    InterfaceDef wrong = def_with_rod(0.25, 0.3);
+    wrong.rod_name = "rodd";
+    assert_false(interface_build(&mesh, &wrong, &interface, &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+    assert_non_null(strstr(err.message, "did you mean 'rod'?"));
+    interface_destroy(&interface);
+    mesh_destroy(&mesh);
+}
+
+// The first and the last quarter of the bottom as two pads, the middle free.
+static void test_pads(void **state)
+{
+    (void)state;
+    Error err = {0};
+    BlockDef block = block_of(ELEMENT_Q4);
+    MeshFile file = block_file(&block);
+    MeshGroup *first = &file.groups[0], *last = &file.groups[1];
+    memcpy(last->edge_nodes, first->edge_nodes + 2 * 3, 2 * sizeof(int32_t));
+    memcpy(last->nodes, first->nodes + 3, 2 * sizeof(int32_t));
+    snprintf(first->name, sizeof first->name, "contact_front");
+    snprintf(last->name, sizeof last->name, "contact_1");
+    first->edge_count = last->edge_count = 1;
+    first->node_count = last->node_count = 2;
+    Mesh mesh;
+    Interface interface;
+    assert_true(mesh_build(&file, "pads", &mesh, &err));
+    InterfaceDef def = {.has_rod = false};
+    assert_true(interface_build(&mesh, &def, &interface, &err));
+    const double x[] = {0, 0.25, 0.75, 1};
+    assert_int_equal(interface.contact_count, 4);
+    assert_int_equal(interface.pad_count, 2);
+    for (int32_t i = 0; i < 4; i++) {
+        assert_near("x", interface.x[i], x[i], 1e-15);
+        assert_near("weight", interface.weight[i], 0.125, 1e-15);
+        assert_int_equal(interface.pad[i], i / 2);
+    }
+    interface_destroy(&interface);
+    const char names[][GROUP_NAME_SIZE] = {"contact_1"};   // asked by name: one of them
+    def.contact_names = names;
+    def.contact_name_count = 1;
+    assert_true(interface_build(&mesh, &def, &interface, &err));
+    assert_int_equal(interface.contact_count, 2);
+    assert_near("x", interface.x[0], 0.75, 1e-15);
+    interface_destroy(&interface);
+    mesh_destroy(&mesh);
+}
+
+static void test_rod(void **state)
+{
+    (void)state;
+    Error err = {0};
+    BlockDef block = block_of(ELEMENT_Q4);
+    InterfaceDef def = def_with_rod(0.25, 0.1);   // rows 2 and 3
+    Mesh mesh;
+    Interface interface;
+    Rod rod;
+    block_build(&block, &mesh);
+    assert_true(interface_build(&mesh, &def, &interface, &err));
+    assert_true(rod_build(&interface, ROD_PUSHES, 1e-5, &rod, &err));
+    assert_int_equal(rod.count, 2);
+    assert_true(rod.velocity == 1e-5 && rod.kind == ROD_PUSHES && rod.origin[0] == 0);
+    double displacement[60], reaction[12];
+    for (int32_t k = 0; k < 60; k++) displacement[k] = k;
+    for (int32_t k = 0; k < 12; k++) reaction[k] = k;
+    rod_touch(&rod, &interface, displacement);
+    for (int32_t j = 0; j < 2; j++)
+        assert_near("origin", rod.origin[j], 2 * interface.rod_node[j], 0);
+    assert_near("F_T", rod_force(&interface, reaction), 10 + 11, 0);
+    rod_destroy(&rod);
+    rod_destroy(&rod);
+    interface_destroy(&interface);
+    mesh_destroy(&mesh);
+}
+
+static void test_memory_faults(void **state)
+{
+    (void)state;
+    BlockDef block = block_of(ELEMENT_Q4);
+    InterfaceDef def = def_with_rod(0.25, 0.3);
+    Mesh mesh;
+    block_build(&block, &mesh);
+    int64_t live = memory_counters().live;
+    bool done = false;
+    for (int32_t k = 0; !done; k++) {
+        Error err = {0};
+        Interface interface;
+        Rod rod = {0};
+        memory_fail_after(k);
+        done = interface_build(&mesh, &def, &interface, &err) &&
+               rod_build(&interface, ROD_PUSHES, 1, &rod, &err);
+        memory_fail_after(-1);
+        assert_int_equal(err.code, done ? ERROR_NONE : ERROR_MEMORY);
+        rod_destroy(&rod);
+        interface_destroy(&interface);
+        assert_int_equal(memory_counters().live, live);
+    }
+    mesh_destroy(&mesh);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_nodes_and_weights),
+        cmocka_unit_test(test_strip),
+        cmocka_unit_test(test_pads),
+        cmocka_unit_test(test_rod),
+        cmocka_unit_test(test_memory_faults),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
