@@ -22,64 +22,64 @@
 #include <stdint.h>
 #include <stdio.h>
 
-typedef struct Scene Scene;             // what to compute; opaque here
+typedef struct Scene Scene;   // what to compute; opaque here
 typedef struct Simulation Simulation;   // one computation on its way; opaque
 
 enum { AMONTONS_PATH_SIZE = 1024 };
 
 // One accepted step, as shown to the caller.
 typedef struct StepView {
-    double t;               // time, 0 when the rod starts
-    double U;               // displacement of the rod, length
-    double mu;              // F_T / F_N
-    double step_size;       // of this step, time
-    double front;           // l, how far slip has grown from the trailing edge, length
+    double t;   // time, 0 when the rod starts
+    double U;   // displacement of the rod, length
+    double mu;   // F_T / F_N
+    double step_size;   // of this step, time
+    double front;   // l, how far slip has grown from the trailing edge, length
     double max_slip_rate;   // largest |slip rate| on the interface, velocity
-    double fraction;        // of the way to `time.until`, 0 to 1
-    bool certified;         // the slip set cannot grow on its own: large steps are allowed
-    int32_t events;         // precursors and slidings seen so far
-    int32_t slidings;       // leading events (the whole interface slipped) among them
+    double fraction;   // of the way to `time.until`, 0 to 1
+    bool certified;   // the slip set cannot grow on its own: large steps are allowed
+    int32_t events;   // precursors and slidings seen so far
+    int32_t slidings;   // leading events (the whole interface slipped) among them
 } StepView;
 
 // What was done, counted: a benchmark prints these, run.json holds them.
 typedef struct RunCounters {
-    int64_t accepted;              // steps
-    int64_t rejected;              // steps undone by error control or by the certificate
-    int64_t rejected_uncertified;  // of these: a large step that led to an uncertified state
-    int64_t unsolved_retries;      // steps undone because the contact problem had no solution
-    int64_t factorisations;        // sparse
-    int64_t solves;                // sparse, forward plus backward
-    int64_t contact_solves;        // contact problems, two a step
-    int64_t contact_iterations;    // active-set iterations over all of them
-    int64_t contact_fallbacks;     // contact problems that the plain iteration did not settle
-    int64_t certificates;          // dissipativity checks
-    int64_t loop_allocations;      // arrays allocated in the time loop (0 but new rungs, output)
+    int64_t accepted;   // steps
+    int64_t rejected;   // steps undone by error control or by the certificate
+    int64_t rejected_uncertified;   // of these: a large step that led to an uncertified state
+    int64_t unsolved_retries;   // steps undone because the contact problem had no solution
+    int64_t factorisations;   // sparse
+    int64_t solves;   // sparse, forward plus backward
+    int64_t contact_solves;   // contact problems, two a step
+    int64_t contact_iterations;   // active-set iterations over all of them
+    int64_t contact_fallbacks;   // contact problems that the plain iteration did not settle
+    int64_t certificates;   // dissipativity checks
+    int64_t loop_allocations;   // arrays allocated in the time loop (0 but new rungs, output)
 } RunCounters;
 
 // What a run came to, for the closing lines; run.json holds more.
 typedef struct RunSummary {
-    double mu_M, mu_M_spread;      // of the periodic peaks; NaN: no peak seen
-    int32_t peaks, peaks_counted;  // seen, and belonging to the periodic regime
+    double mu_M, mu_M_spread;   // of the periodic peaks; NaN: no peak seen
+    int32_t peaks, peaks_counted;   // seen, and belonging to the periodic regime
     int32_t quasi_static, bounded, leading;   // events by kind
-    double critical_length;        // l_c / L seen in the dynamics; NaN: none
+    double critical_length;   // l_c / L seen in the dynamics; NaN: none
     double energy_error, moment_error, complementarity_error;   // the largest, relative
-    double seconds_solve, seconds_output, seconds_total;        // wall time
+    double seconds_solve, seconds_output, seconds_total;   // wall time
     RunCounters counters;
-    int32_t field_files;           // VTU files written
-    int32_t figures;               // pictures drawn
-    char folder[AMONTONS_PATH_SIZE];          // where everything lies
+    int32_t field_files;   // VTU files written
+    int32_t figures;   // pictures drawn
+    char folder[AMONTONS_PATH_SIZE];   // where everything lies
 } RunSummary;
 
 // Called after every accepted step (run) on the thread of the run. Must not keep `view`.
 typedef void (*StepCallback)(const StepView *view, void *context);
 
 typedef struct RunOptions {
-    const char *folder;            // the result folder, created; NULL: nothing is written at all
-    bool overwrite;                // replace an earlier result in it (else ERROR_INPUT)
-    StepCallback on_step;          // NULL: none
-    void *context;                 // handed to on_step
+    const char *folder;   // the result folder, created; NULL: nothing is written at all
+    bool overwrite;   // replace an earlier result in it (else ERROR_INPUT)
+    StepCallback on_step;   // NULL: none
+    void *context;   // handed to on_step
     const volatile sig_atomic_t *stop;   // non-zero: finish the step, keep what is there, return
-                                         // ERROR_INTERRUPT; NULL: never
+        // ERROR_INTERRUPT; NULL: never
 } RunOptions;
 
 // --- scenes -------------------------------------------------------------------------------------
@@ -87,9 +87,9 @@ typedef struct RunOptions {
 // file:line:column or the override, the key, what was found and what is allowed.
 bool amontons_scene_read(const char *path, const char *const *overrides, int32_t override_count,
                          Scene **scene, Error *err);
-void amontons_scene_destroy(Scene *scene);                    // NULL is fine
-const char *amontons_scene_title(const Scene *scene);         // owned by the scene
-bool amontons_scene_reference(FILE *out, Error *err);         // every key, as Markdown
+void amontons_scene_destroy(Scene *scene);   // NULL is fine
+const char *amontons_scene_title(const Scene *scene);   // owned by the scene
+bool amontons_scene_reference(FILE *out, Error *err);   // every key, as Markdown
 
 // --- one simulation -----------------------------------------------------------------------------
 // Everything: mesh, relax, time loop, results, pictures, run.json. On failure what was computed
@@ -102,7 +102,28 @@ bool amontons_simulation_create(const Scene *scene, const RunOptions *options,
                                 Simulation **simulation, Error *err);
 bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *finished, Error *err);
 bool amontons_simulation_finish(Simulation *simulation, RunSummary *summary, Error *err);
-void amontons_simulation_destroy(Simulation *simulation);     // NULL is fine
+void amontons_simulation_destroy(Simulation *simulation);   // NULL is fine
+
+// --- statics ------------------------------------------------------------------------------------
+// Equilibrium under the scene's load, rod displacement and supports; friction is Coulomb's with
+// mu_static, stick is relative to the undeformed block. Forces are per width.
+typedef struct StaticSummary {
+    int32_t nodes, contact_nodes, rod_nodes;
+    int32_t open, sticking, slipping;   // contact nodes
+    double normal_force, shear_force;   // of the plane on the block, along z and x
+    double pressure_moment;   // sum of x r_n, about the origin
+    double rod_force, rod_height;   // of the rod along x; z of its resultant (NaN: no force)
+    double elastic_energy, load_work;   // u'Ku/2 and f'u
+    double residual;   // largest out-of-balance nodal force ...
+    double force_balance, moment_balance;   // ... and of the sums, relative to the largest force
+    double energy_balance;   // |u'Ku - f'u - r'u|, relative
+    double complementarity;   // largest violation of the contact conditions, relative
+    int64_t iterations;   // of the contact solver
+} StaticSummary;
+// Writes static.json, static.h5 and static.vtu into `folder` (NULL: nothing). ERROR_COMPUTE where
+// no equilibrium is found: nothing holds the block, say.
+bool amontons_static(const Scene *scene, const char *folder, bool overwrite, StaticSummary *summary,
+                     Error *err);
 
 // --- results ------------------------------------------------------------------------------------
 // Draws `figures` ([figure_count] names; 0: all) of the result in `folder` into folder/figures.

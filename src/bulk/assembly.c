@@ -112,7 +112,9 @@ bool bulk_assemble(const Mesh *mesh, const Material *material, Bulk *bulk, Error
     bulk->damping = NEW_ARRAY(double, entries, err);
     bulk->mass = NEW_ARRAY(double, bulk->dof_count, err);
     bulk->load = NEW_ARRAY(double, bulk->dof_count, err);
-    if (!bulk->stiffness || !bulk->damping || !bulk->mass || !bulk->load) goto cleanup;
+    bulk->held = NEW_ARRAY(uint8_t, bulk->dof_count, err);
+    if (!bulk->stiffness || !bulk->damping || !bulk->mass || !bulk->load || !bulk->held)
+        goto cleanup;
     for (int32_t e = 0; e < mesh->element_count; e++) {
         double position[ELEMENT_NODES_MAX][2];
         int32_t first = mesh->first_node[e], count = mesh->first_node[e + 1] - first;
@@ -134,7 +136,22 @@ void bulk_destroy(Bulk *bulk)
     memory_free(bulk->damping);
     memory_free(bulk->mass);
     memory_free(bulk->load);
+    memory_free(bulk->held);
     *bulk = (Bulk){0};
+}
+
+void bulk_hold(int32_t dof, Bulk *bulk)
+{
+    const SparsePattern *pattern = &bulk->pattern;
+    for (int32_t k = pattern->start[dof]; k < pattern->start[dof + 1]; k++) {
+        int32_t other = pattern->index[k];
+        if (other == dof) continue;
+        int32_t mirror = sparse_entry(pattern, other, dof);
+        bulk->stiffness[k] = bulk->stiffness[mirror] = 0;
+        bulk->damping[k] = bulk->damping[mirror] = 0;
+    }
+    bulk->load[dof] = 0;
+    bulk->held[dof] = 1;
 }
 
 // int N_a ds on a straight edge: halves, or Simpson's 1/6, 1/6, 4/6 (end, end, middle).

@@ -15,6 +15,7 @@ typedef struct Bulk {
     double *damping;   // same; owned
     double *mass;   // [dof_count] lumped, both directions alike; owned
     double *load;   // [dof_count] f, force/width; starts at 0; owned
+    uint8_t *held;   // [dof_count] 1: stays at 0 (bulk_hold); owned
     double area;
 } Bulk;
 
@@ -24,6 +25,10 @@ void bulk_destroy(Bulk *bulk);
 // load += int_curve N_a (traction_x, traction_z) ds. A pressure P on top is (0, -P).
 void bulk_add_traction(const Mesh *mesh, const MeshCurve *curve, const double traction[2],
                        Bulk *bulk);
+
+// Holds an unknown at 0: its couplings leave K and C, its load goes, its diagonals stay. Whatever is
+// solved with the bulk from then on leaves it at rest.
+void bulk_hold(int32_t dof, Bulk *bulk);
 
 // The weights of a curve's nodes: int_curve N_a ds, added to weight[node]; [mesh->node_count].
 void curve_add_weights(const Mesh *mesh, const MeshCurve *curve, double *weight);

@@ -9,6 +9,7 @@
 #include <argp.h>
 
 int command_run(int argc, char **argv);
+int command_static(int argc, char **argv);
 int command_render(int argc, char **argv);
 int command_info(int argc, char **argv);
 

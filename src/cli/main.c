@@ -14,6 +14,7 @@ typedef struct Command {
 
 static const Command commands[] = {
     {"run", command_run, "SCENE", "simulates a scene into a result folder"},
+    {"static", command_static, "SCENE", "finds the equilibrium under a given load"},
     {"render", command_render, "RESULT", "draws the pictures of a stored result again"},
     {"info", command_info, "FILE", "says what a mesh, a scene or a result holds"},
 };

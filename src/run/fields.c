@@ -67,18 +67,25 @@ static bool fill_line_grid(Fields *fields, const Interface *interface, Error *er
     return true;
 }
 
+bool fields_prepare(const Mesh *mesh, const Interface *interface, Fields *fields, Error *err)
+{
+    *fields = (Fields){.mesh = mesh};
+    return nodal_stress_create(mesh, &fields->stress, err) && fill_bulk_grid(fields, err) &&
+           fill_line_grid(fields, interface, err);
+}
+
 bool fields_create(const FieldsDef *def, const char *folder, const Mesh *mesh,
                    const Interface *interface, Fields *fields, Error *err)
 {
-    *fields = (Fields){.def = *def, .folder = folder, .mesh = mesh, .room = FIRST_ROOM};
     char path[PATH_SIZE];
+    TRY(fields_prepare(mesh, interface, fields, err));
+    fields->def = *def;
+    fields->folder = folder;
+    fields->room = FIRST_ROOM;
     fields->next_U = fields->next_t = -INFINITY;   // the start is written in any case
     fields->entries = NEW_ARRAY(FieldSeriesEntry, 2 * FIRST_ROOM, err);
     fields->names = memory_array(2 * FIRST_ROOM, NAME_SIZE, err);
     if (!fields->entries || !fields->names) goto cleanup;
-    TRY(nodal_stress_create(mesh, &fields->stress, err));
-    TRY(fill_bulk_grid(fields, err));
-    TRY(fill_line_grid(fields, interface, err));
     snprintf(path, sizeof path, "%s/fields", folder);
     if (mkdir(path, 0777) != 0 && errno != EEXIST)
         FAIL(err, ERROR_FILE, "cannot make the folder %s: %s", path, strerror(errno));
@@ -106,21 +113,18 @@ void fields_destroy(Fields *fields)
     *fields = (Fields){0};
 }
 
-static bool write_bulk(Fields *fields, const Observation *seen, const char *name, Error *err)
+bool fields_write_bulk(Fields *fields, const FieldState *state, const char *path, Error *err)
 {
     const Mesh *mesh = fields->mesh;
-    const State *state = seen->state;
     int64_t nodes = mesh->node_count;
     double *displacement = fields->vectors, *velocity = fields->vectors + 3 * nodes;
-    bulk_operator_recover(seen->system, state->displacement, fields->displacement);
-    bulk_operator_recover(seen->system, state->velocity, fields->velocity);
     for (int64_t i = 0; i < nodes; i++) {
         for (int d = 0; d < 2; d++) {
-            displacement[3 * i + d] = fields->displacement[2 * i + d];
-            velocity[3 * i + d] = fields->velocity[2 * i + d];
+            displacement[3 * i + d] = state->displacement[2 * i + d];
+            velocity[3 * i + d] = state->velocity[2 * i + d];
         }
     }
-    nodal_stress_recover(mesh, fields->material, fields->displacement, fields->velocity,
+    nodal_stress_recover(mesh, fields->material, state->displacement, state->velocity,
                          &fields->stress);
     FieldArray arrays[] = {
         {.name = "displacement", .components = 3, .values = displacement},
@@ -134,12 +138,21 @@ static bool write_bulk(Fields *fields, const Observation *seen, const char *name
                       .offsets = fields->offsets,
                       .connectivity = fields->connectivity,
                       .cell_types = fields->cell_types,
-                      .time = seen->t,
+                      .time = state->time,
                       .point_array_count = (int32_t)(sizeof arrays / sizeof arrays[0]),
                       .point_arrays = arrays};
+    return field_file_write_vtu(path, &grid, err);
+}
+
+static bool write_bulk(Fields *fields, const Observation *seen, const char *name, Error *err)
+{
     char path[PATH_SIZE];
     snprintf(path, sizeof path, "%s/fields/%s", fields->folder, name);
-    return field_file_write_vtu(path, &grid, err);
+    bulk_operator_recover(seen->system, seen->state->displacement, fields->displacement);
+    bulk_operator_recover(seen->system, seen->state->velocity, fields->velocity);
+    FieldState state = {
+        .displacement = fields->displacement, .velocity = fields->velocity, .time = seen->t};
+    return fields_write_bulk(fields, &state, path, err);
 }
 
 static bool write_line(Fields *fields, const Observation *seen, const char *name, Error *err)

@@ -41,6 +41,17 @@ typedef struct Fields {
     double next_U, next_t;   // when the next is due
 } Fields;
 
+// What is written of the bulk. Nothing is owned.
+typedef struct FieldState {
+    const double *displacement, *velocity;   // [2 * nodes]
+    double time;
+} FieldState;
+
+// For single files: no folder, no series. `material` is set by the caller, also after create.
+bool fields_prepare(const Mesh *mesh, const Interface *interface, Fields *fields, Error *err);
+// Writes one .vtu; the stresses stay in fields->stress.
+bool fields_write_bulk(Fields *fields, const FieldState *state, const char *path, Error *err);
+
 bool fields_create(const FieldsDef *def, const char *folder, const Mesh *mesh,
                    const Interface *interface, Fields *fields, Error *err);
 void fields_destroy(Fields *fields);

@@ -55,6 +55,16 @@ static void translate_materials(Simulation *simulation)
                                     .critical_velocity = scene->friction.critical_velocity};
 }
 
+// A force to measure by where no load presses: the loads' size, or the impact's.
+static double free_scale(const Simulation *simulation, double load)
+{
+    const Material *material = &simulation->material;
+    double impedance = material->density * material_speeds(material).longitudinal;
+    double impact = impedance * fabs(simulation->scene.start.velocity_z) * simulation->model.length;
+    if (impact > 0) return impact;
+    return load < 0 ? -load : material->young * simulation->model.length;
+}
+
 static bool add_loads(Simulation *simulation, Error *err)
 {
     const Scene *scene = &simulation->scene;
@@ -72,6 +82,9 @@ static bool add_loads(Simulation *simulation, Error *err)
     }
     double load = 0;
     for (int32_t dof = 1; dof < bulk->dof_count; dof += 2) load -= bulk->load[dof];
+    // What is held needs no load, and what flies towards the plane has its momentum.
+    bool held = scene->load.support_count > 0 || scene->start.velocity_z < 0;
+    if (!(load > 0) && held) load = free_scale(simulation, load);
     if (!(load > 0))
         FAIL(err, ERROR_INPUT,
              "%s: the loads do not press the block onto the plane (their resultant along -z is %g)",
@@ -79,6 +92,34 @@ static bool add_loads(Simulation *simulation, Error *err)
     simulation->scales.load = load;
 cleanup:
     return error_is_clean(err);
+}
+
+bool model_hold_supports(Simulation *simulation, Error *err)
+{
+    const Scene *scene = &simulation->scene;
+    for (int32_t k = 0; k < scene->load.support_count; k++) {
+        const SceneSupport *support = &scene->load.supports[k];
+        MeshCurve curve;
+        if (!mesh_curve(&simulation->mesh, support->group, &curve, err)) return false;
+        for (int32_t i = 0; i < curve.node_count; i++) {
+            if (support->x) bulk_hold(2 * curve.nodes[i], &simulation->bulk);
+            if (support->z) bulk_hold(2 * curve.nodes[i] + 1, &simulation->bulk);
+        }
+    }
+    return true;
+}
+
+// A reduced bulk follows what the interface does: not a load put on at once, nor a velocity that
+// supports stop.
+static bool starts_at_interface(const Scene *scene)
+{
+    if (scene->start.state == START_UNDEFORMED) return false;
+    for (int32_t k = 0; k < scene->load.support_count; k++) {
+        const SceneSupport *support = &scene->load.supports[k];
+        if (support->x && scene->start.velocity_x != 0) return false;
+        if (support->z && scene->start.velocity_z != 0) return false;
+    }
+    return true;
 }
 
 // E, eta, rho L^2 and the size of the load: what the reduced matrices are normalised with.
@@ -118,12 +159,13 @@ static bool make_operator(Simulation *simulation, Error *err)
     const Scene *scene = &simulation->scene;
     const Interface *interface = &simulation->interface;
     bool viscous = scene->material.eta1 > 0;
-    if (scene->reduction.use != REDUCE_NEVER && viscous) return reduce_bulk(simulation, err);
+    bool reduces = scene->reduction.use != REDUCE_NEVER && starts_at_interface(scene);
+    if (reduces && viscous) return reduce_bulk(simulation, err);
     return bulk_operator_create(&simulation->bulk, simulation->mesh.position, interface->dofs,
                                 interface->count, &simulation->system, err);
 }
 
-bool model_assemble(Simulation *simulation, Error *err)
+bool model_build_bulk(Simulation *simulation, Error *err)
 {
     const Scene *scene = &simulation->scene;
     double height = simulation->model.height;
@@ -138,13 +180,21 @@ bool model_assemble(Simulation *simulation, Error *err)
                                                             : ROD_HEIGHT * height,
                         .rod_width = scene->rod.width > 0 ? scene->rod.width : ROD_WIDTH * height};
     TRY(interface_build(&simulation->mesh, &def, &simulation->interface, err));
-    const Interface *interface = &simulation->interface;
-    TRY(make_operator(simulation, err));
-    simulation->model.contact_nodes = interface->contact_count;
-    simulation->model.rod_nodes = interface->rod_count;
-    simulation->model.full_dofs = simulation->bulk.dof_count;
-    simulation->model.reduced_dofs = simulation->system.dof_count;
     simulation->scales.length = simulation->model.length;
+    simulation->model.contact_nodes = simulation->interface.contact_count;
+    simulation->model.rod_nodes = simulation->interface.rod_count;
+    simulation->model.full_dofs = simulation->bulk.dof_count;
+cleanup:
+    return error_is_clean(err);
+}
+
+bool model_assemble(Simulation *simulation, Error *err)
+{
+    const Scene *scene = &simulation->scene;
+    TRY(model_build_bulk(simulation, err));
+    TRY(model_hold_supports(simulation, err));
+    TRY(make_operator(simulation, err));
+    simulation->model.reduced_dofs = simulation->system.dof_count;
     const Material *material = &simulation->material;
     simulation->scales.time = simulation->model.length / material_speeds(material).longitudinal +
                               (material->eta1 + material->eta2) / material->young;
@@ -208,6 +258,24 @@ static void touch_rod(Simulation *simulation)
             now->displacement[simulation->system.interface_dofs[interface_rod(interface, j)]];
 }
 
+// Adds the velocity at t = 0, but for what is held. A reduced bulk's first unknowns are those of the
+// interface, and their static modes move all of it.
+static void set_moving(Simulation *simulation)
+{
+    const Interface *interface = &simulation->interface;
+    const BulkOperator *system = &simulation->system;
+    State *state = &simulation->control.now;
+    double velocity[2] = {simulation->scene.start.velocity_x, simulation->scene.start.velocity_z};
+    int32_t moved = system->reduced ? interface->count : state->dof_count;
+    for (int32_t k = 0; k < moved; k++) {
+        int32_t dof = system->reduced ? interface->dofs[k] : k;
+        if (!simulation->bulk.held[dof]) state->velocity[k] += velocity[dof % 2];
+    }
+    for (int32_t k = 0; k < interface->count; k++)
+        state->slip_rate[k] = state->velocity[system->interface_dofs[k]];
+    bulk_operator_apply(system, BULK_MASS, state->velocity, state->momentum);
+}
+
 bool model_relax(Simulation *simulation, Error *err)
 {
     const Scene *scene = &simulation->scene;
@@ -217,7 +285,8 @@ bool model_relax(Simulation *simulation, Error *err)
         simulation->law = (FrictionLaw){.kind = FRICTION_COULOMB, .mu_static = 0};
     RelaxationDef def = {.speed_max = scene->start.tolerance * simulation->scales.slip_velocity,
                          .duration_max = scene->start.duration_max * simulation->scales.time};
-    TRY(relax(&simulation->control, &def, &simulation->model.relaxation_steps, err));
+    if (scene->start.state == START_RELAXED)
+        TRY(relax(&simulation->control, &def, &simulation->model.relaxation_steps, err));
     simulation->law = law;
     simulation->rod.velocity = scene->rod.velocity;
     if (scene->rod.kind == ROD_NONE) {
@@ -226,6 +295,7 @@ bool model_relax(Simulation *simulation, Error *err)
         simulation->rod.kind = scene->rod.kind == ROD_PUSH ? ROD_PUSHES : ROD_IS_BONDED;
         touch_rod(simulation);
     }
+    if (scene->start.velocity_x != 0 || scene->start.velocity_z != 0) set_moving(simulation);
     step_control_restart(&simulation->control);
 cleanup:
     simulation->timing.relax = clock_seconds() - started;

@@ -8,7 +8,9 @@
 
 // Each needs the ones before it.
 bool model_read_mesh(Simulation *simulation, Error *err);
-bool model_assemble(Simulation *simulation, Error *err);   // material, bulk, loads, interface
+bool model_build_bulk(Simulation *simulation, Error *err);   // material, bulk, loads, interface
+bool model_hold_supports(Simulation *simulation, Error *err);   // takes their unknowns out of it
+bool model_assemble(Simulation *simulation, Error *err);   // these two, and the operator
 bool model_prepare_steps(Simulation *simulation, Error *err);
 bool model_relax(Simulation *simulation, Error *err);   // to t = 0, the rod in place
 

@@ -20,6 +20,7 @@ typedef enum SceneLaw { LAW_COULOMB, LAW_LINEAR_WEAKENING, LAW_EXPONENTIAL_WEAKE
 typedef enum SceneRodKind { ROD_PUSH, ROD_BONDED, ROD_NONE } SceneRodKind;
 typedef enum SceneStartFriction { START_FRICTION_OFF, START_FRICTION_ON } SceneStartFriction;
 typedef enum SceneStartRod { START_ROD_AWAY, START_ROD_HELD } SceneStartRod;
+typedef enum SceneStartState { START_RELAXED, START_UNDEFORMED } SceneStartState;
 typedef enum SceneScheme { SCHEME_SDIRK2 } SceneScheme;
 typedef enum SceneReduce { REDUCE_AUTO, REDUCE_ALWAYS, REDUCE_NEVER } SceneReduce;
 typedef enum SceneAccuracy { ACCURACY_DRAFT, ACCURACY_STANDARD, ACCURACY_FINE } SceneAccuracy;
@@ -33,6 +34,12 @@ typedef struct SceneTraction {
     char group[GROUP_NAME_SIZE];
     double x, z;   // stress
 } SceneTraction;
+
+// Nodes of a group that do not move along x, or z, or both.
+typedef struct SceneSupport {
+    char group[GROUP_NAME_SIZE];
+    bool x, z;
+} SceneSupport;
 
 typedef struct Scene {
     char path[SCENE_TEXT_SIZE];   // of the scene file, as given
@@ -60,15 +67,20 @@ typedef struct Scene {
         double pressure;
         int32_t traction_count;   // load.tractions: [{group, x, z}]
         SceneTraction tractions[SCENE_LIST_MAX];
+        int32_t support_count;   // load.supports: [{group, direction}]
+        SceneSupport supports[SCENE_LIST_MAX];
     } load;
     struct {
         double velocity;
+        double displacement;   // of the rod in `amontons static`
         double height, width;   // of the strip's centre, and its extent; 0: H/2 and 0.1 H
         SceneRodKind kind;
     } rod;
     struct {
         SceneStartFriction friction;
         SceneStartRod rod;   // away (default) or held
+        SceneStartState state;   // relaxed (default) or undeformed
+        double velocity_x, velocity_z;   // of the whole block at t = 0
         double tolerance;   // relaxed when every speed is below this times V
         double duration_max;   // of the relaxation, in viscous times; an error beyond
     } start;

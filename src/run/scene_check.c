@@ -47,10 +47,22 @@ static bool is_given(const Check *check, const char *name)
     return check->scene->given[scene_key_index(name)];
 }
 
+// A scene that says where the rod stands, or has none, and says nothing of time is for `amontons
+// static`; `amontons run` refuses it.
+static bool is_static(const Scene *scene)
+{
+    static const char *const timed[] = {"time.until.U", "time.until.t", "time.until.periodic",
+                                        "rod.velocity"};
+    for (size_t k = 0; k < sizeof timed / sizeof timed[0]; k++)
+        if (scene->given[scene_key_index(timed[k])]) return false;
+    return scene->rod.kind == ROD_NONE || scene->given[scene_key_index("rod.displacement")];
+}
+
 static bool is_needed(const SceneKey *key, const Scene *scene)
 {
     if (strcmp(key->name, "friction.mu_kinetic") == 0) return scene->friction.law != LAW_COULOMB;
-    if (strcmp(key->name, "rod.velocity") == 0) return scene->rod.kind != ROD_NONE;
+    if (strcmp(key->name, "rod.velocity") == 0)
+        return scene->rod.kind != ROD_NONE && !is_static(scene);
     return !key->standard || (key->given_in_si && scene->units == UNITS_SI);
 }
 
@@ -94,7 +106,8 @@ static bool check_load(const Check *check)
     if (scene->material.plane == PLANE_STRAIN && scene->material.poisson >= 0.5)
         return blame(check, "material.poisson", "%g; plane strain needs less than 0.5",
                      scene->material.poisson);
-    if (scene->load.pressure == 0 && scene->load.traction_count == 0)
+    bool held = scene->load.support_count > 0 || scene->start.velocity_z < 0;
+    if (scene->load.pressure == 0 && scene->load.traction_count == 0 && !held)
         return blame(check, "load.pressure",
                      "0, and no load.tractions: nothing presses the block down");
     return true;
@@ -120,7 +133,7 @@ static bool check_time(const Check *check)
     bool moves = scene->rod.kind != ROD_NONE;
     if (scene->time.until_U > 0 && !moves)
         return blame(check, "time.until.U", "the scene has no rod (rod.kind: none); give t");
-    if (!(scene->time.until_U > 0) && !(scene->time.until_t > 0))
+    if (!(scene->time.until_U > 0) && !(scene->time.until_t > 0) && !is_static(scene))
         return blame(check, "time.until",
                      "says not when to stop; allowed: {U: LENGTH}, {t: TIME}, and with either "
                      "`periodic: true` (stop then at the latest)");

@@ -32,6 +32,23 @@ static void write_tractions(const Scene *scene, JsonWriter *json, const char *na
     json_end(json);
 }
 
+static const char *support_direction(const SceneSupport *support)
+{
+    return support->x && support->z ? "both" : support->x ? "x" : "z";
+}
+
+static void write_supports(const Scene *scene, JsonWriter *json, const char *name)
+{
+    json_begin_list(json, name);
+    for (int32_t i = 0; i < scene->load.support_count; i++) {
+        json_begin_object(json, NULL);
+        json_text(json, "group", scene->load.supports[i].group);
+        json_text(json, "direction", support_direction(&scene->load.supports[i]));
+        json_end(json);
+    }
+    json_end(json);
+}
+
 static void write_names(const SceneNames *names, JsonWriter *json, const char *name)
 {
     json_begin_list(json, name);
@@ -64,6 +81,9 @@ static void write_value(const SceneKey *key, const Scene *scene, JsonWriter *jso
         return;
     case KEY_TRACTIONS:
         write_tractions(scene, json, name);
+        return;
+    case KEY_SUPPORTS:
+        write_supports(scene, json, name);
         return;
     case KEY_FIELDS:
         json_text(json, name, "none");

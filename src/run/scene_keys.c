@@ -15,6 +15,7 @@ static const char *const law_choices[] = {"coulomb", "linear-weakening", "expone
 static const char *const rod_choices[] = {"push", "bonded", "none", NULL};
 static const char *const switch_choices[] = {"off", "on", NULL};
 static const char *const start_rod_choices[] = {"away", "held", NULL};
+static const char *const start_state_choices[] = {"relaxed", "undeformed", NULL};
 static const char *const scheme_choices[] = {"sdirk2", NULL};
 static const char *const reduce_choices[] = {"auto", "always", "never", NULL};
 static const char *const accuracy_choices[] = {"draft", "standard", "fine", NULL};
@@ -73,8 +74,15 @@ static const SceneKey keys[] = {
      NULL, .sentence = "Uniform pressure P_ext on groups.top."},
     {"load.tractions", KEY_TRACTIONS, offsetof(Scene, load), "stress", RANGE_ANY, "[]",
      .sentence = "Further tractions, a list of {group, x, z}: a stress vector on a curve group."},
+    {"load.supports", KEY_SUPPORTS, offsetof(Scene, load.supports), "1", RANGE_ANY, "[]",
+     .sentence = "Where the block is held, a list of {group, direction}: nodes of a curve group "
+                 "that do not move along `x`, `z` or `both`."},
     {"rod.velocity", KEY_NUMBER, offsetof(Scene, rod.velocity), "velocity", RANGE_POSITIVE, NULL,
-     .sentence = "Speed V of the rod along x; not needed with kind `none`."},
+     .sentence = "Speed V of the rod along x; not needed with kind `none`, nor by `amontons "
+                 "static`."},
+    {"rod.displacement", KEY_NUMBER, offsetof(Scene, rod.displacement), "length", RANGE_ANY, "0",
+     .sentence = "How far the rod stands inside the undeformed block; read by `amontons static` "
+                 "only."},
     {"rod.height", KEY_NUMBER, offsetof(Scene, rod.height), "length", RANGE_NOT_NEGATIVE, "0",
      .sentence = "Height of the strip's centre over the substrate; 0: half the block's height."},
     {"rod.width", KEY_NUMBER, offsetof(Scene, rod.width), "length", RANGE_NOT_NEGATIVE, "0",
@@ -90,6 +98,14 @@ static const SceneKey keys[] = {
                  "the block "
                  "relaxes.",
      .choices = start_rod_choices},
+    {"start.state", KEY_CHOICE, offsetof(Scene, start.state), "1", RANGE_ANY, "relaxed",
+     .sentence = "The block at t = 0: `relaxed` under its load, or `undeformed`, the load put on "
+                 "at once.",
+     .choices = start_state_choices},
+    {"start.velocity_x", KEY_NUMBER, offsetof(Scene, start.velocity_x), "velocity", RANGE_ANY, "0",
+     .sentence = "Velocity of the whole block at t = 0, along x."},
+    {"start.velocity_z", KEY_NUMBER, offsetof(Scene, start.velocity_z), "velocity", RANGE_ANY, "0",
+     .sentence = "The same along z; towards the substrate where negative."},
     {"start.tolerance", KEY_NUMBER, offsetof(Scene, start.tolerance), "1", RANGE_PART, "1e-6",
      .sentence = "The block is relaxed when every speed is below this times the rod's."},
     {"start.duration_max", KEY_NUMBER, offsetof(Scene, start.duration_max), "1", RANGE_POSITIVE,
@@ -240,6 +256,7 @@ void scene_key_allowed(const SceneKey *key, char *words, int32_t size)
         [KEY_NAMES] = "a name or a list of at most 32 names",
         [KEY_PARAMETERS] = "a map of at most 32 parameters, each a number or a word",
         [KEY_TRACTIONS] = "a list of at most 32 maps {group: NAME, x: STRESS, z: STRESS}",
+        [KEY_SUPPORTS] = "a list of at most 32 maps {group: NAME, direction: x, z or both}",
         [KEY_FIELDS] = "none, or a map of every_U, every_t, at_events",
     };
     const char *text = key->type == KEY_NUMBER ? ranges[key->range].words : by_type[key->type];

@@ -19,6 +19,7 @@ typedef enum SceneKeyType {
     KEY_NAMES,   // SceneNames: one name or a list of them; of `choices` where there are any
     KEY_PARAMETERS,   // mesh.set: keys of any name, each a number or a word
     KEY_TRACTIONS,   // load.tractions: a list of {group, x, z}
+    KEY_SUPPORTS,   // load.supports: a list of {group, direction}
     KEY_FIELDS,   // output.fields: none, or a map of the keys below it
 } SceneKeyType;
 

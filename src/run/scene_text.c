@@ -70,6 +70,17 @@ static void add_tractions(Line *line, const Scene *scene)
     add(line, "]");
 }
 
+static void add_supports(Line *line, const Scene *scene)
+{
+    add(line, "[");
+    for (int32_t i = 0; i < scene->load.support_count; i++) {
+        const SceneSupport *support = &scene->load.supports[i];
+        const char *direction = support->x && support->z ? "both" : support->x ? "x" : "z";
+        add(line, "%s{group: %s, direction: %s}", i ? ", " : "", support->group, direction);
+    }
+    add(line, "]");
+}
+
 static void add_names(Line *line, const SceneNames *names)
 {
     add(line, "[");
@@ -106,6 +117,9 @@ void scene_key_value(const SceneKey *key, const Scene *scene, char *words, int32
         return;
     case KEY_TRACTIONS:
         add_tractions(&line, scene);
+        return;
+    case KEY_SUPPORTS:
+        add_supports(&line, scene);
         return;
     case KEY_FIELDS:
         add(&line, "%s", scene->output.fields ? "as below" : "none");

@@ -317,6 +317,66 @@ cleanup:
     return error_is_clean(err);
 }
 
+static bool set_support_part(const SceneKey *key, const SceneValue *value, SceneSupport *support,
+                             Error *err)
+{
+    const char *name = yaml_key(value->document, value->node);
+    const char *text = yaml_text(value->document, value->node);
+    if (strcmp(name, "group") == 0)
+        return copy_text(key, value, GROUP_NAME_SIZE, support->group, err);
+    if (strcmp(name, "direction") != 0) {
+        yaml_key_error(value->document, value->node, err,
+                       "%s: unknown key `%.60s`; allowed: group, direction", key->name, name);
+        return false;
+    }
+    bool both = strcmp(text, "both") == 0;
+    support->x = both || strcmp(text, "x") == 0;
+    support->z = both || strcmp(text, "z") == 0;
+    if (!support->x && !support->z)
+        yaml_error(value->document, value->node, err,
+                   "%s.direction: found `%.60s`; allowed: one of x, z, both", key->name, text);
+    return error_is_clean(err);
+}
+
+static bool set_support(const SceneKey *key, const SceneValue *value, SceneSupport *support,
+                        Error *err)
+{
+    *support = (SceneSupport){0};
+    if (yaml_kind(value->document, value->node) != YAML_MAP) {
+        report_wrong(key, value, err);
+        goto cleanup;
+    }
+    for (YamlNode item = yaml_first(value->document, value->node); item != YAML_NO_NODE;
+         item = yaml_next(value->document, item)) {
+        SceneValue part = value_at(value, item);
+        TRY(set_support_part(key, &part, support, err));
+    }
+    if (!*support->group || (!support->x && !support->z))
+        yaml_error(value->document, value->node, err,
+                   "%s: a support needs its `group` and its `direction`", key->name);
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool set_supports(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+{
+    scene->load.support_count = 0;
+    YamlKind kind = yaml_kind(value->document, value->node);
+    if (kind == YAML_NOTHING) return true;
+    if (kind != YAML_LIST || yaml_count(value->document, value->node) > SCENE_LIST_MAX) {
+        report_wrong(key, value, err);
+        return false;
+    }
+    for (YamlNode item = yaml_first(value->document, value->node); item != YAML_NO_NODE;
+         item = yaml_next(value->document, item)) {
+        SceneValue one = value_at(value, item);
+        TRY(set_support(key, &one, &scene->load.supports[scene->load.support_count], err));
+        scene->load.support_count++;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
 static bool set_fields(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
     bool is_map = yaml_kind(value->document, value->node) == YAML_MAP;
@@ -347,6 +407,8 @@ bool scene_value_set(const SceneKey *key, const SceneValue *value, Scene *scene,
         return set_parameters(key, value, scene, err);
     case KEY_TRACTIONS:
         return set_tractions(key, value, scene, err);
+    case KEY_SUPPORTS:
+        return set_supports(key, value, scene, err);
     case KEY_FIELDS:
         return set_fields(key, value, scene, err);
     }

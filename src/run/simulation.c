@@ -100,6 +100,11 @@ cleanup:
     return error_is_clean(err);
 }
 
+static bool scene_supports_nothing(const Simulation *simulation)
+{
+    return simulation->scene.load.support_count == 0;
+}
+
 // Looks at the state just accepted and hands it on.
 static bool record_step(Simulation *simulation, Error *err)
 {
@@ -111,12 +116,16 @@ static bool record_step(Simulation *simulation, Error *err)
     errors->energy = fmax(errors->energy, seen.energy_error);
     errors->complementarity = fmax(errors->complementarity, seen.contact_error);
     errors->equation = fmax(errors->equation, seen.equation_error);
-    if (control->counters.accepted > 0) errors->moment = fmax(errors->moment, seen.moment_error);
+    // What supports take up is not known here: no balance of moments with them.
+    bool balances = scene_supports_nothing(simulation);
+    if (balances && control->counters.accepted > 0)
+        errors->moment = fmax(errors->moment, seen.moment_error);
     TRY(recorders_record(&simulation->recorders, &seen, err));
     bool quiet = simulation->events.rapid < 0 && seen.certified;
     if (!quiet) simulation->last_unquiet = seen.t;
     bool longest = seen.step_size >= control->def.step_max;
-    if (longest && seen.t - simulation->last_unquiet > QUIET_TIME * simulation->scales.time)
+    if (balances && longest &&
+        seen.t - simulation->last_unquiet > QUIET_TIME * simulation->scales.time)
         errors->moment_quasi_static = fmax(errors->moment_quasi_static, seen.moment_static_error);
     if (seen.energy_error > simulation->scene.time.energy_tolerance)
         FAIL(err, ERROR_COMPUTE,
@@ -152,6 +161,10 @@ bool amontons_simulation_create(const Scene *scene, const RunOptions *options, S
     TRY(model_read_mesh(simulation, err));
     double started = clock_seconds();
     TRY(model_assemble(simulation, err));
+    if (!(scene->time.until_U > 0) && !(scene->time.until_t > 0))
+        FAIL(err, ERROR_INPUT,
+             "%s: says not when to stop (time.until): it is a scene for `amontons static`",
+             scene->path);
     TRY(model_prepare_steps(simulation, err));
     simulation->timing.reduce = clock_seconds() - started;
     TRY(model_relax(simulation, err));

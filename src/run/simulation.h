@@ -35,8 +35,8 @@ struct Simulation {
     RunTiming timing;
     RunModel model;
     RunErrors errors;
-    double last_unquiet;          // when slip was last rapid or not certified, time
-    double started;               // wall clock, s
+    double last_unquiet;   // when slip was last rapid or not certified, time
+    double started;   // wall clock, s
     int64_t allocations_before;   // memory_counters() when the time loop began
     int32_t figures;   // drawn
 };

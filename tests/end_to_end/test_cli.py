@@ -48,12 +48,13 @@ class Help(unittest.TestCase):
         for words in (["--help"], ["help"], ["-h"]):
             done = amontons(*words)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
-            for word in ("run ", "render ", "info ", "info keys", "Exit status", "amontons run "):
+            for word in ("run ", "static ", "render ", "info ", "info keys", "Exit status", "amontons run "):
                 self.assertIn(word, done.stdout)
 
     def test_help_of_each_command(self):
         words = {"run": ["SCENE", "--output", "--set", "--overwrite", "--quiet", "Example",
                          "amontons run validation/paper/fig1.yaml"],
+                 "static": ["SCENE", "--output", "--set", "amontons static "],
                  "render": ["RESULT", "--figure", "force, slip-map", "amontons render "],
                  "info": ["FILE", ".msh", "keys", "amontons info meshes/block.geo"]}
         for command, wanted in words.items():

@@ -99,10 +99,20 @@ static void test_overrides(void **state)
 {
     (void)state;
     static const char *const texts[] = {
-        "load.pressure=0.006", "mesh.set.nx=40",      "mesh.set.grading=2.5",
-        "mesh.set.shape=tri",  "output.figures=[]",   "output.fields=none",
-        "rod.kind=bonded",     "time.until={t: 12}",  "groups.contact=[contact_1, contact_2]",
-        "title=\"a = b\"",     "load.pressure=0.007", "load.tractions=[{group: top, x: 1e-3}]",
+        "load.pressure=0.006",
+        "mesh.set.nx=40",
+        "mesh.set.grading=2.5",
+        "mesh.set.shape=tri",
+        "output.figures=[]",
+        "output.fields=none",
+        "rod.kind=bonded",
+        "time.until={t: 12}",
+        "groups.contact=[contact_1, contact_2]",
+        "title=\"a = b\"",
+        "load.pressure=0.007",
+        "load.tractions=[{group: top, x: 1e-3}]",
+        "load.supports=[{group: top, direction: x}, {group: rod, direction: both}]",
+        "start.velocity_z=-2",
     };
     Scene scene = read_fig1(texts, sizeof texts / sizeof texts[0]);
     assert_true(scene.load.pressure == 0.007);   // the later one
@@ -122,6 +132,11 @@ static void test_overrides(void **state)
     assert_string_equal(scene.title, "a = b");
     assert_int_equal(scene.load.traction_count, 1);
     assert_true(scene.load.tractions[0].x == 1e-3 && scene.load.tractions[0].z == 0);
+    assert_int_equal(scene.load.support_count, 2);
+    assert_string_equal(scene.load.supports[1].group, "rod");
+    assert_true(scene.load.supports[0].x && !scene.load.supports[0].z);
+    assert_true(scene.load.supports[1].x && scene.load.supports[1].z);
+    assert_true(scene.start.velocity_z == -2 && scene.start.velocity_x == 0);
 }
 
 static void test_override_of_a_part(void **state)

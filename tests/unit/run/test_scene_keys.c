@@ -211,7 +211,7 @@ static void test_json_is_nested_as_the_scene(void **state)
     compact[used] = 0;
     static const char *const parts[] = {
         "\"mesh\":{\"file\":\"block.geo\",\"set\":{\"nx\":4}},\"groups\":{",
-        "\"load\":{\"pressure\":0.01,\"tractions\":[]}",
+        "\"load\":{\"pressure\":0.01,\"tractions\":[],\"supports\":[]}",
         "\"time\":{\"until\":{\"U\":0.1,\"t\":0,\"periodic\":false},\"scheme\":\"sdirk2\"",
         "\"output\":{\"history\":true,\"fields\":\"none\",\"figures\":[]}",
         "\"material\":{\"young\":1,\"poisson\":0.3,",

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What `amontons static` leaves: the sums as JSON, every node's values as HDF5 (for comparison node by
+// node), the fields for ParaView.
+#include "run/static_solve.h"
+
+#include "base/memory.h"
+#include "io/array_file.h"
+#include "io/json_writer.h"
+#include "run/scene_keys.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { PATH_SIZE = 1200 };
+
+static bool write_json(const char *folder, const Simulation *simulation,
+                       const StaticSummary *summary, Error *err)
+{
+    char path[PATH_SIZE];
+    snprintf(path, sizeof path, "%s/static.json", folder);
+    JsonWriter *json = json_create(path, err);
+    if (!json) return false;
+    json_begin_object(json, NULL);
+    json_text(json, "status", "done");
+    json_text(json, "version", AMONTONS_VERSION);
+    scene_write_json(&simulation->scene, json, "scene");
+    json_begin_object(json, "model");
+    json_integer(json, "nodes", summary->nodes);
+    json_integer(json, "contact_nodes", summary->contact_nodes);
+    json_integer(json, "rod_nodes", summary->rod_nodes);
+    json_end(json);
+    json_begin_object(json, "results");
+    json_integer(json, "open", summary->open);
+    json_integer(json, "sticking", summary->sticking);
+    json_integer(json, "slipping", summary->slipping);
+    json_number(json, "normal_force", summary->normal_force);
+    json_number(json, "shear_force", summary->shear_force);
+    json_number(json, "pressure_moment", summary->pressure_moment);
+    json_number(json, "rod_force", summary->rod_force);
+    json_number(json, "rod_height", summary->rod_height);
+    json_number(json, "elastic_energy", summary->elastic_energy);
+    json_number(json, "load_work", summary->load_work);
+    json_integer(json, "iterations", summary->iterations);
+    json_end(json);
+    json_begin_object(json, "errors");
+    json_number(json, "residual", summary->residual);
+    json_number(json, "force", summary->force_balance);
+    json_number(json, "moment", summary->moment_balance);
+    json_number(json, "energy", summary->energy_balance);
+    json_number(json, "complementarity", summary->complementarity);
+    json_end(json);
+    json_end(json);
+    return json_finish(json, err);
+}
+
+// One array of the file: values [rows * width].
+typedef struct Column {
+    ArraySeries series;
+    const double *values;
+    int64_t rows;
+} Column;
+
+static bool write_columns(ArrayFile *file, const Column *columns, int32_t count, Error *err)
+{
+    for (int32_t k = 0; k < count; k++) {
+        if (!array_file_add_series(file, &columns[k].series, err)) return false;
+        if (!array_file_append(file, columns[k].series.name, columns[k].values, columns[k].rows,
+                               err))
+            return false;
+    }
+    return true;
+}
+
+// number: [nodes], stress: of the solution; contact: [4][contacts] node, status, x, weight.
+static bool write_arrays(const char *folder, const Simulation *simulation,
+                         const StaticSolution *solution, const NodalStress *stress, Error *err)
+{
+    const Mesh *mesh = &simulation->mesh;
+    const Interface *interface = &simulation->interface;
+    int64_t nodes = mesh->node_count, contacts = interface->contact_count;
+    ArrayFile *file = NULL;
+    char path[PATH_SIZE];
+    double *number = NEW_ARRAY(double, nodes, err);
+    double *contact = NEW_ARRAY(double, 2 * contacts, err);
+    if (!number || !contact) goto cleanup;
+    for (int64_t i = 0; i < nodes; i++) number[i] = (double)mesh->node_number[i];
+    for (int64_t i = 0; i < contacts; i++) {
+        contact[i] = interface->node[i];
+        contact[contacts + i] = solution->status[i];
+    }
+    const Column columns[] = {
+        {{"nodes/number", ARRAY_INT32, 1, "1", "the mesh's node tags"}, number, nodes},
+        {{"nodes/position", ARRAY_FLOAT64, 2, "length", "x, z"}, mesh->position, nodes},
+        {{"nodes/displacement", ARRAY_FLOAT64, 2, "length", "u_x, u_z"},
+         solution->displacement,
+         nodes},
+        {{"nodes/load", ARRAY_FLOAT64, 2, "force/width", "of pressure and tractions"},
+         solution->load,
+         nodes},
+        {{"nodes/reaction", ARRAY_FLOAT64, 2, "force/width",
+          "of plane, rod and supports on the block; rounding at free nodes"},
+         solution->reaction,
+         nodes},
+        {{"nodes/stress", ARRAY_FLOAT64, 3, "stress", "xx, zz, xz, mean of the elements around"},
+         stress->elastic,
+         nodes},
+        {{"contact/node", ARRAY_INT32, 1, "1", "row of nodes/*, by ascending x"},
+         contact,
+         contacts},
+        {{"contact/status", ARRAY_UINT8, 1, "1",
+          "0 open, 1 stick, 2 slip towards +x, 3 slip towards -x"},
+         contact + contacts,
+         contacts},
+        {{"contact/weight", ARRAY_FLOAT64, 1, "length", "integral of the shape function"},
+         interface->weight,
+         contacts}};
+    snprintf(path, sizeof path, "%s/static.h5", folder);
+    file = array_file_create(path, err);
+    if (!file) goto cleanup;
+    TRY(write_columns(file, columns, (int32_t)(sizeof columns / sizeof columns[0]), err));
+cleanup:
+    memory_free(number);
+    memory_free(contact);
+    if (error_is_clean(err)) return array_file_close(file, err);
+    array_file_abandon(file);
+    return false;
+}
+
+static bool write_vtu(const char *folder, const StaticSolution *solution, Fields *fields,
+                      Error *err)
+{
+    char path[PATH_SIZE];
+    snprintf(path, sizeof path, "%s/static.vtu", folder);
+    FieldState state = {.displacement = solution->displacement, .velocity = solution->work};
+    return fields_write_bulk(fields, &state, path, err);
+}
+
+bool static_report_write(const char *folder, const Simulation *simulation, StaticSolution *solution,
+                         const StaticSummary *summary, Error *err)
+{
+    Fields fields = {0};
+    for (int32_t k = 0; k < simulation->bulk.dof_count; k++) solution->work[k] = 0;
+    TRY(fields_prepare(&simulation->mesh, &simulation->interface, &fields, err));
+    fields.material = &simulation->material;
+    TRY(write_vtu(folder, solution, &fields, err));
+    TRY(write_arrays(folder, simulation, solution, &fields.stress, err));
+    TRY(write_json(folder, simulation, summary, err));
+cleanup:
+    fields_destroy(&fields);
+    return error_is_clean(err);
+}

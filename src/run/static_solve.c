@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "run/static_solve.h"
+
+#include "base/dense.h"
+#include "base/memory.h"
+#include "bulk/element.h"
+#include "contact/contact_check.h"
+#include "run/result_folder.h"
+
+#include <math.h>
+#include <string.h>
+
+static bool make_room(const Simulation *simulation, StaticSolution *solution, Error *err)
+{
+    int32_t dofs = simulation->bulk.dof_count;
+    const Interface *interface = &simulation->interface;
+    solution->displacement = NEW_ARRAY(double, dofs, err);
+    solution->load = NEW_ARRAY(double, dofs, err);
+    solution->reaction = NEW_ARRAY(double, dofs, err);
+    solution->work = NEW_ARRAY(double, dofs, err);
+    solution->contact_displacement = NEW_ARRAY(double, interface->count, err);
+    solution->contact_reaction = NEW_ARRAY(double, interface->count, err);
+    solution->status = NEW_ARRAY(uint8_t, interface->contact_count, err);
+    solution->rod_touches = NEW_ARRAY(uint8_t, interface->rod_count, err);
+    return error_is_clean(err);
+}
+
+void static_solution_destroy(StaticSolution *solution)
+{
+    memory_free(solution->displacement);
+    memory_free(solution->load);
+    memory_free(solution->reaction);
+    memory_free(solution->work);
+    memory_free(solution->contact_displacement);
+    memory_free(solution->contact_reaction);
+    memory_free(solution->status);
+    memory_free(solution->rod_touches);
+    *solution = (StaticSolution){0};
+}
+
+// All nodes start sticking and the rod touching; bound: [interface_count] work.
+static bool solve_contact(const Simulation *simulation, InterfaceOperator *stiffness,
+                          const double *g, double *bound, StaticSolution *solution, Error *err)
+{
+    const Interface *interface = &simulation->interface;
+    FrictionLaw coulomb = {.kind = FRICTION_COULOMB,
+                           .mu_static = simulation->scene.friction.mu_static};
+    ContactSolver solver = {0};
+    for (int32_t j = 0; j < interface->rod_count; j++) {
+        bound[interface_rod(interface, j)] = simulation->scene.rod.displacement;
+        solution->rod_touches[j] = 1;
+    }
+    for (int32_t i = 0; i < interface->contact_count; i++) solution->status[i] = CONTACT_STICK;
+    ContactProblem problem = {.interface = interface,
+                              .law = &coulomb,
+                              .rod_kind = simulation->scene.rod.kind == ROD_BONDED ? ROD_IS_BONDED
+                                                                                   : ROD_PUSHES,
+                              .schur = interface_operator_schur(stiffness),
+                              .g = g,
+                              .bound = bound};
+    ContactSolution contact = {.velocity = solution->contact_displacement,
+                               .reaction = solution->contact_reaction,
+                               .status = solution->status,
+                               .rod_touches = solution->rod_touches};
+    TRY(contact_solver_create(interface, contact_solver_def(), &solver, err));
+    if (!contact_solve(&solver, &problem, &contact))
+        FAIL(err, ERROR_COMPUTE,
+             "%s: no equilibrium was found in %d iterations: is the block held against sliding "
+             "and tipping (rod, friction, load.supports)?",
+             simulation->scene.path, (int)solver.iterations);
+    solution->iterations = solver.iterations;
+cleanup:
+    contact_solver_destroy(&solver);
+    return error_is_clean(err);
+}
+
+// reaction = int B' sigma - f, element by element: owes nothing to the assembled matrices.
+static void find_reactions(const Simulation *simulation, StaticSolution *solution)
+{
+    const Mesh *mesh = &simulation->mesh;
+    for (int32_t dof = 0; dof < simulation->bulk.dof_count; dof++)
+        solution->reaction[dof] = -solution->load[dof];
+    for (int32_t e = 0; e < mesh->element_count; e++) {
+        double position[ELEMENT_NODES_MAX][2];
+        int32_t first = mesh->first_node[e], nodes = mesh->first_node[e + 1] - first;
+        const int32_t *element = mesh->element_nodes + first;
+        for (int32_t a = 0; a < nodes; a++)
+            memcpy(position[a], mesh->position + 2 * element[a], sizeof position[a]);
+        ElementMatrices matrices;
+        element_matrices(mesh->kind[e], (const double(*)[2])position, &simulation->material,
+                         &matrices);
+        for (int32_t row = 0; row < 2 * nodes; row++) {
+            double force = 0;
+            for (int32_t column = 0; column < 2 * nodes; column++)
+                force += matrices.stiffness[row][column] *
+                         solution->displacement[2 * element[column / 2] + column % 2];
+            solution->reaction[2 * element[row / 2] + row % 2] += force;
+        }
+    }
+}
+
+bool static_solve(Simulation *simulation, StaticSolution *solution, Error *err)
+{
+    *solution = (StaticSolution){0};
+    Bulk *bulk = &simulation->bulk;
+    const Interface *interface = &simulation->interface;
+    InterfaceOperator *stiffness = NULL;
+    BulkOperator system = {0};
+    double *g = NEW_ARRAY(double, interface->count, err);
+    double *bound = NEW_ARRAY(double, interface->count, err);
+    if (!g || !bound) goto cleanup;
+    TRY(make_room(simulation, solution, err));
+    memcpy(solution->load, bulk->load, (size_t)bulk->dof_count * sizeof(double));
+    TRY(model_hold_supports(simulation, err));
+    TRY(bulk_operator_create(bulk, simulation->mesh.position, interface->dofs, interface->count,
+                             &system, err));
+    OperatorTerms terms = {.stiffness = 1, .lift = true};
+    stiffness = interface_operator_create(&system, terms, err);
+    if (!stiffness) goto cleanup;
+    TRY(interface_operator_condense(stiffness, bulk->load, g, err));
+    TRY(solve_contact(simulation, stiffness, g, bound, solution, err));
+    TRY(interface_operator_expand(stiffness, solution->contact_displacement, solution->displacement,
+                                  err));
+    for (int32_t k = 0; k < interface->count; k++)
+        solution->displacement[interface->dofs[k]] = solution->contact_displacement[k];
+    find_reactions(simulation, solution);
+cleanup:
+    interface_operator_destroy(stiffness);
+    bulk_operator_destroy(&system);
+    memory_free(bound);
+    memory_free(g);
+    return error_is_clean(err);
+}
+
+// --- sums and balances --------------------------------------------------------------------------
+
+static void sum_contact(const Simulation *simulation, const StaticSolution *solution,
+                        StaticSummary *summary)
+{
+    const Interface *interface = &simulation->interface;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        const double *force = solution->reaction + 2 * interface->node[i];
+        summary->shear_force += force[0];
+        summary->normal_force += force[1];
+        summary->pressure_moment += interface->x[i] * force[1];
+        summary->open += solution->status[i] == CONTACT_OPEN;
+        summary->sticking += solution->status[i] == CONTACT_STICK;
+        summary->slipping += status_slips(solution->status[i]);
+    }
+    double moment = 0;
+    for (int32_t j = 0; j < interface->rod_count; j++) {
+        double force = solution->contact_reaction[interface_rod(interface, j)];
+        summary->rod_force += force;
+        moment += interface->rod_z[j] * force;
+    }
+    summary->rod_height = summary->rod_force != 0 ? moment / summary->rod_force : NAN;
+}
+
+// The largest nodal force that nothing gives, and that the interface gives otherwise than it says.
+static double find_residual(const Simulation *simulation, const StaticSolution *solution,
+                            double *interface_force)
+{
+    const Interface *interface = &simulation->interface;
+    const uint8_t *held = simulation->bulk.held;
+    int32_t dofs = simulation->bulk.dof_count;
+    memset(interface_force, 0, (size_t)dofs * sizeof(double));
+    for (int32_t k = 0; k < interface->count; k++)
+        interface_force[interface->dofs[k]] = solution->contact_reaction[k];
+    double worst = 0;
+    for (int32_t dof = 0; dof < dofs; dof++)
+        if (!held[dof]) worst = fmax(worst, fabs(solution->reaction[dof] - interface_force[dof]));
+    return worst;
+}
+
+static double contact_violation(const Simulation *simulation, const StaticSolution *solution,
+                                double *bound)
+{
+    const Interface *interface = &simulation->interface;
+    FrictionLaw coulomb = {.kind = FRICTION_COULOMB,
+                           .mu_static = simulation->scene.friction.mu_static};
+    memset(bound, 0, (size_t)interface->count * sizeof(double));
+    for (int32_t j = 0; j < interface->rod_count; j++)
+        bound[interface_rod(interface, j)] = simulation->scene.rod.displacement;
+    ContactProblem problem = {.interface = interface,
+                              .law = &coulomb,
+                              .rod_kind = simulation->scene.rod.kind == ROD_BONDED ? ROD_IS_BONDED
+                                                                                   : ROD_PUSHES,
+                              .bound = bound};
+    double force = dense_max_abs(solution->contact_reaction, interface->count);
+    double length = dense_max_abs(solution->displacement, simulation->bulk.dof_count);
+    ContactResidual residual = contact_residual(&problem, solution->contact_displacement,
+                                                solution->contact_reaction, force > 0 ? force : 1,
+                                                length > 0 ? length : 1);
+    return contact_residual_max(&residual);
+}
+
+StaticSummary static_summarise(const Simulation *simulation, StaticSolution *solution)
+{
+    const Mesh *mesh = &simulation->mesh;
+    int32_t dofs = simulation->bulk.dof_count;
+    StaticSummary summary = {.nodes = mesh->node_count,
+                             .contact_nodes = simulation->interface.contact_count,
+                             .rod_nodes = simulation->interface.rod_count,
+                             .iterations = solution->iterations};
+    sum_contact(simulation, solution, &summary);
+    double force[2] = {0}, moment = 0, moved = 0, internal_work = 0, reaction_work = 0, size = 0;
+    for (int32_t node = 0; node < mesh->node_count; node++) {
+        const double *load = solution->load + 2 * node, *r = solution->reaction + 2 * node;
+        const double *u = solution->displacement + 2 * node, *at = mesh->position + 2 * node;
+        for (int d = 0; d < 2; d++) {
+            force[d] += load[d] + r[d];
+            moved += fabs(r[d]);
+            size = fmax(size, fabs(at[d]));
+            reaction_work += r[d] * u[d];
+            internal_work += (load[d] + r[d]) * u[d];
+            summary.load_work += load[d] * u[d];
+        }
+        moment += at[0] * (load[1] + r[1]) - at[1] * (load[0] + r[0]);
+    }
+    summary.elastic_energy = 0.5 * internal_work;
+    double scale = moved > 0 ? moved : 1;
+    double largest =
+        fmax(dense_max_abs(solution->reaction, dofs), dense_max_abs(solution->load, dofs));
+    summary.residual = find_residual(simulation, solution, solution->work) /
+                       (largest > 0 ? largest : 1);
+    summary.force_balance = fmax(fabs(force[0]), fabs(force[1])) / scale;
+    summary.moment_balance = fabs(moment) / (scale * (size > 0 ? size : 1));
+    double applied = summary.load_work;
+    for (int32_t k = 0; k < simulation->interface.count; k++)
+        applied += solution->contact_reaction[k] * solution->contact_displacement[k];
+    summary.energy_balance = fabs(internal_work - applied) /
+                             fmax(fabs(internal_work), fabs(reaction_work) + 1e-300);
+    summary.complementarity = contact_violation(simulation, solution, solution->work);
+    return summary;
+}
+
+bool amontons_static(const Scene *scene, const char *folder, bool overwrite, StaticSummary *summary,
+                     Error *err)
+{
+    StaticSolution solution = {0};
+    *summary = (StaticSummary){0};
+    Simulation *simulation = NEW_ARRAY(Simulation, 1, err);
+    if (!simulation) goto cleanup;
+    simulation->scene = *scene;
+    dense_use_one_thread();
+    if (folder) TRY(result_folder_prepare(folder, overwrite, err));
+    TRY(model_read_mesh(simulation, err));
+    TRY(model_build_bulk(simulation, err));
+    TRY(static_solve(simulation, &solution, err));
+    *summary = static_summarise(simulation, &solution);
+    if (folder) TRY(static_report_write(folder, simulation, &solution, summary, err));
+cleanup:
+    static_solution_destroy(&solution);
+    amontons_simulation_destroy(simulation);
+    return error_is_clean(err);
+}
