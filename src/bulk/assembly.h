@@ -26,7 +26,7 @@ void bulk_destroy(Bulk *bulk);
 void bulk_add_traction(const Mesh *mesh, const MeshCurve *curve, const double traction[2],
                        Bulk *bulk);
 
-// Holds an unknown at 0: its couplings leave K and C, its load goes, its diagonals stay. Whatever is
+// Holds an unknown at 0: its couplings leave K and C, its load goes, its diagonals stay. What is
 // solved with the bulk from then on leaves it at rest.
 void bulk_hold(int32_t dof, Bulk *bulk);
 

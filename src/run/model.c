@@ -258,8 +258,8 @@ static void touch_rod(Simulation *simulation)
             now->displacement[simulation->system.interface_dofs[interface_rod(interface, j)]];
 }
 
-// Adds the velocity at t = 0, but for what is held. A reduced bulk's first unknowns are those of the
-// interface, and their static modes move all of it.
+// Adds the velocity at t = 0, but for what is held. A reduced bulk's first unknowns are the
+// interface's, and their static modes move all of it.
 static void set_moving(Simulation *simulation)
 {
     const Interface *interface = &simulation->interface;
