@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The condensed operator against dense elimination, the shift taken off again, a whole solve.
+// The condensed operator against dense elimination, what was lifted lowered again, a whole solve.
 #include "bulk/interface_operator.h"
 
 #include "base/dense.h"
@@ -108,12 +108,13 @@ static void test_whole_solve(void **state)
     hand_apply(a, n, n, v, out);
     assert_all_near("A v", out, b, n, 1e-12);
 
-    // K x and C x by the same border.
-    double *dense[] = {dense_sum(&fixture.bulk, (OperatorTerms){.stiffness = 1}),
-                       dense_sum(&fixture.bulk, (OperatorTerms){.damping = 1})};
-    for (int which = 0; which < 2; which++) {
+    // K x, C x and M x by the same border.
+    double *dense[] = {[BULK_STIFFNESS] = dense_sum(&fixture.bulk, (OperatorTerms){.stiffness = 1}),
+                       [BULK_DAMPING] = dense_sum(&fixture.bulk, (OperatorTerms){.damping = 1}),
+                       [BULK_MASS] = dense_sum(&fixture.bulk, (OperatorTerms){.mass = 1})};
+    for (int which = BULK_STIFFNESS; which <= BULK_MASS; which++) {
         hand_apply(dense[which], n, n, v, b);
-        bulk_operator_apply(&fixture.system, which ? BULK_DAMPING : BULK_STIFFNESS, v, out);
+        bulk_operator_apply(&fixture.system, (BulkTerm)which, v, out);
         assert_all_near("apply", out, b, n, 1e-13);
         free(dense[which]);
     }
@@ -122,6 +123,35 @@ static void test_whole_solve(void **state)
     free(v);
     free(out);
     interface_operator_destroy(rung);
+    fixture_destroy(&fixture);
+}
+
+// What the operator knows of the block: load, unit rotation (which K does not resist), mass.
+static void test_block_data(void **state)
+{
+    (void)state;
+    Error err = {0};
+    Fixture fixture;
+    fixture_build(ELEMENT_T6, &fixture);
+    int32_t n = fixture.bulk.dof_count;
+    MeshCurve top;
+    assert_true(mesh_curve(&fixture.mesh, "top", &top, &err));
+    bulk_operator_destroy(&fixture.system);
+    bulk_add_traction(&fixture.mesh, &top, (double[2]){0.1, -2}, &fixture.bulk);
+    assert_true(bulk_operator_create(&fixture.bulk, fixture.mesh.position, fixture.dofs,
+                                     INTERFACE_COUNT, &fixture.system, &err));
+    double *force = hand_matrix(n, 1), *full = hand_matrix(n, 1), moment = 0;
+    assert_all_near("load", fixture.system.load, fixture.bulk.load, n, 0);
+    assert_near("mass", fixture.system.mass_total, 1.3 * 0.5, 1e-14);
+    for (int32_t k = 0; k < n; k++) moment += fixture.system.rotation[k] * fixture.system.load[k];
+    assert_near("moment of the load", moment, -2 * 0.5 - 0.1 * 0.5, 1e-14);
+    bulk_operator_apply(&fixture.system, BULK_STIFFNESS, fixture.system.rotation, force);
+    for (int32_t k = 0; k < n; k++) assert_near("force of a rotation", force[k], 0, 1e-13);
+    bulk_operator_recover(&fixture.system, fixture.system.rotation, full);
+    assert_all_near("recovered", full, fixture.system.rotation, n, 0);
+    assert_near("size", bulk_operator_size(&fixture.system, full), 1, 0);
+    free(force);
+    free(full);
     fixture_destroy(&fixture);
 }
 
@@ -167,9 +197,8 @@ static void test_memory_faults(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_schur),
-        cmocka_unit_test(test_whole_solve),
-        cmocka_unit_test(test_not_definite),
+        cmocka_unit_test(test_schur),         cmocka_unit_test(test_whole_solve),
+        cmocka_unit_test(test_block_data),    cmocka_unit_test(test_not_definite),
         cmocka_unit_test(test_memory_faults),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -150,12 +150,8 @@ static void test_rod(void **state)
     assert_true(rod_build(&interface, ROD_PUSHES, 1e-5, &rod, &err));
     assert_int_equal(rod.count, 2);
     assert_true(rod.velocity == 1e-5 && rod.kind == ROD_PUSHES && rod.origin[0] == 0);
-    double displacement[60], reaction[12];
-    for (int32_t k = 0; k < 60; k++) displacement[k] = k;
+    double reaction[12];
     for (int32_t k = 0; k < 12; k++) reaction[k] = k;
-    rod_touch(&rod, &interface, displacement);
-    for (int32_t j = 0; j < 2; j++)
-        assert_near("origin", rod.origin[j], 2 * interface.rod_node[j], 0);
     assert_near("F_T", rod_force(&interface, reaction), 10 + 11, 0);
     rod_destroy(&rod);
     rod_destroy(&rod);
