@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// One pass over the matrices a step. Blocks of two unknowns by two, K and C side by side, upper
+// triangle only: block (i, j), j >= i, holds
+//
+//     K_xx K_zx | K_xz K_zz | C_xx C_zx | C_xz C_zz      (rows i, columns j)
+//
+// and serves rows i and, transposed, rows j. Measured per step against full rows: the same at 20x20
+// and 40x40, where both fit the cache, 0.7 of the time at 80x80. Node i's row is complete when the
+// pass reaches it, for it has met all j < i: its velocity and displacement are advanced there.
+#include "stepping/explicit_reference.h"
+
+#include "base/dense.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { BLOCK_SIZE = 8, NODE_SIZE = 4, NEWTON_MAX = 50 };
+static const double NEWTON_TOLERANCE = 1e-15;   // of the speed: rounding
+
+// x and z of one node.
+typedef double Pair __attribute__((vector_size(16)));
+
+static int32_t count_blocks(const SparsePattern *pattern)
+{
+    int32_t count = 0;
+    for (int32_t row = 0; row < pattern->size; row += 2)
+        for (int32_t k = pattern->start[row]; k < pattern->start[row + 1]; k += 2)
+            count += pattern->index[k] >= row;
+    return count;
+}
+
+static void fill_blocks(ExplicitReference *scheme)
+{
+    const Bulk *bulk = scheme->def.bulk;
+    const SparsePattern *pattern = &bulk->pattern;
+    int32_t filled = 0;
+    for (int32_t i = 0; i < scheme->node_count; i++) {
+        int32_t x = pattern->start[2 * i], z = pattern->start[2 * i + 1];
+        for (int32_t k = 0; k < z - x; k += 2) {
+            int32_t j = pattern->index[x + k] / 2;
+            if (j < i) continue;
+            double *block = scheme->blocks + BLOCK_SIZE * (int64_t)filled;
+            for (int32_t d = 0; d < 2; d++) {
+                block[2 * d] = bulk->stiffness[x + k + d];
+                block[2 * d + 1] = bulk->stiffness[z + k + d];
+                block[4 + 2 * d] = bulk->damping[x + k + d];
+                block[4 + 2 * d + 1] = bulk->damping[z + k + d];
+            }
+            scheme->column[filled++] = j;
+        }
+        scheme->start[i + 1] = filled;
+        scheme->kick[i] = scheme->def.step / bulk->mass[2 * i];
+    }
+}
+
+bool explicit_reference_create(const ExplicitDef *def, ExplicitReference *scheme, Error *err)
+{
+    int32_t nodes = def->bulk->dof_count / 2, blocks = count_blocks(&def->bulk->pattern);
+    *scheme = (ExplicitReference){.def = *def, .node_count = nodes};
+    scheme->start = NEW_ARRAY(int32_t, (int64_t)nodes + 1, err);
+    scheme->column = NEW_ARRAY(int32_t, blocks, err);
+    scheme->blocks = NEW_ARRAY(double, BLOCK_SIZE *(int64_t)blocks, err);
+    scheme->kick = NEW_ARRAY(double, nodes, err);
+    scheme->now = NEW_ARRAY(double, NODE_SIZE *(int64_t)nodes, err);
+    scheme->next = NEW_ARRAY(double, NODE_SIZE *(int64_t)nodes, err);
+    scheme->force = NEW_ARRAY(double, NODE_SIZE *(int64_t)nodes, err);
+    scheme->bound = NEW_ARRAY(double, def->interface->count, err);
+    if (error_is_clean(err)) fill_blocks(scheme);
+    return error_is_clean(err);
+}
+
+void explicit_reference_destroy(ExplicitReference *scheme)
+{
+    memory_free(scheme->start);
+    memory_free(scheme->column);
+    memory_free(scheme->blocks);
+    memory_free(scheme->kick);
+    memory_free(scheme->now);
+    memory_free(scheme->next);
+    memory_free(scheme->force);
+    memory_free(scheme->bound);
+    *scheme = (ExplicitReference){0};
+}
+
+void explicit_reference_start(ExplicitReference *scheme, const State *state)
+{
+    scheme->time = state->time;
+    scheme->steps = 0;
+    for (int32_t i = 0; i < scheme->node_count; i++) {
+        for (int32_t d = 0; d < 2; d++) {
+            int32_t dof = 2 * i + d;
+            scheme->now[NODE_SIZE * i + d] = state->displacement[dof];
+            scheme->now[NODE_SIZE * i + 2 + d] = state->velocity[dof] -
+                                                 0.5 * scheme->kick[i] * state->inertia[dof];
+        }
+    }
+}
+
+// now -> next as if nothing were touched. Returns v C v, the viscous power.
+static double sweep_free(ExplicitReference *scheme)
+{
+    const Pair *restrict blocks = (const Pair *)scheme->blocks;
+    const Pair *restrict load = (const Pair *)scheme->def.bulk->load;
+    const Pair *restrict now = (const Pair *)scheme->now;
+    Pair *restrict next = (Pair *)scheme->next;
+    Pair *restrict force = (Pair *)scheme->force;
+    const int32_t *restrict start = scheme->start, *restrict column = scheme->column;
+    double step = scheme->def.step;
+    Pair power = {0, 0};
+    memset(force, 0, NODE_SIZE * (size_t)scheme->node_count * sizeof(double));
+    for (int32_t i = 0; i < scheme->node_count; i++) {
+        Pair u = now[2 * i], v = now[2 * i + 1];
+        const Pair *diagonal = blocks + 4 * (int64_t)start[i];
+        Pair elastic = force[2 * i] + diagonal[0] * u[0] + diagonal[1] * u[1];
+        Pair viscous = force[2 * i + 1] + diagonal[2] * v[0] + diagonal[3] * v[1];
+        for (int32_t b = start[i] + 1; b < start[i + 1]; b++) {
+            const Pair *block = blocks + 4 * (int64_t)b;
+            Pair kx = block[0], kz = block[1], cx = block[2], cz = block[3];
+            int32_t j = column[b];
+            Pair uj = now[2 * j], vj = now[2 * j + 1];
+            elastic += kx * uj[0] + kz * uj[1];
+            viscous += cx * vj[0] + cz * vj[1];
+            force[2 * j] += __builtin_shufflevector(kx, kz, 0, 2) * u[0] +
+                            __builtin_shufflevector(kx, kz, 1, 3) * u[1];
+            force[2 * j + 1] += __builtin_shufflevector(cx, cz, 0, 2) * v[0] +
+                                __builtin_shufflevector(cx, cz, 1, 3) * v[1];
+        }
+        power += v * viscous;
+        Pair faster = v + scheme->kick[i] * (load[i] - elastic - viscous);
+        next[2 * i] = u + step * faster;
+        next[2 * i + 1] = faster;
+    }
+    return power[0] + power[1];
+}
+
+// The speed left of `free_speed` by friction, strength = (dt/m) r_n: the root of
+//     w + strength mu(w) - free_speed,    slope 1 + strength mu'(w);
+// 0: sticks. The law is convex, so Newton from the right goes down to the largest root.
+static double slip_speed(const FrictionLaw *law, double free_speed, double strength, bool slipped)
+{
+    bool may_stick = free_speed <= strength * friction_coefficient(law, 0);
+    if (may_stick && (!slipped || 1 + strength * friction_slope(law, 0) > 0)) return 0;
+    double speed = free_speed;
+    for (int32_t k = 0; k < NEWTON_MAX; k++) {
+        double slope = 1 + strength * friction_slope(law, speed);
+        if (slope <= 0) return 0;   // there is no root: it has come to rest
+        double excess = speed + strength * friction_coefficient(law, speed) - free_speed;
+        speed -= excess / slope;
+        if (speed <= 0) return 0;
+        if (fabs(excess) <= NEWTON_TOLERANCE * free_speed) break;
+    }
+    return speed;
+}
+
+// Contact node i; returns the power it dissipates.
+static double resolve_contact(ExplicitReference *scheme, int32_t i, State *state)
+{
+    int32_t t = interface_tangent(i), n = interface_normal(i);
+    int32_t node = scheme->def.interface->node[i];
+    double step = scheme->def.step, kick = scheme->kick[node];
+    double gap = scheme->now[NODE_SIZE * node + 1], *u = scheme->next + NODE_SIZE * node,
+           *v = u + 2;
+    double bound = -gap / step;
+    scheme->bound[n] = bound;
+    if (v[1] >= bound) {
+        state->status[i] = CONTACT_OPEN;
+        state->reaction[t] = state->reaction[n] = 0;
+    } else {
+        double strength = bound - v[1];   // (dt/m) r_n
+        bool slipped = status_slips(state->status[i]) &&
+                       status_direction(state->status[i]) * v[0] > 0;
+        double speed = slip_speed(scheme->def.law, fabs(v[0]), strength, slipped);
+        double slip_rate = copysign(speed, v[0]);
+        state->status[i] = speed == 0      ? CONTACT_STICK
+                           : slip_rate > 0 ? CONTACT_SLIP_FORWARD
+                                           : CONTACT_SLIP_BACKWARD;
+        state->reaction[n] = strength / kick;
+        state->reaction[t] = (slip_rate - v[0]) / kick;
+        v[0] = slip_rate;
+        v[1] = bound;
+        u[0] = scheme->now[NODE_SIZE * node] + step * slip_rate;
+        u[1] = 0;
+    }
+    state->slip_rate[t] = v[0];
+    state->slip_rate[n] = v[1];
+    return -v[0] * state->reaction[t] - v[1] * state->reaction[n];
+}
+
+// Rod node j, `target` its place at the end of the step; returns the rod's power.
+static double resolve_rod(ExplicitReference *scheme, int32_t j, double target, State *state)
+{
+    const Interface *interface = scheme->def.interface;
+    int32_t x = interface_rod(interface, j), node = interface->rod_node[j];
+    RodKind kind = scheme->def.rod->kind;
+    double step = scheme->def.step, *u = scheme->next + NODE_SIZE * node, *v = u + 2;
+    double bound = (target - scheme->now[NODE_SIZE * node]) / step;
+    bool touches = kind == ROD_IS_BONDED || (kind == ROD_PUSHES && v[0] < bound);
+    scheme->bound[x] = bound;
+    state->rod_touches[j] = touches;
+    state->reaction[x] = touches ? (bound - v[0]) / scheme->kick[node] : 0;
+    if (touches) {
+        v[0] = bound;
+        u[0] = target;
+    }
+    state->slip_rate[x] = v[0];
+    return v[0] * state->reaction[x];
+}
+
+// One step; the powers of the step go to the ledger.
+static void advance_once(ExplicitReference *scheme, State *state, EnergyLedger *ledger)
+{
+    const Interface *interface = scheme->def.interface;
+    const Rod *rod = scheme->def.rod;
+    double step = scheme->def.step, frictional = 0, pushed = 0;
+    double viscous = sweep_free(scheme);
+    for (int32_t i = 0; i < interface->contact_count; i++)
+        frictional += resolve_contact(scheme, i, state);
+    double path = rod->velocity * (scheme->time + step * (double)(scheme->steps + 1));
+    for (int32_t j = 0; j < interface->rod_count; j++)
+        pushed += resolve_rod(scheme, j, rod->origin[j] + path, state);
+    ledger->viscous += step * viscous;
+    ledger->frictional += step * frictional;
+    ledger->rod_work += step * pushed;
+    scheme->steps++;
+}
+
+// The largest |M a + C (v + v')/2 + K u_n - f - r_n|.
+static double centred_residual(ExplicitReference *scheme, const State *state)
+{
+    const Bulk *bulk = scheme->def.bulk;
+    int32_t dofs = bulk->dof_count;
+    double step = scheme->def.step;
+    double *field = scheme->next, *sum = scheme->force, *viscous = scheme->force + dofs;
+    for (int32_t k = 0; k < dofs; k++)
+        field[k] = state->velocity[k] - 0.5 * scheme->kick[k / 2] * state->inertia[k];
+    sparse_apply(&bulk->pattern, bulk->damping, field, viscous);
+    for (int32_t k = 0; k < dofs; k++)
+        field[k] = state->displacement[k] - step * state->velocity[k];
+    sparse_apply(&bulk->pattern, bulk->stiffness, field, sum);
+    for (int32_t k = 0; k < dofs; k++) sum[k] += state->inertia[k] + viscous[k] - bulk->load[k];
+    for (int32_t k = 0; k < state->interface_count; k++)
+        sum[scheme->def.interface->dofs[k]] -= state->reaction[k];
+    return dense_max_abs(sum, dofs);
+}
+
+// The last step as a state; `next` still holds the v before it. Returns the work of the loads since
+// the state handed in.
+static double fill_state(ExplicitReference *scheme, State *state)
+{
+    const Bulk *bulk = scheme->def.bulk;
+    double load_work = 0;
+    for (int32_t i = 0; i < scheme->node_count; i++) {
+        for (int32_t d = 0; d < 2; d++) {
+            int32_t dof = 2 * i + d;
+            double u = scheme->now[NODE_SIZE * i + d], v = scheme->now[NODE_SIZE * i + 2 + d];
+            load_work += bulk->load[dof] * (u - state->displacement[dof]);
+            state->displacement[dof] = u;
+            state->velocity[dof] = v;
+            state->momentum[dof] = bulk->mass[dof] * v;
+            state->inertia[dof] = (v - scheme->next[NODE_SIZE * i + 2 + d]) / scheme->kick[i];
+        }
+    }
+    sparse_apply(&bulk->pattern, bulk->stiffness, state->displacement, state->elastic_force);
+    state->time = scheme->time + scheme->def.step * (double)scheme->steps;
+    return load_work;
+}
+
+bool explicit_reference_advance(ExplicitReference *scheme, int64_t steps, State *state,
+                                EnergyLedger *ledger, Error *err)
+{
+    for (int64_t k = 0; k < steps; k++) {
+        advance_once(scheme, state, ledger);
+        double *spare = scheme->now;
+        scheme->now = scheme->next;
+        scheme->next = spare;
+    }
+    ledger->load_work += fill_state(scheme, state);
+    energy_store(state, ledger);
+    if (!isfinite(ledger->elastic) || !isfinite(ledger->kinetic))
+        FAIL(err, ERROR_COMPUTE,
+             "the explicit steps of %g have blown up before t = %g: they are longer than is stable",
+             scheme->def.step, state->time);
+    scheme->residual = centred_residual(scheme, state);
+cleanup:
+    return error_is_clean(err);
+}

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The explicit reference: central differences with lumped mass, nothing shared with the implicit
+// path but the matrices, the friction law and the conditions of contact. An independent check of
+// it, and the yardstick of its speed: the inner loop does what a step needs and nothing else.
+//
+//     M (v' - v)/dt = f - K u_n - C v + r_n,   u_n+1 = u_n + dt v',   v, v' at t_n -+ dt/2
+//
+// Viscous forces lag half a step: of order 1 in dt C, with twice the stable step that an
+// extrapolation of order 2 would have (stepping/stable_step gives it). Without viscosity and
+// friction the scheme is of order 2. r_n and v' satisfy contact, friction and rod together; M is
+// diagonal, so that is a problem of one node at a time and is solved exactly, without penalty or
+// smoothing:
+//
+//     normal     v'_n >= -u_n/dt,  r_n >= 0, complementary         (no gap below 0 at t_n+1)
+//     tangent    stick, or |v'_t| + (dt/m) mu(|v'_t|) r_n = |free v_t|,   friction against v'_t
+//     rod        v'_x >= (target(t_n+1) - u_n)/dt,  r_x >= 0, complementary; bonded: =
+//
+// Where weakening outruns the node's inertia, (dt/m) r_n |mu'| > 1, a node could both stick and
+// slip; then it goes on doing what it did. Called by run/explicit_loop.
+#ifndef AMONTONS_STEPPING_EXPLICIT_REFERENCE_H
+#define AMONTONS_STEPPING_EXPLICIT_REFERENCE_H
+
+#include "bulk/assembly.h"
+#include "contact/rod.h"
+#include "stepping/energy.h"
+
+typedef struct ExplicitDef {
+    const Bulk *bulk;
+    const Interface *interface;
+    const FrictionLaw *law;
+    const Rod *rod;
+    double step;   // dt, time
+} ExplicitDef;
+
+typedef struct ExplicitReference {
+    ExplicitDef def;   // its parts are not owned
+    int32_t node_count;
+    int32_t *start;   // [node_count + 1] of the node's blocks; owned, like all that follows
+    int32_t *column;   // [blocks] node; the first of each row is the diagonal
+    double *blocks;   // [blocks * 8] upper triangle of K and C by nodes, see explicit_reference.c
+    double *kick;   // [node_count] dt / mass
+    double *now;   // [node_count * 4] u_x, u_z at t_n, v_x, v_z at t_n - dt/2
+    double *next;   // [node_count * 4] the same a step later
+    double *force;   // [node_count * 4] work: K u, C v
+    double *bound;   // [interface->count] of the last step, as in contact/contact_problem
+    double time;   // t_n at the start
+    int64_t steps;   // since then
+    double residual;   // of M a + C (v + v')/2 + K u = f + r in the last step, largest: the lag
+} ExplicitReference;
+
+bool explicit_reference_create(const ExplicitDef *def, ExplicitReference *scheme, Error *err);
+void explicit_reference_destroy(ExplicitReference *scheme);
+
+// Begins at `state` (u, v and a at one time; of the full mesh).
+void explicit_reference_start(ExplicitReference *scheme, const State *state);
+
+// `steps` steps, and `state` at their end: u there, everything else of the last step (v', slip
+// rates and reactions that belong together). The ledger's works are summed step by step, force at
+// t_n times v' dt, so what it misses is the scheme's own error, of order 1. Allocates nothing.
+// ERROR_COMPUTE: something is no longer finite.
+bool explicit_reference_advance(ExplicitReference *scheme, int64_t steps, State *state,
+                                EnergyLedger *ledger, Error *err);
+
+#endif
