@@ -159,8 +159,9 @@ static bool make_operator(Simulation *simulation, Error *err)
     const Scene *scene = &simulation->scene;
     const Interface *interface = &simulation->interface;
     bool viscous = scene->material.eta1 > 0;
+    bool implicit = scene->time.scheme == SCHEME_SDIRK2;   // explicit steps are those of the mesh
     bool reduces = scene->reduction.use != REDUCE_NEVER && starts_at_interface(scene);
-    if (reduces && viscous) return reduce_bulk(simulation, err);
+    if (reduces && viscous && implicit) return reduce_bulk(simulation, err);
     return bulk_operator_create(&simulation->bulk, simulation->mesh.position, interface->dofs,
                                 interface->count, &simulation->system, err);
 }
@@ -231,8 +232,10 @@ bool model_prepare_steps(Simulation *simulation, Error *err)
                           .use_certificate = scene->time.certificate};
     if (scene->rod.kind != ROD_NONE)
         def.step_max = fmin(def.step_max, STEP_MAX_SLIP * slip / velocity);
-    if (scene->time.step_max > 0) def.step_max = scene->time.step_max;
-    def.step_min = scene->time.step_min > 0 ? scene->time.step_min : STEP_RANGE * def.step_max;
+    bool implicit = scene->time.scheme == SCHEME_SDIRK2;   // the keys mean the scheme named
+    if (implicit && scene->time.step_max > 0) def.step_max = scene->time.step_max;
+    def.step_min = implicit && scene->time.step_min > 0 ? scene->time.step_min
+                                                        : STEP_RANGE * def.step_max;
     def.wave_step = scene->time.wave_step * simulation->model.length /
                     material_speeds(&simulation->material).longitudinal;
     RodKind kind = scene->start.rod == START_ROD_HELD && scene->rod.kind != ROD_NONE

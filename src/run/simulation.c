@@ -5,6 +5,7 @@
 #include "base/clock.h"
 #include "base/dense.h"
 #include "base/memory.h"
+#include "run/explicit_loop.h"
 #include "run/model.h"
 #include "run/result_folder.h"
 
@@ -168,6 +169,7 @@ bool amontons_simulation_create(const Scene *scene, const RunOptions *options, S
     TRY(model_prepare_steps(simulation, err));
     simulation->timing.reduce = clock_seconds() - started;
     TRY(model_relax(simulation, err));
+    TRY(explicit_loop_prepare(simulation, err));
     TRY(open_recorders(simulation, err));
     TRY(record_step(simulation, err));
     simulation->allocations_before = memory_counters().allocations;
@@ -180,7 +182,10 @@ bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *fini
     StepControl *control = &simulation->control;
     double started = clock_seconds();
     double remaining = simulation->t_end - control->now.time;
-    TRY(step_control_advance(control, remaining, err));
+    if (simulation->scene.time.scheme == SCHEME_EXPLICIT)
+        TRY(explicit_loop_advance(simulation, err));
+    else
+        TRY(step_control_advance(control, remaining, err));
     simulation->timing.solve += clock_seconds() - started;
     TRY(record_step(simulation, err));
     // What is left is less than a rung that is built: not worth a factorisation.
@@ -303,6 +308,7 @@ void amontons_simulation_destroy(Simulation *simulation)
     history_destroy(&simulation->history);
     peaks_destroy(&simulation->peaks);
     events_destroy(&simulation->events);
+    explicit_reference_destroy(&simulation->explicit_reference);
     step_control_destroy(&simulation->control);
     rod_destroy(&simulation->rod);
     bulk_operator_destroy(&simulation->system);

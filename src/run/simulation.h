@@ -10,6 +10,7 @@
 #include "run/recorder.h"
 #include "run/report.h"
 #include "run/scene.h"
+#include "stepping/explicit_reference.h"
 
 struct Simulation {
     Scene scene;
@@ -24,6 +25,8 @@ struct Simulation {
     BulkOperator system;
     Rod rod;
     StepControl control;
+    ExplicitReference explicit_reference;   // empty under another scheme
+    int64_t explicit_steps;   // of it in a recording interval
     ObservationScales scales;
     Observation seen;   // the last accepted step
     Events events;

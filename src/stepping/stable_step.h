@@ -4,8 +4,8 @@
 //     M (v' - v)/dt + C v + K u = f,   u' = u + dt v'.
 //
 // Its discrete energy  v' (M - dt/2 C - dt^2/4 K) v' / 2 + u_m K u_m / 2,  u_m = (u + u')/2, never
-// grows, so it is stable when 4 M - 2 dt C - dt^2 K is positive definite, whether or not C and K have
-// modes in common. With the largest eigenvalues l_C of M^-1 C and l_K of M^-1 K that holds for
+// grows, so it is stable when 4 M - 2 dt C - dt^2 K is positive definite, whether or not C and K
+// have modes in common. With the largest eigenvalues l_C of M^-1 C and l_K of M^-1 K that holds for
 //
 //     dt < 4 / (l_C + sqrt(l_C^2 + 4 l_K)):   2/l_C where viscosity rules, 2/sqrt(l_K) (about
 //                                             h/c) without it.

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "run/explicit_loop.h"
+
+#include "stepping/stable_step.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double RECORDS = 2000;   // a run: some more than the implicit scheme has steps
+
+bool explicit_loop_prepare(Simulation *simulation, Error *err)
+{
+    const Scene *scene = &simulation->scene;
+    StepControl *control = &simulation->control;
+    double step = 0, interval = simulation->t_end / RECORDS;
+    if (scene->time.scheme != SCHEME_EXPLICIT) return true;
+    TRY(stable_step(&simulation->bulk, &step, err));
+    if (scene->time.step_max > 0) step = fmin(step, scene->time.step_max);
+    double steps = ceil(interval / step);
+    if (steps < 1 || steps > 1e15)
+        FAIL(err, ERROR_COMPUTE, "explicit steps of %g in %g of time cannot be counted", step,
+             interval);
+    simulation->explicit_steps = (int64_t)steps;
+    ExplicitDef def = {.bulk = &simulation->bulk,
+                       .interface = &simulation->interface,
+                       .law = &simulation->law,
+                       .rod = &simulation->rod,
+                       .step = interval / steps};
+    TRY(explicit_reference_create(&def, &simulation->explicit_reference, err));
+    explicit_reference_start(&simulation->explicit_reference, &control->now);
+    // The ladder that relaxed the block is done with; now there is one rung, which needs no matrix.
+    ladder_destroy(&control->ladder);
+    ladder_init(&simulation->system, def.step, def.step, &control->ladder);
+    control->def.step_max = control->def.step_min = def.step;
+cleanup:
+    return error_is_clean(err);
+}
+
+bool explicit_loop_advance(Simulation *simulation, Error *err)
+{
+    StepControl *control = &simulation->control;
+    ExplicitReference *scheme = &simulation->explicit_reference;
+    TRY(explicit_reference_advance(scheme, simulation->explicit_steps, &control->now,
+                                   &control->ledger, err));
+    control->last_step = scheme->def.step;
+    control->counters.accepted = scheme->steps;
+    control->ladder.accepted[0] = scheme->steps;
+    control->outcome.residual = scheme->residual;
+    memcpy(control->scheme.bound, scheme->bound,
+           (size_t)simulation->interface.count * sizeof(double));
+    if (control->def.use_certificate)   // limits nothing here; says where l_sc is
+        control->certified = certificate_holds(&control->certificate, &control->now);
+cleanup:
+    return error_is_clean(err);
+}
