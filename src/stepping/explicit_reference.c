@@ -153,6 +153,13 @@ static double slip_speed(const FrictionLaw *law, double free_speed, double stren
     return speed;
 }
 
+// What a force dissipates that changes v to v' in a step is its work by their mean: to slip, and to
+// the plastic impact of a node that arrives.
+static double mean_power(double force, double before, double after)
+{
+    return 0.5 * force * (before + after);
+}
+
 // Contact node i; returns the power it dissipates.
 static double resolve_contact(ExplicitReference *scheme, int32_t i, State *state)
 {
@@ -184,11 +191,15 @@ static double resolve_contact(ExplicitReference *scheme, int32_t i, State *state
     }
     state->slip_rate[t] = v[0];
     state->slip_rate[n] = v[1];
-    return -v[0] * state->reaction[t] - v[1] * state->reaction[n];
+    const double *before = scheme->now + NODE_SIZE * node + 2;
+    return -mean_power(state->reaction[t], before[0], v[0]) -
+           mean_power(state->reaction[n], before[1], v[1]);
 }
 
-// Rod node j, `target` its place at the end of the step; returns the rod's power.
-static double resolve_rod(ExplicitReference *scheme, int32_t j, double target, State *state)
+// Rod node j, `target` its place at the end of the step; returns the rod's power, and through
+// *dissipated what is lost where the face is hit.
+static double resolve_rod(ExplicitReference *scheme, int32_t j, double target, State *state,
+                          double *dissipated)
 {
     const Interface *interface = scheme->def.interface;
     int32_t x = interface_rod(interface, j), node = interface->rod_node[j];
@@ -204,7 +215,10 @@ static double resolve_rod(ExplicitReference *scheme, int32_t j, double target, S
         u[0] = target;
     }
     state->slip_rate[x] = v[0];
-    return v[0] * state->reaction[x];
+    double pushed = state->reaction[x] * v[0];
+    double before = scheme->now[NODE_SIZE * node + 2];
+    *dissipated += pushed - mean_power(state->reaction[x], before, v[0]);
+    return pushed;
 }
 
 // One step; the powers of the step go to the ledger.
@@ -218,7 +232,7 @@ static void advance_once(ExplicitReference *scheme, State *state, EnergyLedger *
         frictional += resolve_contact(scheme, i, state);
     double path = rod->velocity * (scheme->time + step * (double)(scheme->steps + 1));
     for (int32_t j = 0; j < interface->rod_count; j++)
-        pushed += resolve_rod(scheme, j, rod->origin[j] + path, state);
+        pushed += resolve_rod(scheme, j, rod->origin[j] + path, state, &frictional);
     ledger->viscous += step * viscous;
     ledger->frictional += step * frictional;
     ledger->rod_work += step * pushed;

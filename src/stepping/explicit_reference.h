@@ -55,9 +55,9 @@ void explicit_reference_destroy(ExplicitReference *scheme);
 void explicit_reference_start(ExplicitReference *scheme, const State *state);
 
 // `steps` steps, and `state` at their end: u there, everything else of the last step (v', slip
-// rates and reactions that belong together). The ledger's works are summed step by step, force at
-// t_n times v' dt, so what it misses is the scheme's own error, of order 1. Allocates nothing.
-// ERROR_COMPUTE: something is no longer finite.
+// rates and reactions that belong together). The ledger's works are summed step by step
+// (plastic impacts count as friction); what it misses is the scheme's own error, of order 1.
+// Allocates nothing. ERROR_COMPUTE: something is no longer finite.
 bool explicit_reference_advance(ExplicitReference *scheme, int64_t steps, State *state,
                                 EnergyLedger *ledger, Error *err);
 

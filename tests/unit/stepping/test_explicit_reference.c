@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The explicit reference against the implicit scheme (another method for the same equations), against
+// a rigid sled's exact stop, and against the judge of contact, which knows no solver.
+#include "stepping/explicit_reference.h"
+
+#include "contact/contact_check.h"
+#include "stepped_block.h"
+#include "stepping/stable_step.h"
+#include "stepping/step_control.h"
+
+typedef struct Run {
+    ExplicitReference scheme;
+    EnergyLedger ledger;
+} Run;
+
+static void run_start(SteppedBlock *block, double step, Run *run)
+{
+    Error err = {0};
+    ExplicitDef def = {.bulk = &block->bulk,
+                       .interface = &block->interface,
+                       .law = &block->law,
+                       .rod = &block->rod,
+                       .step = step};
+    assert_true(explicit_reference_create(&def, &run->scheme, &err));
+    explicit_reference_start(&run->scheme, &block->state);
+    run->ledger = energy_open(&block->state);
+}
+
+static void run_advance(SteppedBlock *block, int64_t steps, Run *run)
+{
+    Error err = {0};
+    if (!explicit_reference_advance(&run->scheme, steps, &block->state, &run->ledger, &err))
+        fail_msg("%s", err.message);
+}
+
+static double energy_error(const EnergyLedger *ledger)
+{
+    return fabs(energy_imbalance(ledger)) / energy_turnover(ledger);
+}
+
+static double judge(const SteppedBlock *block, const Run *run)
+{
+    ContactProblem problem = {.interface = &block->interface,
+                              .law = &block->law,
+                              .rod_kind = block->rod.kind,
+                              .bound = run->scheme.bound};
+    ContactResidual residual =
+        contact_residual(&problem, block->state.slip_rate, block->state.reaction, 1e-4, 1e-3);
+    return contact_residual_max(&residual);
+}
+
+// --- smooth: order --------------------------------------------------------------------------------
+// A bonded rod sets a frictionless block moving; nothing opens.
+static SteppedDef smooth_block(double eta)
+{
+    return (SteppedDef){.cells = 4,
+                        .pressure = 0.01,
+                        .eta = eta,
+                        .law = {.kind = FRICTION_COULOMB},
+                        .rod_kind = ROD_IS_BONDED,
+                        .rod_velocity = 1e-3};
+}
+
+enum { SMOOTH_STEPS_IMPLICIT = 4096 };
+static const double SMOOTH_TIME = 1.0;
+
+// u at SMOOTH_TIME by SDIRK2 in equal steps of order 2, into wanted [dof_count].
+static void implicit_smooth(double eta, double *wanted)
+{
+    Error err = {0};
+    SteppedDef def = smooth_block(eta);
+    SteppedBlock block;
+    stepped_block_build(&def, &block);
+    Block parts = {.system = &block.system,
+                   .interface = &block.interface,
+                   .law = &block.law,
+                   .rod = &block.rod};
+    double step = SMOOTH_TIME / SMOOTH_STEPS_IMPLICIT;
+    StepControlDef control_def = {.tolerance = 1,
+                                  .step_max = step,
+                                  .step_min = step / 2,
+                                  .wave_step = step,
+                                  .growth_max = 2,
+                                  .use_certificate = false};
+    StepControl control;
+    assert_true(step_control_create(&parts, &control_def, &control, &err));
+    state_copy(&block.state, &control.now);
+    step_control_restart(&control);
+    while (control.counters.accepted < SMOOTH_STEPS_IMPLICIT)
+        assert_true(step_control_advance(&control, INFINITY, &err));
+    assert_near("time", control.now.time, SMOOTH_TIME, 1e-10);
+    memcpy(wanted, control.now.displacement, (size_t)block.state.dof_count * sizeof(double));
+    step_control_destroy(&control);
+    stepped_block_destroy(&block);
+}
+
+// The largest difference of u from `wanted` after `steps` steps, over the rod's way.
+static double smooth_error(double eta, int64_t steps, const double *wanted, double *unbalanced)
+{
+    SteppedDef def = smooth_block(eta);
+    SteppedBlock block;
+    Run run;
+    double worst = 0;
+    stepped_block_build(&def, &block);
+    run_start(&block, SMOOTH_TIME / (double)steps, &run);
+    run_advance(&block, steps, &run);
+    for (int32_t k = 0; k < block.state.dof_count; k++)
+        worst = fmax(worst, fabs(block.state.displacement[k] - wanted[k]));
+    *unbalanced = energy_error(&run.ledger);
+    explicit_reference_destroy(&run.scheme);
+    stepped_block_destroy(&block);
+    return worst / (def.rod_velocity * SMOOTH_TIME);
+}
+
+static void check_order(double eta, int64_t steps, double order, double error_wanted)
+{
+    double wanted[2 * 25], unbalanced[3], errors[3];
+    implicit_smooth(eta, wanted);
+    for (int k = 0; k < 3; k++) errors[k] = smooth_error(eta, steps << k, wanted, &unbalanced[k]);
+    assert_near("order", log2(errors[0] / errors[1]), order, 0.15);
+    assert_near("order", log2(errors[1] / errors[2]), order, 0.15);
+    assert_true(errors[0] < error_wanted);
+    // Though the rod hits standing nodes at the start: what that takes is in the ledger.
+    assert_near("order of the ledger", log2(unbalanced[1] / unbalanced[2]), 1, 0.15);
+}
+
+static void test_order_elastic(void **state)
+{
+    (void)state;
+    check_order(0, 64, 2, 1e-2);
+}
+
+// Viscous forces lag: order 1, but with steps this short as good.
+static void test_order_viscous(void **state)
+{
+    (void)state;
+    check_order(1, 512, 1, 1e-2);
+}
+
+// --- contact and friction ---------------------------------------------------------------------------
+// A block that slides as a whole under Coulomb friction is slowed by mu P L / m whatever waves run
+// in it, so its centre stops at v0 / a, after v0^2 / 2 a, and then stays.
+static void test_sled_stops(void **state)
+{
+    (void)state;
+    Error err = {0};
+    const double mu = 0.3, pressure = 0.001, v0 = 0.02;
+    SteppedDef def = {.cells = 4,
+                      .pressure = pressure,
+                      .eta = 1,
+                      .law = {.kind = FRICTION_COULOMB, .mu_static = mu},
+                      .rod_kind = ROD_AWAY};
+    SteppedBlock block;
+    Run run;
+    double step = 0, mass = STEPPED_LENGTH * STEPPED_HEIGHT, start = 0, centre = 0;
+    double slowing = mu * pressure * STEPPED_LENGTH / mass;
+    stepped_block_build(&def, &block);
+    for (int32_t k = 0; k < block.state.dof_count; k += 2) {
+        block.state.velocity[k] = v0;
+        start += block.bulk.mass[k] * block.state.displacement[k] / mass;
+    }
+    bulk_operator_apply(&block.system, BULK_MASS, block.state.velocity, block.state.momentum);
+    assert_true(stable_step(&block.bulk, &step, &err));
+    run_start(&block, step, &run);
+    for (int32_t k = 0; k < 200; k++) {   // past v0 / slowing
+        run_advance(&block, (int64_t)(0.02 * v0 / slowing / step), &run);
+        assert_true(judge(&block, &run) < 1e-9);
+    }
+    for (int32_t k = 0; k < block.state.dof_count; k += 2)
+        centre += block.bulk.mass[k] * block.state.displacement[k] / mass;
+    assert_near("way", centre - start, v0 * v0 / 2 / slowing, 0.003 * v0 * v0 / 2 / slowing);
+    for (int32_t i = 0; i < block.interface.contact_count; i++)
+        assert_int_equal(block.state.status[i], CONTACT_STICK);
+    assert_near("kinetic", run.ledger.kinetic, 0, 1e-6 * run.ledger.frictional);
+    assert_true(energy_error(&run.ledger) < 1e-3);
+    explicit_reference_destroy(&run.scheme);
+    stepped_block_destroy(&block);
+}
+
+// Stick-slip with each law, pushed and bonded: every observed step keeps the conditions exactly, and
+// all three statuses have been seen.
+static void test_conditions(void **state)
+{
+    (void)state;
+    Error err = {0};
+    const FrictionKind laws[] = {FRICTION_LINEAR_WEAKENING, FRICTION_EXPONENTIAL_WEAKENING,
+                                 FRICTION_COULOMB};
+    for (int32_t k = 0; k < 3; k++) {
+        SteppedDef def = {.cells = 6,
+                          .pressure = 0.003,
+                          .eta = 1,
+                          .law = {.kind = laws[k],
+                                  .mu_static = 0.38,
+                                  .mu_kinetic = 0.1,
+                                  .critical_velocity = 3.4e-4},
+                          .rod_kind = k == 2 ? ROD_IS_BONDED : ROD_PUSHES,
+                          .rod_velocity = 1e-4};
+        SteppedBlock block;
+        Run run;
+        double step = 0;
+        int32_t slips = 0, sticks = 0;
+        stepped_block_build(&def, &block);
+        assert_true(stable_step(&block.bulk, &step, &err));
+        run_start(&block, step, &run);
+        int64_t allocations = memory_counters().allocations;
+        for (int32_t row = 0; row < 400; row++) {
+            run_advance(&block, 100, &run);
+            assert_true(judge(&block, &run) < 1e-9);
+            assert_true(run.scheme.residual < 1e-3 * def.pressure);
+            for (int32_t i = 0; i < block.interface.contact_count; i++) {
+                slips += status_slips(block.state.status[i]);
+                sticks += block.state.status[i] == CONTACT_STICK;
+            }
+        }
+        assert_int_equal(memory_counters().allocations, allocations);
+        assert_near("time", block.state.time, 40000 * step, 1e-9);
+        assert_true(slips > 100 && sticks > 100);
+        assert_true(energy_error(&run.ledger) < 1e-3);
+        explicit_reference_destroy(&run.scheme);
+        stepped_block_destroy(&block);
+    }
+}
+
+// A law so steep that both stick and slip hold: who sticks goes on sticking, who slips slipping.
+static void test_both_hold(void **state)
+{
+    (void)state;
+    Error err = {0};
+    for (int32_t slips = 0; slips < 2; slips++) {
+        SteppedDef def = {.cells = 2,
+                          .pressure = 0.01,
+                          .eta = 0,
+                          .law = {.kind = FRICTION_LINEAR_WEAKENING,
+                                  .mu_static = 1e3,
+                                  .mu_kinetic = 1e-3,
+                                  .critical_velocity = 1e-6},
+                          .rod_kind = ROD_AWAY};
+        SteppedBlock block;
+        Run run;
+        double step = 0;
+        stepped_block_build(&def, &block);
+        for (int32_t k = 0; k < block.state.dof_count; k += 2) block.state.velocity[k] = 1e-3;
+        if (slips)
+            memset(block.state.status, CONTACT_SLIP_FORWARD, (size_t)block.state.contact_count);
+        assert_true(stable_step(&block.bulk, &step, &err));
+        run_start(&block, step, &run);
+        run_advance(&block, 1, &run);
+        assert_true(judge(&block, &run) < 1e-9);
+        for (int32_t i = 0; i < block.interface.contact_count; i++)
+            assert_int_equal(block.state.status[i], slips ? CONTACT_SLIP_FORWARD : CONTACT_STICK);
+        explicit_reference_destroy(&run.scheme);
+        stepped_block_destroy(&block);
+    }
+}
+
+// Lifted off and pulled down, the block lands without going through the plane, and loses the rod.
+static void test_landing(void **state)
+{
+    (void)state;
+    Error err = {0};
+    SteppedDef def = {.cells = 4,
+                      .pressure = 0.01,
+                      .eta = 1,
+                      .law = {.kind = FRICTION_COULOMB, .mu_static = 0.2},
+                      .rod_kind = ROD_PUSHES,
+                      .rod_velocity = 1e-3};
+    SteppedBlock block;
+    Run run;
+    double step = 0;
+    int32_t opened = 0;
+    stepped_block_build(&def, &block);
+    for (int32_t i = 0; i < block.mesh.node_count; i++) {
+        block.state.displacement[2 * i] += 1e-3;   // 1 time unit ahead of the rod
+        block.state.displacement[2 * i + 1] += 2e-3;
+    }
+    assert_true(stable_step(&block.bulk, &step, &err));
+    run_start(&block, step, &run);
+    for (int32_t row = 0; row < 300; row++) {
+        run_advance(&block, (int64_t)(0.01 / step), &run);
+        assert_true(judge(&block, &run) < 1e-9);
+        for (int32_t i = 0; i < block.interface.contact_count; i++) {
+            int32_t node = block.interface.node[i];
+            assert_true(block.state.displacement[2 * node + 1] >= -1e-16);
+            opened += block.state.status[i] == CONTACT_OPEN;
+        }
+        bool ahead = block.state.time < 0.9, pushed = block.state.rod_touches[0];
+        assert_false(ahead && pushed);
+    }
+    assert_true(opened > 0);
+    assert_true(block.state.rod_touches[0]);
+    for (int32_t i = 0; i < block.interface.contact_count; i++)
+        assert_int_not_equal(block.state.status[i], CONTACT_OPEN);
+    explicit_reference_destroy(&run.scheme);
+    stepped_block_destroy(&block);
+}
+
+static void test_memory(void **state)
+{
+    (void)state;
+    SteppedDef def = smooth_block(1);
+    SteppedBlock block;
+    stepped_block_build(&def, &block);
+    ExplicitDef parts = {
+        .bulk = &block.bulk, .interface = &block.interface, .law = &block.law, .rod = &block.rod};
+    int64_t live = memory_counters().live;
+    bool created = false;
+    for (int32_t allowed = 0; !created; allowed++) {
+        Error err = {0};
+        ExplicitReference scheme;
+        memory_fail_after(allowed);
+        created = explicit_reference_create(&parts, &scheme, &err);
+        memory_fail_after(-1);
+        assert_int_equal(err.code, created ? ERROR_NONE : ERROR_MEMORY);
+        explicit_reference_destroy(&scheme);
+        assert_int_equal(memory_counters().live, live);
+        assert_true(allowed < 20);
+    }
+    stepped_block_destroy(&block);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_order_elastic), cmocka_unit_test(test_order_viscous),
+        cmocka_unit_test(test_sled_stops),    cmocka_unit_test(test_conditions),
+        cmocka_unit_test(test_both_hold),     cmocka_unit_test(test_landing),
+        cmocka_unit_test(test_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
