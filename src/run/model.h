@@ -6,11 +6,16 @@
 
 #include "run/simulation.h"
 
-// Each needs the ones before it.
+// run/model_shape: everything up to the operator, the shortest way. What the scene does not need of it
+// is not done: a shape in the cache is neither meshed nor assembled.
+bool model_obtain(Simulation *simulation, Error *err);
+
+// Parts of that, for those who need the assembled bulk itself; each needs the ones before it.
 bool model_read_mesh(Simulation *simulation, Error *err);
 bool model_build_bulk(Simulation *simulation, Error *err);   // material, bulk, loads, interface
 bool model_hold_supports(Simulation *simulation, Error *err);   // takes their unknowns out of it
-bool model_assemble(Simulation *simulation, Error *err);   // these two, and the operator
+
+// run/model: after model_obtain, in this order.
 bool model_prepare_steps(Simulation *simulation, Error *err);
 bool model_relax(Simulation *simulation, Error *err);   // to t = 0, the rod in place
 

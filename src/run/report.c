@@ -48,7 +48,7 @@ static void write_timing(JsonWriter *json, const RunTiming *timing)
     json_end(json);
 }
 
-static void write_model(JsonWriter *json, const RunModel *model)
+static void write_model(JsonWriter *json, const RunModel *model, const char *note)
 {
     json_begin_object(json, "model");
     json_integer(json, "contact_nodes", model->contact_nodes);
@@ -56,10 +56,11 @@ static void write_model(JsonWriter *json, const RunModel *model)
     json_integer(json, "elements", model->elements);
     json_integer(json, "full_dofs", model->full_dofs);
     json_integer(json, "reduced_dofs", model->reduced_dofs);
-    json_boolean(json, "from_cache", false);
+    json_boolean(json, "from_cache", model->from_cache);
     json_number(json, "length", model->length);
     json_number(json, "height", model->height);
     json_integer(json, "relaxation_steps", model->relaxation_steps);
+    json_text(json, "cache_note", note[0] ? note : NULL);
     json_end(json);
 }
 
@@ -119,7 +120,7 @@ static void write_errors(JsonWriter *json, const RunErrors *errors)
     json_number(json, "moment", errors->moment);
     json_number(json, "moment_quasi_static", errors->moment_quasi_static);
     json_number(json, "equation", errors->equation);
-    json_number(json, "reduction", 0);   // the full mesh is solved
+    json_number(json, "reduction", errors->reduction);
     json_end(json);
 }
 
@@ -140,7 +141,7 @@ bool report_write(const char *folder, const RunReport *report, Error *err)
     write_steps(json, report->counters);
     write_rungs(json, report->ladder);
     write_timing(json, report->timing);
-    write_model(json, report->model);
+    write_model(json, report->model, report->cache_note);
     write_results(json, report);
     write_errors(json, report->errors);
     json_end(json);

@@ -11,6 +11,7 @@
 // The largest of each kind of error over a run's accepted steps, relative (run/observation).
 typedef struct RunErrors {
     double energy, complementarity, moment, equation;
+    double reduction;   // the largest response left out of the interior basis; 0: the full mesh
     double moment_quasi_static;   // without inertia, over frames in which nothing is fast
 } RunErrors;
 
@@ -22,6 +23,7 @@ typedef struct RunModel {
     int32_t contact_nodes, rod_nodes, full_dofs, reduced_dofs, elements;
     double length, height;
     int64_t relaxation_steps;
+    bool from_cache;   // the shape was: no mesh read, nothing factored
 } RunModel;
 
 // Nothing is owned.
@@ -36,6 +38,7 @@ typedef struct RunReport {
     const Peaks *peaks;
     const PeaksSummary *summary;
     const Events *events;
+    const char *cache_note;         // empty: nothing to say
 } RunReport;
 
 bool report_write(const char *folder, const RunReport *report, Error *err);

@@ -146,9 +146,10 @@ static const SceneKey keys[] = {
      .sentence = "Reduce the bulk to its interface and a small interior basis before stepping; "
                  "`auto`: where that is expected to be faster.",
      .choices = reduce_choices},
-    {"reduction.tolerance", KEY_NUMBER, offsetof(Scene, reduction.tolerance), "1", RANGE_PART,
-     "1e-3",
-     .sentence = "Interior responses smaller than this, relative, are left out of the basis."},
+    {"reduction.tolerance", KEY_NUMBER, offsetof(Scene, reduction.tolerance), "1",
+     RANGE_PART_OR_ZERO, "0",
+     .sentence = "Interior responses smaller than this, relative, are left out of the basis; 0: by "
+                 "time.accuracy."},
     {"reduction.cache", KEY_FLAG, offsetof(Scene, reduction.cache), "1", RANGE_ANY, "true",
      .sentence = "Keep the basis on disk for the next run of the same shape."},
     {"output.history", KEY_FLAG, offsetof(Scene, output.history), "1", RANGE_ANY, "true",

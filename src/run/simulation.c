@@ -159,15 +159,12 @@ bool amontons_simulation_create(const Scene *scene, const RunOptions *options, S
             goto cleanup;
         }
     }
-    TRY(model_read_mesh(simulation, err));
-    double started = clock_seconds();
-    TRY(model_assemble(simulation, err));
     if (!(scene->time.until_U > 0) && !(scene->time.until_t > 0))
         FAIL(err, ERROR_INPUT,
              "%s: says not when to stop (time.until): it is a scene for `amontons static`",
              scene->path);
+    TRY(model_obtain(simulation, err));
     TRY(model_prepare_steps(simulation, err));
-    simulation->timing.reduce = clock_seconds() - started;
     TRY(model_relax(simulation, err));
     TRY(explicit_loop_prepare(simulation, err));
     TRY(open_recorders(simulation, err));
@@ -269,6 +266,7 @@ static bool finish_run(Simulation *simulation, const Error *failure, RunSummary 
 {
     double started = clock_seconds();
     events_close(&simulation->events, &simulation->seen);
+    simulation->errors.reduction = simulation->reduced.dropped;
     PeaksSummary peaks = peaks_summarise(&simulation->peaks);
     RunCounters counters = count_run(simulation);
     if (simulation->history.file) {
@@ -288,7 +286,8 @@ static bool finish_run(Simulation *simulation, const Error *failure, RunSummary 
                             .errors = &simulation->errors,
                             .peaks = &simulation->peaks,
                             .summary = &peaks,
-                            .events = &simulation->events};
+                            .events = &simulation->events,
+                            .cache_note = simulation->cache_note};
         TRY(report_write(simulation->folder, &report, err));
     }
     summarise_run(simulation, &counters, &peaks, summary);

@@ -10,6 +10,7 @@
 #include "run/recorder.h"
 #include "run/report.h"
 #include "run/scene.h"
+#include "run/shape_cache.h"
 #include "stepping/explicit_reference.h"
 
 struct Simulation {
@@ -21,6 +22,7 @@ struct Simulation {
     FrictionLaw law;
     Bulk bulk;
     Interface interface;
+    char cache_note[SHAPE_NOTE_SIZE];   // why a cached basis was not used or kept; empty: nothing
     ReducedBulk reduced;           // count 0: the full mesh is stepped
     BulkOperator system;
     Rod rod;

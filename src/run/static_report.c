@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What `amontons static` leaves: the sums as JSON, every node's values as HDF5 (for comparison node by
-// node), the fields for ParaView.
+// What `amontons static` leaves: the sums as JSON, every node's values as HDF5 (for comparison node
+// by node), the fields for ParaView.
 #include "run/static_solve.h"
 
 #include "base/memory.h"

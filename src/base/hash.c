@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/hash.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const uint64_t PRIME = 0x100000001b3u, OTHER_PRIME = 0x9e3779b97f4a7c15u;
+
+Hash hash_start(void)
+{
+    return (Hash){.low = 0xcbf29ce484222325u, .high = 0x84222325cbf29ce4u};
+}
+
+// One word into both streams; the rotation lets high bits reach low ones.
+static void hash_word(Hash *hash, uint64_t word)
+{
+    hash->low = (hash->low ^ word) * PRIME;
+    hash->low ^= hash->low >> 29;
+    hash->high = (hash->high + word) * OTHER_PRIME;
+    hash->high = (hash->high << 31) | (hash->high >> 33);
+}
+
+void hash_bytes(Hash *hash, const void *bytes, size_t size)
+{
+    const unsigned char *at = bytes;
+    size_t left = size;
+    for (; left >= 8; left -= 8, at += 8) {
+        uint64_t word;
+        memcpy(&word, at, 8);
+        hash_word(hash, word);
+    }
+    uint64_t tail = 0;
+    memcpy(&tail, at, left);
+    hash_word(hash, tail);
+    hash_word(hash, (uint64_t)size);
+}
+
+void hash_text(Hash *hash, const char *text)
+{
+    hash_bytes(hash, text, strlen(text));
+}
+
+void hash_number(Hash *hash, double value)
+{
+    double stored = value == 0 ? 0.0 : value;
+    hash_bytes(hash, &stored, sizeof stored);
+}
+
+static uint64_t mix(uint64_t word)
+{
+    word = (word ^ (word >> 33)) * 0xff51afd7ed558ccdu;
+    word = (word ^ (word >> 33)) * 0xc4ceb9fe1a85ec53u;
+    return word ^ (word >> 33);
+}
+
+void hash_write(const Hash *hash, char text[HASH_TEXT_SIZE])
+{
+    unsigned long long first = mix(hash->low + hash->high), second = mix(hash->high ^ first);
+    snprintf(text, HASH_TEXT_SIZE, "%016llx%016llx", first, second);
+}

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A 128-bit content hash: names a cached file by what it depends on, and shows when its bytes have
+// changed. Not for secrets. Two FNV-1a style streams of 64 bits over 8-byte words, mixed at the end
+// (Fowler, Noll, Vo; the final mix is MurmurHash3's, Appleby).
+#ifndef AMONTONS_BASE_HASH_H
+#define AMONTONS_BASE_HASH_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+enum { HASH_TEXT_SIZE = 33 };
+
+typedef struct Hash {
+    uint64_t low, high;
+} Hash;
+
+Hash hash_start(void);
+void hash_bytes(Hash *hash, const void *bytes, size_t size);   // its length counts too
+void hash_text(Hash *hash, const char *text);
+void hash_number(Hash *hash, double value);   // -0 and 0 are the same
+void hash_write(const Hash *hash, char text[HASH_TEXT_SIZE]);   // 32 hexadecimal digits
+
+#endif

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "io/cache_file.h"
+
+#include "base/hash.h"
+#include "base/memory.h"
+#include "io/part_file.h"
+
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static const char MAGIC[] = "amontons-cache 1\n";
+enum { MAGIC_SIZE = sizeof MAGIC - 1, KEY_SIZE = HASH_TEXT_SIZE - 1, HEAD_SIZE = 64 };
+_Static_assert(MAGIC_SIZE + KEY_SIZE < HEAD_SIZE, "the head is too short");
+
+// What stands before each array's values; a count below 0 ends the file.
+typedef struct ArrayHead {
+    char name[CACHE_NAME_SIZE];
+    int64_t count;
+    int64_t spare;
+} ArrayHead;
+
+static void fill_head(const char *key, char head[HEAD_SIZE])
+{
+    memset(head, 0, HEAD_SIZE);
+    memcpy(head, MAGIC, MAGIC_SIZE);
+    memcpy(head + MAGIC_SIZE, key, strnlen(key, KEY_SIZE));
+}
+
+static bool write_counted(PartFile *part, Hash *hash, const void *bytes, int64_t size, Error *err)
+{
+    hash_bytes(hash, bytes, (size_t)size);
+    return part_file_write(part, bytes, size, err);
+}
+
+bool cache_file_write(const char *path, const char *key, const CacheArray *arrays, int32_t count,
+                      Error *err)
+{
+    PartFile part = {0};
+    Hash hash = hash_start();
+    char head[HEAD_SIZE], digest[HASH_TEXT_SIZE];
+    fill_head(key, head);
+    TRY(part_file_create(&part, path, err));
+    TRY(write_counted(&part, &hash, head, HEAD_SIZE, err));
+    for (int32_t k = 0; k < count; k++) {
+        ArrayHead before = {.count = arrays[k].count};
+        memcpy(before.name, arrays[k].name, CACHE_NAME_SIZE);
+        TRY(write_counted(&part, &hash, &before, sizeof before, err));
+        TRY(write_counted(&part, &hash, arrays[k].values, arrays[k].count * (int64_t)sizeof(double),
+                          err));
+    }
+    ArrayHead end = {.name = "end", .count = -1};
+    TRY(write_counted(&part, &hash, &end, sizeof end, err));
+    hash_write(&hash, digest);
+    TRY(part_file_write(&part, digest, KEY_SIZE, err));
+    TRY(part_file_commit(&part, err));
+cleanup:
+    part_file_discard(&part);
+    return error_is_clean(err);
+}
+
+// All of a file; *bytes NULL when it cannot be opened.
+static bool read_bytes(const char *path, void **bytes, int64_t *size, Error *err)
+{
+    *bytes = NULL;
+    *size = 0;
+    struct stat what;
+    int descriptor = open(path, O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) return true;
+    if (fstat(descriptor, &what) == 0 && S_ISREG(what.st_mode)) {
+        *bytes = memory_array(what.st_size, 1, err);
+        while (*bytes && *size < what.st_size) {
+            ssize_t got = read(descriptor, (char *)*bytes + *size, (size_t)(what.st_size - *size));
+            if (got <= 0) break;
+            *size += got;
+        }
+    }
+    close(descriptor);
+    return error_is_clean(err);
+}
+
+// Fills the table of arrays and checks the sum; why it is not to be trusted, or NULL.
+static const char *parse(const char *key, const char *bytes, int64_t size, CacheFile *file)
+{
+    char head[HEAD_SIZE], digest[HASH_TEXT_SIZE];
+    Hash hash = hash_start();
+    fill_head(key, head);
+    int64_t at = HEAD_SIZE;
+    if (size < at || memcmp(bytes, MAGIC, MAGIC_SIZE) != 0)
+        return "it is not a cache file of this version";
+    if (memcmp(bytes, head, HEAD_SIZE) != 0) return "it belongs to another shape";
+    hash_bytes(&hash, bytes, HEAD_SIZE);
+    for (;;) {
+        ArrayHead before;
+        if (size - at < (int64_t)sizeof before) return "it is cut off";
+        memcpy(&before, bytes + at, sizeof before);
+        hash_bytes(&hash, bytes + at, sizeof before);
+        at += (int64_t)sizeof before;
+        if (before.count < 0) break;
+        if (file->array_count == CACHE_ARRAYS_MAX || before.count > (size - at) / 8)
+            return "it is cut off";
+        CacheArray *array = &file->arrays[file->array_count++];
+        memcpy(array->name, before.name, CACHE_NAME_SIZE);
+        array->name[CACHE_NAME_SIZE - 1] = 0;
+        array->count = before.count;
+        array->values = (const double *)(const void *)(bytes + at);
+        hash_bytes(&hash, bytes + at, (size_t)before.count * sizeof(double));
+        at += before.count * (int64_t)sizeof(double);
+    }
+    hash_write(&hash, digest);
+    if (size - at != KEY_SIZE || memcmp(bytes + at, digest, KEY_SIZE) != 0)
+        return "its checksum does not hold";
+    return NULL;
+}
+
+bool cache_file_read(const char *path, const char *key, CacheFile *file, bool *found, char *reason,
+                     Error *err)
+{
+    *file = (CacheFile){0};
+    *found = false;
+    reason[0] = 0;
+    int64_t size = 0;
+    TRY(read_bytes(path, &file->bytes, &size, err));
+    if (!file->bytes) goto cleanup;
+    const char *fault = parse(key, file->bytes, size, file);
+    if (!fault) {
+        *found = true;
+    } else {
+        snprintf(reason, CACHE_REASON_SIZE, "%s", fault);
+        cache_file_destroy(file);
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+void cache_file_destroy(CacheFile *file)
+{
+    memory_free(file->bytes);
+    *file = (CacheFile){0};
+}
+
+const double *cache_file_array(const CacheFile *file, const char *name, int64_t count)
+{
+    for (int32_t k = 0; k < file->array_count; k++) {
+        const CacheArray *array = &file->arrays[k];
+        if (strncmp(array->name, name, CACHE_NAME_SIZE) != 0) continue;
+        return count < 0 || array->count == count ? array->values : NULL;
+    }
+    return NULL;
+}

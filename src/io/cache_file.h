@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Named arrays of doubles in one flat file, quick to read (megabytes in a few milliseconds) and
+// never trusted: a header that says what it is, and a checksum over all of it. Called by
+// run/shape_cache.
+//
+//     "amontons-cache 1\n"  key (32 digits) "\n"  { name[32] rows columns values }*  end  checksum
+//
+// Numbers are the machine's own: a cache does not travel.
+#ifndef AMONTONS_IO_CACHE_FILE_H
+#define AMONTONS_IO_CACHE_FILE_H
+
+#include "base/error.h"
+
+enum { CACHE_NAME_SIZE = 32, CACHE_ARRAYS_MAX = 32 };
+
+typedef struct CacheArray {
+    char name[CACHE_NAME_SIZE];
+    int64_t count;
+    const double *values;   // [count]; when read: inside CacheFile.bytes
+} CacheArray;
+
+typedef struct CacheFile {
+    int32_t array_count;
+    CacheArray arrays[CACHE_ARRAYS_MAX];
+    void *bytes;   // what was read; owned
+} CacheFile;
+
+// Writes beside `path` and renames. A second writer of the same file gives way: no error.
+bool cache_file_write(const char *path, const char *key, const CacheArray *arrays, int32_t count,
+                      Error *err);
+
+// *found: the file is there, has this key and its checksum holds. A missing file is no error and
+// neither is one that cannot be trusted: `reason` (size bytes) says why, empty when missing.
+bool cache_file_read(const char *path, const char *key, CacheFile *file, bool *found, char *reason,
+                     Error *err);
+enum { CACHE_REASON_SIZE = 160 };
+void cache_file_destroy(CacheFile *file);
+
+// The array called `name`, or NULL; `count` is checked when it is not negative.
+const double *cache_file_array(const CacheFile *file, const char *name, int64_t count);
+
+#endif

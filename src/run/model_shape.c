@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The shape a scene steps on: read, assembled and reduced, or taken from the cache.
+#include "run/model.h"
+
+#include "base/clock.h"
+#include "base/dense.h"
+#include "base/memory.h"
+#include "run/shape_cache.h"
+
+#include <math.h>
+
+// Singular values of the interior's responses. Set A, 40x40: 1e-2 moves single peaks by 1e-5 to
+// 1e-4.
+static const double REDUCTION_TOLERANCES[] = {
+    [ACCURACY_DRAFT] = 3e-2, [ACCURACY_STANDARD] = 1e-2, [ACCURACY_FINE] = 1e-3};
+
+static const double ROD_HEIGHT = 0.5, ROD_WIDTH = 0.1;   // of H
+
+bool model_read_mesh(Simulation *simulation, Error *err)
+{
+    const Scene *scene = &simulation->scene;
+    double started = clock_seconds();
+    MeshFile file = {0};
+    TRY(mesh_file_read(scene->mesh.file, scene->mesh.parameters, scene->mesh.parameter_count, &file,
+                       err));
+    TRY(mesh_build(&file, scene->mesh.file, &simulation->mesh, err));
+    const Mesh *mesh = &simulation->mesh;
+    simulation->model.length = mesh->x_max - mesh->x_min;
+    simulation->model.height = mesh->z_max - mesh->z_min;
+    simulation->model.elements = mesh->element_count;
+cleanup:
+    mesh_file_destroy(&file);
+    simulation->timing.mesh = clock_seconds() - started;
+    return error_is_clean(err);
+}
+
+static void translate_materials(Simulation *simulation)
+{
+    const Scene *scene = &simulation->scene;
+    simulation->material = (Material){.young = scene->material.young,
+                                      .poisson = scene->material.poisson,
+                                      .density = scene->material.density,
+                                      .eta1 = scene->material.eta1,
+                                      .eta2 = scene->material.eta2,
+                                      .plane_strain = scene->material.plane == PLANE_STRAIN};
+    static const FrictionKind kinds[] = {
+        [LAW_COULOMB] = FRICTION_COULOMB,
+        [LAW_LINEAR_WEAKENING] = FRICTION_LINEAR_WEAKENING,
+        [LAW_EXPONENTIAL_WEAKENING] = FRICTION_EXPONENTIAL_WEAKENING};
+    simulation->law = (FrictionLaw){.kind = kinds[scene->friction.law],
+                                    .mu_static = scene->friction.mu_static,
+                                    .mu_kinetic = scene->friction.mu_kinetic,
+                                    .critical_velocity = scene->friction.critical_velocity};
+}
+
+// A force to measure by where no load presses: the loads' size, or the impact's.
+static double free_scale(const Simulation *simulation, double load)
+{
+    const Material *material = &simulation->material;
+    double impedance = material->density * material_speeds(material).longitudinal;
+    double impact = impedance * fabs(simulation->scene.start.velocity_z) * simulation->model.length;
+    if (impact > 0) return impact;
+    return load < 0 ? -load : material->young * simulation->model.length;
+}
+
+static bool add_loads(Simulation *simulation, Error *err)
+{
+    const Scene *scene = &simulation->scene;
+    Bulk *bulk = &simulation->bulk;
+    MeshCurve curve;
+    if (scene->load.pressure != 0) {
+        double traction[2] = {0, -scene->load.pressure};
+        TRY(mesh_curve(&simulation->mesh, scene->groups.top, &curve, err));
+        bulk_add_traction(&simulation->mesh, &curve, traction, bulk);
+    }
+    for (int32_t k = 0; k < scene->load.traction_count; k++) {
+        double traction[2] = {scene->load.tractions[k].x, scene->load.tractions[k].z};
+        TRY(mesh_curve(&simulation->mesh, scene->load.tractions[k].group, &curve, err));
+        bulk_add_traction(&simulation->mesh, &curve, traction, bulk);
+    }
+    double load = 0;
+    for (int32_t dof = 1; dof < bulk->dof_count; dof += 2) load -= bulk->load[dof];
+    // What is held needs no load, and what flies towards the plane has its momentum.
+    bool held = scene->load.support_count > 0 || scene->start.velocity_z < 0;
+    if (!(load > 0) && held) load = free_scale(simulation, load);
+    if (!(load > 0))
+        FAIL(err, ERROR_INPUT,
+             "%s: the loads do not press the block onto the plane (their resultant along -z is %g)",
+             scene->path, load);
+    simulation->scales.load = load;
+cleanup:
+    return error_is_clean(err);
+}
+
+bool model_hold_supports(Simulation *simulation, Error *err)
+{
+    const Scene *scene = &simulation->scene;
+    for (int32_t k = 0; k < scene->load.support_count; k++) {
+        const SceneSupport *support = &scene->load.supports[k];
+        MeshCurve curve;
+        if (!mesh_curve(&simulation->mesh, support->group, &curve, err)) return false;
+        for (int32_t i = 0; i < curve.node_count; i++) {
+            if (support->x) bulk_hold(2 * curve.nodes[i], &simulation->bulk);
+            if (support->z) bulk_hold(2 * curve.nodes[i] + 1, &simulation->bulk);
+        }
+    }
+    return true;
+}
+
+// A reduced bulk follows what the interface does: not a load put on at once, nor a velocity that
+// supports stop.
+static bool starts_at_interface(const Scene *scene)
+{
+    if (scene->start.state == START_UNDEFORMED) return false;
+    for (int32_t k = 0; k < scene->load.support_count; k++) {
+        const SceneSupport *support = &scene->load.supports[k];
+        if (support->x && scene->start.velocity_x != 0) return false;
+        if (support->z && scene->start.velocity_z != 0) return false;
+    }
+    return true;
+}
+
+// E, eta, rho L^2 and the size of the load: what the reduced matrices are normalised with.
+static BulkScales bulk_scales(const Simulation *simulation, double load)
+{
+    const Material *material = &simulation->material;
+    double length = simulation->model.length;
+    return (BulkScales){.stiffness = material->young,
+                        .damping = material->eta1 + material->eta2,
+                        .mass = material->density * length * length,
+                        .load = load};
+}
+
+static double reduction_tolerance(const Scene *scene)
+{
+    return scene->reduction.tolerance > 0 ? scene->reduction.tolerance
+                                          : REDUCTION_TOLERANCES[scene->time.accuracy];
+}
+
+// Moves the interface and the reduced bulk of `shape` into the simulation and steps on them.
+static bool adopt_shape(Simulation *simulation, Shape *shape, Error *err)
+{
+    double load = shape->sizes.load_size * load_reference(&simulation->scene);
+    simulation->interface = shape->interface;
+    simulation->reduced = shape->reduced;
+    shape->interface = (Interface){0};
+    shape->reduced = (ReducedBulk){0};
+    simulation->model.length = shape->sizes.length;
+    simulation->model.height = shape->sizes.height;
+    simulation->model.elements = (int32_t)shape->sizes.elements;
+    simulation->reduced.scales = bulk_scales(simulation, load);
+    simulation->scales.load = shape->sizes.load_resultant * load_reference(&simulation->scene);
+    return bulk_operator_reduce(&simulation->reduced, shape->rotation,
+                                shape->sizes.area * simulation->material.density,
+                                &simulation->system, err);
+}
+
+// Reduces the assembled bulk; key: where the cache keeps it, empty for nowhere.
+static bool reduce_bulk(Simulation *simulation, const char *key, Error *err)
+{
+    const Bulk *bulk = &simulation->bulk;
+    double reference = load_reference(&simulation->scene);
+    double load = dense_max_abs(bulk->load, bulk->dof_count);
+    ReductionDef def = {.tolerance = reduction_tolerance(&simulation->scene),
+                        .scales = bulk_scales(simulation, load)};
+    Shape shape = {.sizes = {.length = simulation->model.length,
+                             .height = simulation->model.height,
+                             .area = bulk->area,
+                             .elements = simulation->model.elements,
+                             .load_size = load / reference,
+                             .load_resultant = simulation->scales.load / reference}};
+    shape.interface = simulation->interface;
+    simulation->interface = (Interface){0};
+    const Interface *interface = &shape.interface;
+    TRY(reduction_build(bulk, interface->dofs, interface->count, &def, &shape.reduced, err));
+    shape.rotation = NEW_ARRAY(double, interface->count, err);
+    if (!shape.rotation) goto cleanup;
+    for (int32_t k = 0; k < interface->count; k++) {
+        const double *position = simulation->mesh.position + 2 * (interface->dofs[k] / 2);
+        shape.rotation[k] = interface->dofs[k] % 2 == 0 ? -position[1] : position[0];
+    }
+    shape_cache_store(key, &shape, simulation->cache_note);
+    TRY(adopt_shape(simulation, &shape, err));
+cleanup:
+    shape_destroy(&shape);
+    return error_is_clean(err);
+}
+
+// The scene's bulk can be reduced: stepped implicitly, with viscosity, from states the interface
+// made.
+static bool is_reducible(const Scene *scene)
+{
+    bool implicit = scene->time.scheme == SCHEME_SDIRK2;   // explicit steps are those of the mesh
+    return scene->reduction.use != REDUCE_NEVER && implicit && scene->material.eta1 > 0 &&
+           starts_at_interface(scene);
+}
+
+// Dense operators beat sparse ones where the interface is small beside the block. Measured on set
+// A: a reduced step costs about 6 (3 m)^2 multiplications, m interface unknowns; a full one 8 times
+// the factor's entries, about 5 n log2 n of n unknowns.
+static bool reduction_pays(const Simulation *simulation)
+{
+    if (simulation->scene.reduction.use == REDUCE_ALWAYS) return true;
+    double m = simulation->interface.count, n = simulation->bulk.dof_count;
+    return 6 * 9 * m * m < 8 * 5 * n * log2(n);
+}
+
+bool model_build_bulk(Simulation *simulation, Error *err)
+{
+    const Scene *scene = &simulation->scene;
+    double height = simulation->model.height;
+    translate_materials(simulation);
+    TRY(bulk_assemble(&simulation->mesh, &simulation->material, &simulation->bulk, err));
+    TRY(add_loads(simulation, err));
+    InterfaceDef def = {.contact_name_count = scene->groups.contact.count,
+                        .contact_names = scene->groups.contact.name,
+                        .has_rod = scene->rod.kind != ROD_NONE,
+                        .rod_name = scene->groups.rod,
+                        .rod_height = scene->rod.height > 0 ? scene->rod.height
+                                                            : ROD_HEIGHT * height,
+                        .rod_width = scene->rod.width > 0 ? scene->rod.width : ROD_WIDTH * height};
+    TRY(interface_build(&simulation->mesh, &def, &simulation->interface, err));
+    simulation->scales.length = simulation->model.length;
+    simulation->model.contact_nodes = simulation->interface.contact_count;
+    simulation->model.rod_nodes = simulation->interface.rod_count;
+    simulation->model.full_dofs = simulation->bulk.dof_count;
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool assemble_operator(Simulation *simulation, const char *key, Error *err)
+{
+    const Interface *interface = &simulation->interface;
+    TRY(model_build_bulk(simulation, err));
+    TRY(model_hold_supports(simulation, err));
+    if (is_reducible(&simulation->scene) && reduction_pays(simulation))
+        TRY(reduce_bulk(simulation, key, err));
+    else
+        TRY(bulk_operator_create(&simulation->bulk, simulation->mesh.position, interface->dofs,
+                                 interface->count, &simulation->system, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// The shape's key, where it can be kept: supports are part of the assembled bulk only.
+static bool find_key(Simulation *simulation, char key[HASH_TEXT_SIZE], Error *err)
+{
+    const Scene *scene = &simulation->scene;
+    key[0] = 0;
+    bool moves = scene->start.velocity_x != 0 || scene->start.velocity_z != 0;
+    if (!is_reducible(scene) || scene->load.support_count > 0 || moves) return true;
+    return shape_key(scene, reduction_tolerance(scene), key, err);
+}
+
+bool model_obtain(Simulation *simulation, Error *err)
+{
+    const Scene *scene = &simulation->scene;
+    double started = clock_seconds();
+    char key[HASH_TEXT_SIZE];
+    Shape shape = {0};
+    bool found = false;
+    translate_materials(simulation);
+    TRY(find_key(simulation, key, err));
+    if (key[0])
+        TRY(shape_cache_load(key, scene->output.fields, &shape, &found, simulation->cache_note,
+                             err));
+    if (!found || scene->output.fields) TRY(model_read_mesh(simulation, err));
+    if (found)
+        TRY(adopt_shape(simulation, &shape, err));
+    else
+        TRY(assemble_operator(simulation, key, err));
+    RunModel *model = &simulation->model;
+    model->from_cache = found;
+    model->contact_nodes = simulation->interface.contact_count;
+    model->rod_nodes = simulation->interface.rod_count;
+    model->full_dofs = found ? simulation->reduced.full_dofs : simulation->bulk.dof_count;
+    model->reduced_dofs = simulation->system.dof_count;
+    const Material *material = &simulation->material;
+    simulation->scales.length = model->length;
+    simulation->scales.time = model->length / material_speeds(material).longitudinal +
+                              (material->eta1 + material->eta2) / material->young;
+    simulation->scales.slip_velocity = scene->rod.velocity > 0 ? scene->rod.velocity
+                                                               : scene->friction.critical_velocity;
+cleanup:
+    shape_destroy(&shape);
+    simulation->timing.reduce = clock_seconds() - started - simulation->timing.mesh;
+    return error_is_clean(err);
+}
