@@ -9,6 +9,10 @@
 static const double SAFETY = 0.5;
 static const double ESTIMATE_ORDER = 3;
 
+// A rung that slip outgrew is not tried again for a while, twice as long each time: it would fail
+// again. Without this half of all steps were repeated where growth limits the step (set B).
+enum { HOLD_FIRST = 4, HOLD_MAX = 256 };
+
 bool step_control_create(const Block *block, const StepControlDef *def, StepControl *control,
                          Error *err)
 {
@@ -75,12 +79,20 @@ static int32_t smaller_rung(const StepControl *control, int32_t k, Verdict verdi
     return target > k ? target : k + 1;
 }
 
+static void hold_rung(StepControl *control)
+{
+    control->hold = control->hold == 0 ? HOLD_FIRST : 2 * control->hold;
+    if (control->hold > HOLD_MAX) control->hold = HOLD_MAX;
+    control->hold_end = control->counters.accepted + control->hold;
+}
+
 // The rung after an accepted step: one up when the error allows it and the certificate does.
 static int32_t next_rung(const StepControl *control, int32_t k, double error, bool retried)
 {
     double stretch = control->def.growth_max;
     double expected = error * pow(stretch, ESTIMATE_ORDER);
-    bool grows = !retried && k > 0 && expected < SAFETY * control->def.tolerance;
+    bool held = control->counters.accepted < control->hold_end;
+    bool grows = !retried && !held && k > 0 && expected < SAFETY * control->def.tolerance;
     int32_t next = grows ? k - 1 : k;
     if (control->certified) return next;
     int32_t wave_rung = ladder_find(&control->ladder, control->def.wave_step);
@@ -127,6 +139,7 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
         Verdict verdict = judge_step(control, k, &outcome, &certified);
         if (verdict == STEP_ACCEPTED) {
             control->certified = certified;
+            if (certified) control->hold = control->hold_end = 0;
             accept_step(control, k, &outcome);
             if (!shortened || retried)
                 control->rung = next_rung(control, k, outcome.error, retried);
@@ -136,6 +149,7 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
         counters->rejected_error += verdict == STEP_INACCURATE;
         counters->rejected_uncertified += verdict == STEP_UNCERTIFIED;
         retried = true;
+        if (verdict == STEP_UNCERTIFIED) hold_rung(control);
         k = smaller_rung(control, k, verdict, &outcome);
         if (k >= control->ladder.rung_count)
             FAIL(err, ERROR_COMPUTE, "at t = %.9g the step went below time.step_min = %g: %s",

@@ -37,6 +37,8 @@ typedef struct StepControl {
     double last_step;   // its length, time
     bool certified;   // `now` is dissipative
     int32_t rung;   // to try next
+    int64_t hold;               // steps for which no longer one is tried, after growth was met
+    int64_t hold_end;           // accepted steps when that is over
     StepCounters counters;
 } StepControl;
 
