@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Definiteness of S - W on what can move, against eigenvalues of matrices condensed by hand, and
+// against the closed form where a single node slips.
+#include "stepping/certificate.h"
+
+#include "block_rig.h"
+
+typedef struct Fixture {
+    BlockRig rig;
+    Certificate certificate;
+    State seen;
+    double *schur;   // [count^2] of C alone
+} Fixture;
+
+static void fixture_build(const RigDef *def, Fixture *fixture)
+{
+    Error err = {0};
+    rig_build(def, &fixture->rig);
+    BlockRig *rig = &fixture->rig;
+    assert_true(certificate_create(&rig->block, &fixture->certificate, &err));
+    assert_true(state_create(&rig->system, &rig->interface, &fixture->seen, &err));
+    double *c = rig_dense(rig, rig->bulk.damping);
+    fixture->schur = hand_matrix(rig->interface.count, rig->interface.count);
+    hand_schur(c, rig->bulk.dof_count, rig->interface.dofs, rig->interface.count, fixture->schur);
+    free(c);
+}
+
+static void fixture_destroy(Fixture *fixture)
+{
+    free(fixture->schur);
+    state_destroy(&fixture->seen);
+    certificate_destroy(&fixture->certificate);
+    rig_destroy(&fixture->rig);
+}
+
+// The least eigenvalue of (schur - W) on the moving unknowns; *weakening: whether W is not 0.
+static double least_eigenvalue(const Fixture *fixture, const double *schur, bool *weakening)
+{
+    const Interface *interface = &fixture->rig.interface;
+    const State *seen = &fixture->seen;
+    double a[32 * 32], values[32], w[32] = {0};
+    int32_t moving[32], count = 0, size = interface->count;
+    *weakening = false;
+    for (int32_t k = 0; k < size; k++) {
+        int32_t i = k / 2;
+        bool contact = k < 2 * interface->contact_count, tangent = contact && k % 2 == 0;
+        uint8_t status = contact ? seen->status[i] : CONTACT_OPEN;
+        if (!contact && seen->rod_touches[k - 2 * interface->contact_count]) continue;
+        if (status == CONTACT_STICK || (status != CONTACT_OPEN && !tangent)) continue;
+        double speed = fabs(seen->slip_rate[k]);
+        if (status != CONTACT_OPEN && speed < fixture->rig.law.critical_velocity) {
+            const FrictionLaw *law = &fixture->rig.law;
+            w[count] = (law->mu_static - law->mu_kinetic) / law->critical_velocity *
+                       seen->reaction[k + 1];
+            *weakening = true;
+        }
+        moving[count++] = k;
+    }
+    if (count == 0) return INFINITY;
+    for (int32_t p = 0; p < count; p++)
+        for (int32_t q = 0; q < count; q++)
+            a[q * count + p] = schur[moving[q] * size + moving[p]] - (p == q ? w[p] : 0);
+    hand_eigenvalues(a, count, values);
+    return values[0];
+}
+
+static void random_state(Random *random, double pressure, Fixture *fixture)
+{
+    const Interface *interface = &fixture->rig.interface;
+    State *seen = &fixture->seen;
+    double v_c = fixture->rig.law.critical_velocity;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        seen->status[i] = (uint8_t)random_index(random, 4);
+        seen->reaction[interface_normal(i)] =
+            seen->status[i] == CONTACT_OPEN ? 0 : pressure * random_between(random, 0.2, 1);
+        double speed = v_c * random_between(random, 0.01, 1.5);
+        seen->slip_rate[interface_tangent(i)] = speed *
+                                                (seen->status[i] == CONTACT_SLIP_BACKWARD ? -1 : 1);
+    }
+    for (int32_t j = 0; j < interface->rod_count; j++)
+        seen->rod_touches[j] = (uint8_t)random_index(random, 2);
+}
+
+static void test_random_states(void **state)
+{
+    (void)state;
+    Error err = {0};
+    Random random = {.state = 41};
+    RigDef def = rig_def();
+    def.rod_width = 0.5;   // two rod nodes
+    Fixture fixture;
+    fixture_build(&def, &fixture);
+    Ladder ladder;
+    ladder_init(&fixture.rig.system, 1, 1e-3, &ladder);
+    int32_t held = 0, resolved = 0, cases = 0;
+    for (int32_t trial = 0; trial < 300; trial++) {
+        // k p around eta: both answers are common.
+        double scale = def.law.critical_velocity / 0.28;
+        random_state(&random, scale * random_between(&random, 0.1, 3), &fixture);
+        bool weakens;
+        double least = least_eigenvalue(&fixture, fixture.schur, &weakens);
+        bool holds = certificate_holds(&fixture.certificate, &fixture.seen);
+        assert_int_equal(holds, !weakens || least > 0);
+        InterfaceOperator *rung = ladder_rung(&ladder, trial % ladder.rung_count, &err);
+        least = least_eigenvalue(&fixture, interface_operator_schur(rung), &weakens);
+        bool resolves = certificate_step_resolves(&fixture.certificate, &fixture.seen, rung);
+        assert_int_equal(resolves, !weakens || least > 0);
+        if (holds) assert_true(resolves);   // S(dt) is S_C and more
+        held += weakens && holds;
+        resolved += weakens && resolves;
+        cases += weakens;
+    }
+    assert_true(cases > 200 && held > 40 && held < cases - 40 && resolved > held + 20);
+    assert_true(fixture.certificate.checks > 2 * 200);
+    ladder_destroy(&ladder);
+    fixture_destroy(&fixture);
+}
+
+// One slipping node: lost exactly where (mu_S - mu_K) p w / v_c reaches S_C,tt.
+static void test_one_node(void **state)
+{
+    (void)state;
+    RigDef def = rig_def();
+    def.rod_width = 0;
+    Fixture fixture;
+    fixture_build(&def, &fixture);
+    State *seen = &fixture.seen;
+    int32_t size = fixture.rig.interface.count;
+    for (int32_t i = 0; i < 5; i++) {
+        int32_t t = interface_tangent(i);
+        double limit = fixture.schur[t * size + t] * def.law.critical_velocity / 0.28;
+        seen->status[i] = CONTACT_SLIP_BACKWARD;
+        seen->slip_rate[t] = -0.5 * def.law.critical_velocity;
+        seen->reaction[t + 1] = limit * (1 - 1e-9);
+        assert_true(certificate_holds(&fixture.certificate, seen));
+        seen->reaction[t + 1] = limit * (1 + 1e-9);
+        assert_false(certificate_holds(&fixture.certificate, seen));
+        seen->slip_rate[t] = -1.1 * def.law.critical_velocity;   // past the weakening branch
+        assert_true(certificate_holds(&fixture.certificate, seen));
+        seen->slip_rate[t] = 0;
+        seen->status[i] = CONTACT_STICK;
+        assert_true(certificate_holds(&fixture.certificate, seen));
+    }
+    fixture_destroy(&fixture);
+}
+
+// Without viscosity nothing that weakens is certified, but a step may still resolve it.
+static void test_no_viscosity(void **state)
+{
+    (void)state;
+    Error err = {0};
+    RigDef def = rig_def();
+    def.material.eta1 = def.material.eta2 = 0;
+    BlockRig rig;
+    Certificate certificate;
+    State seen;
+    Ladder ladder;
+    rig_build(&def, &rig);
+    assert_true(certificate_create(&rig.block, &certificate, &err));
+    assert_true(state_create(&rig.system, &rig.interface, &seen, &err));
+    assert_true(certificate_holds(&certificate, &seen));   // all stick
+    seen.status[2] = CONTACT_SLIP_FORWARD;
+    seen.slip_rate[interface_tangent(2)] = 1e-6;
+    seen.reaction[interface_normal(2)] = 1e-9;
+    assert_false(certificate_holds(&certificate, &seen));
+    ladder_init(&rig.system, 0.1, 0.05, &ladder);
+    assert_true(certificate_step_resolves(&certificate, &seen, ladder_rung(&ladder, 0, &err)));
+    ladder_destroy(&ladder);
+    state_destroy(&seen);
+    certificate_destroy(&certificate);
+    rig_destroy(&rig);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_random_states),
+        cmocka_unit_test(test_one_node),
+        cmocka_unit_test(test_no_viscosity),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
