@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What is accepted and what is not: accuracy, contact, certificate; and what becomes of a run that the
+// certificate does not hold back.
+#include "stepping/step_control.h"
+
+#include "block_rig.h"
+#include "stepping/relaxation.h"
+
+typedef struct Run {
+    BlockRig rig;
+    StepControl control;
+} Run;
+
+static RigDef pushed_def(void)
+{
+    RigDef def = rig_def();
+    def.block.nx = 10;
+    def.block.nz = 5;
+    def.rod_kind = ROD_AWAY;
+    def.rod_velocity = 1e-5;
+    def.rod_width = 0.25;
+    return def;
+}
+
+static StepControlDef control_def(void)
+{
+    return (StepControlDef){.tolerance = 4e-7,
+                            .step_max = 8,
+                            .step_min = 1e-9,
+                            .wave_step = 0.1,
+                            .growth_max = 2,
+                            .use_certificate = true};
+}
+
+// Relaxed under its load, the rod just touching, at t = 0.
+static void run_build(const RigDef *def, const StepControlDef *steps, Run *run)
+{
+    Error err = {0};
+    int64_t count = 0;
+    rig_build(def, &run->rig);
+    double velocity = run->rig.rod.velocity;
+    run->rig.rod.velocity = 0;
+    assert_true(step_control_create(&run->rig.block, steps, &run->control, &err));
+    RelaxationDef relaxation = {.speed_max = 1e-10, .duration_max = 1e5};
+    if (!relax(&run->control, &relaxation, &count, &err)) fail_msg("%s", err.message);
+    for (int32_t j = 0; j < run->rig.interface.rod_count; j++)
+        run->rig.rod.origin[j] =
+            run->control.now
+                .displacement[run->rig.interface.dofs[interface_rod(&run->rig.interface, j)]];
+    run->rig.rod.velocity = velocity;
+    run->rig.rod.kind = ROD_PUSHES;
+    step_control_restart(&run->control);
+}
+
+static void run_destroy(Run *run)
+{
+    step_control_destroy(&run->control);
+    rig_destroy(&run->rig);
+}
+
+static void advance(Run *run, double remaining)
+{
+    Error err = {0};
+    if (!step_control_advance(&run->control, remaining, &err)) fail_msg("%s", err.message);
+}
+
+// Every accepted step keeps every rule, and the counters add up.
+static void test_rules(void **state)
+{
+    (void)state;
+    RigDef def = pushed_def();
+    StepControlDef steps = control_def();
+    Run run;
+    run_build(&def, &steps, &run);
+    StepControl *control = &run.control;
+    assert_true(control->now.time == 0 && control->counters.accepted == 0);
+    double time = 0, last = INFINITY;
+    int64_t uncertified = 0, longest = 0, accepted = 0;
+    while (control->now.time < 450) {
+        int64_t rejections = control->counters.rejected_error +
+                             control->counters.rejected_uncertified + control->counters.unsolved;
+        advance(&run, INFINITY);
+        bool retried = rejections != control->counters.rejected_error +
+                                         control->counters.rejected_uncertified +
+                                         control->counters.unsolved;
+        double step = control->last_step;
+        int32_t k = ladder_find(&control->ladder, step);
+        time += step;
+        assert_near("t", control->now.time, time, 1e-9);
+        assert_true(step == ladder_step(&control->ladder, k));
+        assert_true(control->outcome.solved && control->outcome.error <= steps.tolerance);
+        assert_true(step <= 2 * last);
+        if (retried) assert_true(step < last * 2);
+        assert_int_equal(control->certified,
+                         certificate_holds(&control->certificate, &control->now));
+        if (!control->certified) {
+            uncertified++;
+            assert_true(step <= steps.wave_step);
+            assert_true(certificate_step_resolves(&control->certificate, &control->now,
+                                                  control->ladder.rung[k]));
+        }
+        longest += step == steps.step_max;
+        last = step;
+    }
+    for (int32_t k = 0; k < control->ladder.rung_count; k++)
+        accepted += control->ladder.accepted[k];
+    assert_int_equal(accepted, control->counters.accepted);
+    // The run saw both: long steps while certified, waves resolved while not.
+    assert_true(uncertified > 20 && longest > 10);
+    assert_true(control->counters.rejected_uncertified > 0);
+    assert_true(energy_imbalance(&control->ledger) < 1e-2 * energy_turnover(&control->ledger));
+    run_destroy(&run);
+}
+
+// The largest F_T/F_N in the second half of the rod's way, when sliding has become periodic.
+static double peak_force(bool use_certificate, double tolerance)
+{
+    RigDef def = pushed_def();
+    StepControlDef steps = control_def();
+    steps.use_certificate = use_certificate;
+    steps.tolerance = tolerance;
+    Run run;
+    run_build(&def, &steps, &run);
+    double peak = 0, distance = 1e-2;
+    while (run.control.now.time * def.rod_velocity < distance) {
+        advance(&run, INFINITY);
+        double U = run.control.now.time * def.rod_velocity;
+        double mu = rod_force(&run.rig.interface, run.control.now.reaction) / 0.003;
+        if (U > 0.5 * distance) peak = fmax(peak, mu);
+    }
+    run_destroy(&run);
+    return peak;
+}
+
+// Ten times the usual tolerance leaves the answer where it is, as long as the certificate keeps steps
+// short where slip can grow. Without it every step converges too, and friction comes out too high.
+static void test_certificate_prevents_the_wrong_answer(void **state)
+{
+    (void)state;
+    double right = peak_force(true, 4e-7), loose = peak_force(true, 4e-6);
+    assert_near("loose", loose, right, 2e-3 * right);
+    assert_true(peak_force(false, 4e-6) > 1.05 * right);
+}
+
+// A finer tolerance means smaller errors and more steps.
+static void test_tolerance(void **state)
+{
+    (void)state;
+    RigDef def = pushed_def();
+    int64_t before = 0;
+    for (double tolerance = 4e-6; tolerance > 4e-9; tolerance *= 0.1) {
+        StepControlDef steps = control_def();
+        steps.tolerance = tolerance;
+        Run run;
+        run_build(&def, &steps, &run);
+        while (run.control.now.time < 100) {
+            advance(&run, INFINITY);
+            assert_true(run.control.outcome.error <= tolerance);
+        }
+        assert_true(run.control.counters.accepted > before);
+        before = run.control.counters.accepted;
+        run_destroy(&run);
+    }
+}
+
+// The last step does not overshoot when a built rung fits.
+static void test_remaining(void **state)
+{
+    (void)state;
+    RigDef def = pushed_def();
+    StepControlDef steps = control_def();
+    Run run;
+    run_build(&def, &steps, &run);
+    const double end = 41.3;
+    while (run.control.now.time < end) {
+        double remaining = end - run.control.now.time, smallest = INFINITY;
+        for (int32_t k = 0; k < run.control.ladder.rung_count; k++)
+            if (run.control.ladder.rung[k]) smallest = ladder_step(&run.control.ladder, k);
+        advance(&run, remaining);
+        if (smallest <= remaining) assert_true(run.control.last_step <= remaining);
+    }
+    assert_true(run.control.now.time < end + steps.step_max);
+    run_destroy(&run);
+}
+
+// Contact that is never solved, or an error that is never small enough: not accepted at any step, the
+// state untouched, the reason said.
+static void test_gives_up(void **state)
+{
+    (void)state;
+    for (int which = 0; which < 2; which++) {
+        Error err = {0};
+        RigDef def = pushed_def();
+        StepControlDef steps = control_def();
+        Run run;
+        run_build(&def, &steps, &run);
+        StepControl *control = &run.control;
+        if (which == 0) {
+            control->scheme.solver.def.iterations_all = control->scheme.solver.def.iterations_one =
+                0;
+        } else {
+            control->def.tolerance = 0;
+        }
+        double *before = hand_matrix(control->now.dof_count, 1);
+        memcpy(before, control->now.displacement, (size_t)control->now.dof_count * sizeof *before);
+        assert_false(step_control_advance(control, INFINITY, &err));
+        assert_int_equal(err.code, ERROR_COMPUTE);
+        assert_non_null(strstr(err.message, "the step went below time.step_min = 1e-09"));
+        assert_non_null(strstr(err.message, which == 0 ? "contact problem" : "local error"));
+        assert_int_equal(control->counters.accepted, 0);
+        assert_true(control->now.time == 0);
+        if (which == 0) assert_true(control->counters.unsolved > 0);
+        if (which == 1) assert_true(control->counters.rejected_error > 0);
+        assert_memory_equal(before, control->now.displacement,
+                            (size_t)control->now.dof_count * sizeof *before);
+        free(before);
+        run_destroy(&run);
+    }
+}
+
+// In the loop nothing is allocated but new rungs.
+static void test_allocations(void **state)
+{
+    (void)state;
+    Error err = {0};
+    RigDef def = pushed_def();
+    StepControlDef steps = control_def();
+    Run run;
+    run_build(&def, &steps, &run);
+    for (int32_t k = 0; k < 14; k++) assert_non_null(ladder_rung(&run.control.ladder, k, &err));
+    int64_t allocations = memory_counters().allocations;
+    while (run.control.now.time < 450) advance(&run, INFINITY);
+    assert_int_equal(memory_counters().allocations, allocations);
+    run_destroy(&run);
+}
+
+static void test_memory_faults(void **state)
+{
+    (void)state;
+    RigDef def = rig_def();
+    StepControlDef steps = control_def();
+    BlockRig rig;
+    rig_build(&def, &rig);
+    int64_t live = memory_counters().live;
+    bool done = false;
+    for (int32_t k = 0; !done; k++) {
+        Error err = {0};
+        StepControl control;
+        memory_fail_after(k);
+        done = step_control_create(&rig.block, &steps, &control, &err) &&
+               step_control_advance(&control, INFINITY, &err);
+        memory_fail_after(-1);
+        assert_int_equal(err.code, done ? ERROR_NONE : ERROR_MEMORY);
+        step_control_destroy(&control);
+        assert_int_equal(memory_counters().live, live);
+    }
+    rig_destroy(&rig);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_rules),
+        cmocka_unit_test(test_certificate_prevents_the_wrong_answer),
+        cmocka_unit_test(test_tolerance),
+        cmocka_unit_test(test_remaining),
+        cmocka_unit_test(test_gives_up),
+        cmocka_unit_test(test_allocations),
+        cmocka_unit_test(test_memory_faults),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
