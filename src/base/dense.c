@@ -40,6 +40,18 @@ bool dense_lu(double *a, int32_t n, int32_t *pivots)
     return info == 0;
 }
 
+int dense_lu_sign(const double *lu, int32_t n, const int32_t *pivots)
+{
+    int sign = 1;
+    for (int64_t k = 0; k < n; k++) {
+        double pivot = lu[k * n + k];
+        if (pivot == 0) return 0;
+        if (pivot < 0) sign = -sign;
+        if (pivots[k] != k + 1) sign = -sign;   // LAPACK counts rows from 1
+    }
+    return sign;
+}
+
 void dense_lu_solve(const double *lu, int32_t n, const int32_t *pivots, double *b)
 {
     int info = 0, one = 1;

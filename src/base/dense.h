@@ -17,6 +17,8 @@ bool dense_cholesky(double *a, int32_t n);
 // LU with partial pivoting in place, then one right-hand side in place. pivots: [n].
 // false: singular to working precision.
 bool dense_lu(double *a, int32_t n, int32_t *pivots);
+// The sign of the determinant of a factored matrix: 1, -1 or 0.
+int dense_lu_sign(const double *lu, int32_t n, const int32_t *pivots);
 void dense_lu_solve(const double *lu, int32_t n, const int32_t *pivots, double *b);
 
 // y = a x with the lower triangle of a symmetric `a` [n * n].

@@ -13,6 +13,7 @@ bool certificate_create(const Block *block, Certificate *certificate, Error *err
     certificate->matrix = NEW_ARRAY(double, count *count, err);
     certificate->weakening = NEW_ARRAY(double, count, err);
     certificate->moving = NEW_ARRAY(int32_t, count, err);
+    certificate->pivots = NEW_ARRAY(int32_t, count, err);
     if (!error_is_clean(err)) return false;
     OperatorTerms terms = {.damping = 1, .lift = true};
     certificate->damping = interface_operator_create(block->system, terms, err);
@@ -27,6 +28,7 @@ void certificate_destroy(Certificate *certificate)
     memory_free(certificate->matrix);
     memory_free(certificate->weakening);
     memory_free(certificate->moving);
+    memory_free(certificate->pivots);
     *certificate = (Certificate){0};
 }
 
@@ -83,8 +85,36 @@ bool certificate_holds(Certificate *certificate, const State *state)
     return is_definite(certificate, state, schur);
 }
 
+// det J > 0, J with the pressure that follows slip.
+static bool coupled_is_positive(Certificate *certificate, const State *state, const double *schur)
+{
+    int32_t count = 0;
+    list_moving(certificate, state, &count);
+    int64_t size = certificate->interface->count;
+    for (int32_t a = 0; a < count; a++) {
+        int32_t row = certificate->moving[a];
+        const double *own = schur + size * row, *normal = own;   // symmetric
+        double mu = 0;
+        bool contact = row < 2 * certificate->interface->contact_count;
+        if (contact && row % 2 == 0 && status_slips(state->status[row / 2])) {
+            mu = status_direction(state->status[row / 2]) *
+                 friction_coefficient(certificate->law, fabs(state->slip_rate[row]));
+            normal = schur + size * interface_normal(row / 2);
+        }
+        for (int32_t b = 0; b < count; b++) {
+            int32_t column = certificate->moving[b];
+            certificate->matrix[(int64_t)b * count + a] = own[column] + mu * normal[column];
+        }
+        certificate->matrix[(int64_t)a * count + a] -= certificate->weakening[a];
+    }
+    certificate->checks++;
+    return dense_lu(certificate->matrix, count, certificate->pivots) &&
+           dense_lu_sign(certificate->matrix, count, certificate->pivots) > 0;
+}
+
 bool certificate_step_resolves(Certificate *certificate, const State *state,
                                const InterfaceOperator *rung)
 {
-    return is_definite(certificate, state, interface_operator_schur(rung));
+    const double *schur = interface_operator_schur(rung);
+    return is_definite(certificate, state, schur) || coupled_is_positive(certificate, state, schur);
 }
