@@ -58,6 +58,8 @@ typedef struct RunCounters {
 
 // What a run came to, for the closing lines; run.json holds more.
 typedef struct RunSummary {
+    double mu_low, mu_high;        // smallest and largest peak, the first left out
+    int32_t period;                // 1: the last peaks agree; 2: every second one; 0: neither
     double mu_M, mu_M_spread;   // of the periodic peaks; NaN: no peak seen
     int32_t peaks, peaks_counted;   // seen, and belonging to the periodic regime
     int32_t quasi_static, bounded, leading;   // events by kind

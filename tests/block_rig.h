@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A block of block_mesh.h with all that stepping needs: material, loads, interface, rod, operator of
-// the full mesh. A rig must not be moved once it is built.
+// A block of block_mesh.h with all that stepping needs: material, loads, interface, rod, operator
+// of the full mesh. A rig must not be moved once it is built.
 #ifndef AMONTONS_TESTS_BLOCK_RIG_H
 #define AMONTONS_TESTS_BLOCK_RIG_H
 

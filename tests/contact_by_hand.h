@@ -78,8 +78,8 @@ static inline double hand_contact_error(const HandContact *hand)
     return worst;
 }
 
-// S = B B' / count + diagonal: positive definite, everything coupled to everything; coupling 0 keeps
-// tangents and normals apart.
+// S = B B' / count + diagonal: positive definite, everything coupled to everything; coupling 0
+// keeps tangents and normals apart.
 static inline void hand_random_schur(Random *random, double diagonal, double coupling,
                                      HandContact *hand)
 {

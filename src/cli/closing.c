@@ -16,8 +16,14 @@ static void print_answers(const RunSummary *summary)
         printf("  mu_M            %.4f, from one of %d peaks: spread not known\n", summary->mu_M,
                summary->peaks);
     else
-        printf("  mu_M            %.4f +- %.4f, from %d of %d peaks\n", summary->mu_M,
-               summary->mu_M_spread, summary->peaks_counted, summary->peaks);
+        printf("  mu_M            %.4f, the mean of the last %d of %d peaks; they differ by %.4f\n",
+               summary->mu_M, summary->peaks_counted, summary->peaks, summary->mu_M_spread);
+    if (summary->peaks > 2 && summary->period == 0)
+        printf("                  not periodic yet: after the first, peaks lie in %.4f to %.4f\n",
+               summary->mu_low, summary->mu_high);
+    if (summary->period == 2)
+        printf("                  high and low peaks take turns: %.4f to %.4f\n", summary->mu_low,
+               summary->mu_high);
     printf("  precursors      %d quasi-static, %d bounded rapid, %d leading rapid\n",
            summary->quasi_static, summary->bounded, summary->leading);
     if (isnan(summary->critical_length))

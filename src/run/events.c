@@ -55,7 +55,7 @@ static bool start_event(Events *events, EventKind kind, const Observation *seen,
     events->list[*index] = (Event){.kind = kind,
                                    .U_start = seen->U,
                                    .t_start = seen->t,
-                                   .front_start = seen->front,
+                                   .front_start = events->front_before,
                                    .reach = seen->front,
                                    .front_speed = NAN};
 cleanup:
@@ -123,9 +123,8 @@ static void follow_rapid(Events *events, const Observation *seen)
     }
 }
 
-bool events_record(void *self, const Observation *seen, Error *err)
+static bool follow_step(Events *events, const Observation *seen, Error *err)
 {
-    Events *events = self;
     events->began = events->ended = events->crossed = false;
     if (events->rapid < 0 && seen->max_slip_rate > events->rate_start) {
         TRY(start_event(events, EVENT_BOUNDED, seen, &events->rapid, err));
@@ -148,6 +147,14 @@ bool events_record(void *self, const Observation *seen, Error *err)
     if (events->slow >= 0) extend_event(&events->list[events->slow], seen, seen->front);
 cleanup:
     return error_is_clean(err);
+}
+
+bool events_record(void *self, const Observation *seen, Error *err)
+{
+    Events *events = self;
+    bool followed = follow_step(events, seen, err);
+    events->front_before = seen->front;
+    return followed;
 }
 
 void events_close(Events *events, const Observation *last)

@@ -38,6 +38,7 @@ typedef struct Events {
     int32_t kinds[3];   // counted, by kind
     int32_t rapid;   // index of the rapid event under way; -1: none
     int32_t slow;   // index of the quasi-static event under way; -1: none
+    double front_before;            // front in the step seen before, length
     bool began, ended, crossed;   // of a rapid event, in the step seen last; crossed: it became
         // leading in this step
     uint8_t *slipped;   // [contact_count] in the rapid event under way; owned

@@ -6,8 +6,8 @@
 
 #include "run/simulation.h"
 
-// run/model_shape: everything up to the operator, the shortest way. What the scene does not need of it
-// is not done: a shape in the cache is neither meshed nor assembled.
+// run/model_shape: everything up to the operator, the shortest way. What the scene does not need of
+// it is not done: a shape in the cache is neither meshed nor assembled.
 bool model_obtain(Simulation *simulation, Error *err);
 
 // Parts of that, for those who need the assembled bulk itself; each needs the ones before it.

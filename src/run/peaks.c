@@ -64,21 +64,26 @@ cleanup:
     return error_is_clean(err);
 }
 
-PeaksSummary peaks_summarise(Peaks *peaks)
+// Peaks from the end on of which each agrees with the one `period` before it, the first peak of the
+// run left out: the length of that run of peaks, `period` when not even the last one agrees.
+static int32_t count_agreeing(const Peaks *peaks, int32_t period)
 {
-    PeaksSummary summary = {
-        .mu_M = NAN, .spread = NAN, .critical_length = NAN, .subcritical_length = NAN};
-    for (int32_t k = 0; k < peaks->count; k++) peaks->list[k].counts = false;
-    if (peaks->count == 0) return summary;
-    const Peak *last = &peaks->list[peaks->count - 1];
-    double low = last->mu, high = last->mu, sum = 0, fronts = 0, losses = 0;
+    int32_t first = peaks->count > 1 ? 1 : 0, agreeing = period;
+    for (int32_t k = peaks->count - 1; k - period >= first; k--) {
+        double mu = peaks->list[k].mu;
+        if (fabs(mu - peaks->list[k - period].mu) > peaks->tolerance * mu) break;
+        agreeing++;
+    }
+    return agreeing;
+}
+
+static void average(Peaks *peaks, PeaksSummary *summary)
+{
+    double low = INFINITY, high = -INFINITY, sum = 0, fronts = 0, losses = 0;
     int32_t with_loss = 0;
-    for (int32_t k = peaks->count - 1; k >= 0; k--) {
+    for (int32_t k = peaks->count - summary->counted; k < peaks->count; k++) {
         Peak *peak = &peaks->list[k];
-        bool is_start = k == 0 && peaks->count > 1;
-        if (is_start || fabs(peak->mu - last->mu) > peaks->tolerance * last->mu) break;
         peak->counts = true;
-        summary.counted++;
         sum += peak->mu;
         fronts += peak->front;
         low = fmin(low, peak->mu);
@@ -87,10 +92,34 @@ PeaksSummary peaks_summarise(Peaks *peaks)
         losses += peak->front_uncertified;
         with_loss++;
     }
-    summary.mu_M = sum / summary.counted;
-    summary.critical_length = fronts / summary.counted;
-    if (with_loss > 0) summary.subcritical_length = losses / with_loss;
-    if (summary.counted > 1) summary.spread = high - low;
-    summary.periodic = summary.counted >= PERIODIC_PEAKS;
+    summary->mu_M = sum / summary->counted;
+    summary->critical_length = fronts / summary->counted;
+    if (with_loss > 0) summary->subcritical_length = losses / with_loss;
+    if (summary->counted > 1) summary->spread = high - low;
+}
+
+PeaksSummary peaks_summarise(Peaks *peaks)
+{
+    PeaksSummary summary = {.mu_M = NAN,
+                            .spread = NAN,
+                            .low = NAN,
+                            .high = NAN,
+                            .critical_length = NAN,
+                            .subcritical_length = NAN};
+    for (int32_t k = 0; k < peaks->count; k++) peaks->list[k].counts = false;
+    if (peaks->count == 0) return summary;
+    int32_t agreeing = count_agreeing(peaks, 1), alternating = count_agreeing(peaks, 2);
+    summary.counted = agreeing;
+    if (agreeing >= PERIODIC_PEAKS) {
+        summary.period = 1;
+    } else if (alternating >= 2 + PERIODIC_PEAKS) {
+        summary.period = 2;
+        summary.counted = alternating - alternating % 2;   // as many high ones as low ones
+    }
+    average(peaks, &summary);
+    for (int32_t k = peaks->count > 1 ? 1 : 0; k < peaks->count; k++) {
+        summary.low = fmin(summary.low, peaks->list[k].mu);
+        summary.high = fmax(summary.high, peaks->list[k].mu);
+    }
     return summary;
 }

@@ -25,12 +25,13 @@ typedef struct Peaks {
 } Peaks;
 
 typedef struct PeaksSummary {
-    int32_t counted;   // peaks in the mean
-    double mu_M;   // NaN: no peak
-    double spread;   // largest minus smallest of them; NaN with fewer than two
-    double critical_length;   // mean l_c of them, length
-    double subcritical_length;   // mean l_sc of those that have one, length; NaN: none
-    bool periodic;   // at least three agree
+    int32_t counted;             // peaks in the mean
+    int32_t period;              // 1: the last peaks agree; 2: every second one does; 0: neither
+    double mu_M;                 // NaN: no peak
+    double spread;               // largest minus smallest of them; NaN with fewer than two
+    double low, high;            // of all peaks but the first (of the first where it is alone)
+    double critical_length;      // mean l_c of those counted, length
+    double subcritical_length;   // mean l_sc of those counted that have one, length; NaN: none
 } PeaksSummary;
 
 bool peaks_create(const Events *events, double tolerance, Peaks *peaks, Error *err);

@@ -92,7 +92,10 @@ static void write_results(JsonWriter *json, const RunReport *report)
     json_number(json, "mu_M", summary->mu_M);
     json_number(json, "mu_M_spread", summary->spread);
     json_integer(json, "mu_M_peaks", summary->counted);
-    json_boolean(json, "periodic", summary->periodic);
+    json_boolean(json, "periodic", summary->period > 0);
+    json_integer(json, "period", summary->period);
+    json_number(json, "mu_peaks_low", summary->low);
+    json_number(json, "mu_peaks_high", summary->high);
     json_number(json, "mu_max", report->peaks->mu_max);
     json_number(json, "l_sc_over_L", summary->subcritical_length / length);
     json_number(json, "l_c_over_L", summary->critical_length / length);

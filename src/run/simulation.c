@@ -188,7 +188,7 @@ bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *fini
     // What is left is less than a rung that is built: not worth a factorisation.
     *finished = control->now.time >= simulation->t_end * (1 - 1e-9);
     if (simulation->scene.time.until_periodic && simulation->events.crossed)
-        *finished = *finished || peaks_summarise(&simulation->peaks).periodic;
+        *finished = *finished || peaks_summarise(&simulation->peaks).period > 0;
     const Observation *seen = &simulation->seen;
     if (view)
         *view = (StepView){.t = seen->t,
@@ -230,6 +230,9 @@ static void summarise_run(const Simulation *simulation, const RunCounters *count
     const int32_t *kinds = simulation->events.kinds;
     *summary = (RunSummary){.mu_M = peaks->mu_M,
                             .mu_M_spread = peaks->spread,
+                            .mu_low = peaks->low,
+                            .mu_high = peaks->high,
+                            .period = peaks->period,
                             .peaks = simulation->peaks.count,
                             .peaks_counted = peaks->counted,
                             .quasi_static = kinds[EVENT_QUASI_STATIC],

@@ -3,10 +3,11 @@
 //
 //     S u_b = g + r,   S, g: K and f condensed on the interface,
 //
-// which is the contact problem of one stage (contact/contact_problem) with displacements in the place
-// of velocities: gap u_z >= 0, the rod at its displacement, friction Coulomb's with mu_static, stick
-// meaning u_x = 0. The problem is positively homogeneous: loading in proportional steps gives the
-// same states, hence one solve. Called by amontons_static; written by run/static_report.
+// which is the contact problem of one stage (contact/contact_problem) with displacements in the
+// place of velocities: gap u_z >= 0, the rod at its displacement, friction Coulomb's with
+// mu_static, stick meaning u_x = 0. The problem is positively homogeneous: loading in proportional
+// steps gives the same states, hence one solve. Called by amontons_static; written by
+// run/static_report.
 #ifndef AMONTONS_RUN_STATIC_SOLVE_H
 #define AMONTONS_RUN_STATIC_SOLVE_H
 
@@ -25,7 +26,8 @@ typedef struct StaticSolution {
     int64_t iterations;
 } StaticSolution;
 
-// simulation: mesh read, bulk built, supports not yet held (this does it). ERROR_COMPUTE: none found.
+// simulation: mesh read, bulk built, supports not yet held (this does it). ERROR_COMPUTE: none
+// found.
 bool static_solve(Simulation *simulation, StaticSolution *solution, Error *err);
 void static_solution_destroy(StaticSolution *solution);
 

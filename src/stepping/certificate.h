@@ -7,17 +7,17 @@
 //   * S_C[F,F] - W positive definite, S_C the Schur complement of the damping C alone: viscosity
 //     takes more out of any slip than weakening puts in. No perturbation can gain energy, and any
 //     step that accuracy allows may be taken. First lost at about l_sc.
-//   * S(dt)[F,F] - W positive definite for a rung's S(dt) = (M s + C + K/s) condensed, s = 1/(gamma
-//     dt): nothing grows faster than s. Lost: there may be a real growth rate above s, which the step
-//     would hide.
+//   * S(dt)[F,F] - W positive definite for a rung's S(dt) = (M s + C + K/s) condensed, with s =
+//     1/(gamma dt): nothing grows faster than s. Lost: there may be a real growth rate above s,
+//     which the step would hide.
 //
 // Both leave out that pressure follows slip. The rows of slipping nodes with it,
 //
 //     J(s) = S_t + sign(v) mu S_n - W,
 //
-// are singular exactly at real growth rates, and det J > 0 for s to infinity, where M decides. So where
-// the second test fails, det J > 0 still clears the step: no single rate lies above s. (With mu_S = 1.2
-// slip is steady for long while S - W is indefinite.) Called by stepping/step_control.
+// are singular exactly at real growth rates, and det J > 0 for s to infinity, where M decides. So
+// where the second test fails, det J > 0 still clears the step: no single rate lies above s. (With
+// mu_S = 1.2 slip is steady for long while S - W is indefinite.) Called by stepping/step_control.
 #ifndef AMONTONS_STEPPING_CERTIFICATE_H
 #define AMONTONS_STEPPING_CERTIFICATE_H
 

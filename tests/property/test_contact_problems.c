@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Random contact problems. Large ones with moderate friction are solved, rightly, from any guess.
-// Small ones are also solved by trying every combination of statuses: what the active set gives up is
-// held against what there is to be found.
+// Small ones are also solved by trying every combination of statuses: what the active set gives up
+// is held against what there is to be found.
 #include "contact_by_hand.h"
 #include "dense_by_hand.h"
 
@@ -129,9 +129,10 @@ static int32_t count_solutions(const HandContact *problem)
     return solutions;
 }
 
-// Weakening is weak enough when S - diag(k r_n) on the tangents stays positive definite: slip is then
-// the minimum of a convex energy. Given up: `hand` holds no solution, but where S keeps tangents and
-// normals apart r_n follows from the normals alone, as from the first combination that fits.
+// Weakening is weak enough when S - diag(k r_n) on the tangents stays positive definite: slip is
+// then the minimum of a convex energy. Given up: `hand` holds no solution, but where S keeps
+// tangents and normals apart r_n follows from the normals alone, as from the first combination that
+// fits.
 static bool weakening_is_too_strong(const HandContact *problem)
 {
     int32_t nodes = problem->interface.contact_count, count = problem->interface.count;
@@ -178,8 +179,8 @@ static Tally tally_small_problems(FrictionLaw law, double coupling, double diago
     return tally;
 }
 
-// Constant friction with everything coupled: nothing is given up unless friction is both above 1 and
-// carried by a poorly conditioned S; and then few.
+// Constant friction with everything coupled: nothing is given up unless friction is both above 1
+// and carried by a poorly conditioned S; and then few.
 static void test_small_coulomb_problems(void **state)
 {
     (void)state;

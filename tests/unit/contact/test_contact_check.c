@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The judge judged: states that keep every condition, then one condition broken at a time by a known
-// amount, which must be found as that condition and with that size.
+// The judge judged: states that keep every condition, then one condition broken at a time by a
+// known amount, which must be found as that condition and with that size.
 #include "contact/contact_check.h"
 
 #include "contact_by_hand.h"

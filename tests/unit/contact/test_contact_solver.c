@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// One and two contact nodes and a rod node, with the solutions worked out by hand; every solution is
-// to be found from every first guess.
+// One and two contact nodes and a rod node, with the solutions worked out by hand; every solution
+// is to be found from every first guess.
 #include "contact/contact_solver.h"
 
 #include "base/memory.h"
@@ -74,8 +74,8 @@ static void test_coulomb_slip(void **state)
     expect_one(pulled, COULOMB, CONTACT_SLIP_BACKWARD, (double[]){v, 0, 0.5 * p, p});
 }
 
-// s_t v - g_t + (mu_S - k v)(p + c v) = 0, k = (mu_S - mu_K)/v_c, for 0 < v < v_c; beyond v_c the same
-// with mu_K.
+// s_t v - g_t + (mu_S - k v)(p + c v) = 0, k = (mu_S - mu_K)/v_c, for 0 < v < v_c; beyond v_c the
+// same with mu_K.
 static void test_weakening_slip(void **state)
 {
     (void)state;
@@ -100,8 +100,8 @@ static void test_weakening_slip(void **state)
     }
 }
 
-// s_t < k p: friction falls faster than the block resists. Below the threshold it can stick; just above
-// it only the fast branch is left, and it must be found or the problem given up.
+// s_t < k p: friction falls faster than the block resists. Below the threshold it can stick; just
+// above it only the fast branch is left, and it must be found or the problem given up.
 static void test_strong_weakening(void **state)
 {
     (void)state;
@@ -192,8 +192,8 @@ static void test_two_nodes(void **state)
 }
 
 // Friction so strong (mu |c| > s_t) that a node may both hold and lift off, and plain iteration may
-// run in circles. What is called solved is right; from the right status it stays; and where the mass of
-// a small step makes s_t large it is always solved.
+// run in circles. What is called solved is right; from the right status it stays; and where the
+// mass of a small step makes s_t large it is always solved.
 static void test_rough_friction(void **state)
 {
     (void)state;

@@ -63,7 +63,7 @@ static void test_figure_1(void **state)
     assert_true(scene.rod.velocity == 1e-5 && scene.rod.height == 0.25 && scene.rod.width == 0.05);
     assert_int_equal(scene.rod.kind, ROD_PUSH);
     assert_int_equal(scene.start.friction, START_FRICTION_ON);
-    assert_true(scene.time.until_U == 0.006 && scene.time.until_t == 0);
+    assert_true(scene.time.until_U == 0.012 && scene.time.until_t == 0);
     assert_false(scene.time.until_periodic);
     assert_int_equal(scene.time.scheme, SCHEME_SDIRK2);
     assert_int_equal(scene.time.accuracy, ACCURACY_STANDARD);
@@ -149,7 +149,7 @@ static void test_override_of_a_part(void **state)
     static const char *const more[] = {"time.until.periodic=true", "mesh.set={nx: 3}",
                                        "output.fields={}"};
     scene = read_fig1(more, 3);
-    assert_true(scene.time.until_periodic && scene.time.until_U == 0.006);
+    assert_true(scene.time.until_periodic && scene.time.until_U == 0.012);
     assert_int_equal(scene.mesh.parameter_count, 1);
     assert_true(scene.output.fields && scene.output.fields_every_U == 0);
     static const char *const units[] = {"load.pressure=3 kPa", "units=si"};

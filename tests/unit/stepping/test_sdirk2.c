@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The integrator against a Runge-Kutta solution of the dense equations written out here, its estimate
-// against its own local error, and the balances of momentum and energy.
+// The integrator against a Runge-Kutta solution of the dense equations written out here, its
+// estimate against its own local error, and the balances of momentum and energy.
 #include "stepping/sdirk2.h"
 
 #include "block_rig.h"
@@ -45,8 +45,8 @@ static StepOutcome do_step(Stepper *stepper, int32_t k)
     return outcome;
 }
 
-// A frictionless block on its plane, loaded askew at t = 0 so that it bends, spreads and drifts, but
-// nowhere lifts off: smooth and linear.
+// A frictionless block on its plane, loaded askew at t = 0 so that it bends, spreads and drifts,
+// but nowhere lifts off: smooth and linear.
 static RigDef smooth_def(void)
 {
     RigDef def = rig_def();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The largest rates against those of a chain, known in closed form, and of a small dense matrix; the
-// limit against what really blows up.
+// The largest rates against those of a chain, known in closed form, and of a small dense matrix;
+// the limit against what really blows up.
 #include "stepping/stable_step.h"
 
 #include "stepped_block.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is accepted and what is not: accuracy, contact, certificate; and what becomes of a run that the
-// certificate does not hold back.
+// What is accepted and what is not: accuracy, contact, certificate; and what becomes of a run that
+// the certificate does not hold back.
 #include "stepping/step_control.h"
 
 #include "block_rig.h"
@@ -132,8 +132,9 @@ static double peak_force(bool use_certificate, double tolerance)
     return peak;
 }
 
-// Ten times the usual tolerance leaves the answer where it is, as long as the certificate keeps steps
-// short where slip can grow. Without it every step converges too, and friction comes out too high.
+// Ten times the usual tolerance leaves the answer where it is, as long as the certificate keeps
+// steps short where slip can grow. Without it every step converges too, and friction comes out too
+// high.
 static void test_certificate_prevents_the_wrong_answer(void **state)
 {
     (void)state;
@@ -183,8 +184,8 @@ static void test_remaining(void **state)
     run_destroy(&run);
 }
 
-// Contact that is never solved, or an error that is never small enough: not accepted at any step, the
-// state untouched, the reason said.
+// Contact that is never solved, or an error that is never small enough: not accepted at any step,
+// the state untouched, the reason said.
 static void test_gives_up(void **state)
 {
     (void)state;
