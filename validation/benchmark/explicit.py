@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Implicit against explicit stepping: the same answer, and what each costs.
+
+    python3 validation/benchmark/explicit.py [--program build/bin/amontons] [--cells 20 40 80]
+
+First the periodic mu_M of explicit.yaml (20x20) by both schemes. Then the run of the paper's Figure 1
+(U to 0.006) on meshes of `--cells`: wall time of the time loop and processor time of the program.
+The explicit run is done whole up to `--whole` cells; on finer meshes a short stretch is measured and
+scaled by the number of steps. Implicit and explicit runs take turns, so that a busy machine slows
+both; of the implicit ones the median counts. Exit status 1: mu_M differ by more than 1 %.
+"""
+import argparse
+import json
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+SCENE = HERE / "explicit.yaml"
+REPEATS = 3            # of each implicit run
+T_END = 600.0          # U = 0.006 at V = 1e-5
+STRETCH = 2.0          # of time, where the whole run would take too long
+MU_TOLERANCE = 0.01
+
+
+def run(program, *settings):
+    """run.json of a run of the scene, and the processor time it took, s."""
+    words = [f"--set={setting}" for setting in settings]
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([program, "run", SCENE, *words, "-o", f"{folder}/result", "--quiet"],
+                       check=True)
+        result = json.loads(Path(folder, "result", "run.json").read_text())
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return result, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def compare_mu(program):
+    """mu_M by both schemes; their relative difference."""
+    mu = {}
+    print("Periodic regime, 20x20\n")
+    print("| scheme | mu_M | spread | peaks | steps |\n|---|---|---|---|---|")
+    for scheme in ("sdirk2", "explicit"):
+        result, _ = run(program, f"time.scheme={scheme}")
+        found = result["results"]
+        mu[scheme] = found["mu_M"]
+        print(f"| {scheme} | {found['mu_M']:.5f} | {found['mu_M_spread']:.5f} | "
+              f"{' '.join(format(peak['mu'], '.4f') for peak in found['peaks'])} | {result['steps']['accepted']} |", flush=True)
+    return abs(mu["explicit"] / mu["sdirk2"] - 1)
+
+
+def time_pair(program, cells, whole):
+    """A row: what the run to T_END costs on cells x cells."""
+    mesh = (f"mesh.set.nx={cells}", f"mesh.set.nz={cells}", "output.history=false")
+    duration = T_END if whole else STRETCH
+    implicit = []
+    for turn in range(REPEATS):
+        implicit.append(run(program, *mesh, f"time.until={{t: {T_END}}}", "time.scheme=sdirk2"))
+        if turn == 0:
+            explicit, cpu = run(program, *mesh, f"time.until={{t: {duration}}}")
+    seconds = statistics.median(result["timing_s"]["solve"] for result, _ in implicit)
+    implicit_cpu = statistics.median(cpu for _, cpu in implicit)
+    steps = explicit["steps"]["accepted"] * T_END / duration
+    solve = explicit["timing_s"]["solve"] * T_END / duration
+    if not whole:   # the program's start and the relaxation are not repeated
+        cpu = (explicit["timing_s"]["solve"]) * T_END / duration
+    return (f"| {cells}x{cells} | {implicit[0][0]['steps']['accepted']} | {seconds:.3f} | "
+            f"{implicit_cpu:.2f} | {steps:.3g} | {explicit['rungs'][0]['dt']:.3g} | "
+            f"{1e6 * solve / steps:.1f} | {solve:.4g} | {cpu:.4g} | "
+            f"{'whole' if whole else 'scaled'} | {solve / seconds:.0f} |")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--program", default=HERE.parent.parent / "build" / "bin" / "amontons")
+    parser.add_argument("--cells", type=int, nargs="*", default=[20, 40, 80])
+    parser.add_argument("--whole", type=int, default=40)
+    parser.add_argument("--skip-mu", action="store_true", help="the cost only")
+    options = parser.parse_args()
+    difference = 0 if options.skip_mu else compare_mu(options.program)
+    if not options.skip_mu:
+        print(f"\nThe two mu_M differ by {100 * difference:.3f} %.\n", flush=True)
+    print("Cost of the run to U = 0.006: time loop (wall) and whole program (processor), s\n")
+    print("| mesh | steps | loop | cpu | explicit steps | dt | us/step | loop | cpu | measured | ratio |")
+    print("|---|---|---|---|---|---|---|---|---|---|---|")
+    for cells in options.cells:
+        print(time_pair(options.program, cells, cells <= options.whole), flush=True)
+    return 1 if difference > MU_TOLERANCE else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
