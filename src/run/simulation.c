@@ -186,7 +186,10 @@ bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *fini
     simulation->timing.solve += clock_seconds() - started;
     TRY(record_step(simulation, err));
     // What is left is less than a rung that is built: not worth a factorisation.
-    *finished = control->now.time >= simulation->t_end * (1 - 1e-9);
+    remaining = simulation->t_end - control->now.time;
+    bool implicit = simulation->scene.time.scheme == SCHEME_SDIRK2;
+    *finished = remaining <= 1e-9 * simulation->t_end ||
+                (implicit && !step_control_fits(control, remaining));
     if (simulation->scene.time.until_periodic && simulation->events.crossed)
         *finished = *finished || peaks_summarise(&simulation->peaks).period > 0;
     const Observation *seen = &simulation->seen;

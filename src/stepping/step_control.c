@@ -110,6 +110,15 @@ static int32_t fit_rung(const StepControl *control, int32_t k, double remaining)
     return k;
 }
 
+bool step_control_fits(const StepControl *control, double remaining)
+{
+    const Ladder *ladder = &control->ladder;
+    for (int32_t k = ladder->rung_count - 1; k >= 0; k--) {
+        if (ladder->rung[k]) return ladder_step(ladder, k) <= remaining;
+    }
+    return remaining > 0;
+}
+
 static void accept_step(StepControl *control, int32_t k, const StepOutcome *outcome)
 {
     State accepted = control->next;

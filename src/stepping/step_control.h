@@ -50,6 +50,9 @@ void step_control_destroy(StepControl *control);
 // ends where it should). ERROR_COMPUTE when even step_min is not accepted: the message says why.
 bool step_control_advance(StepControl *control, double remaining, Error *err);
 
+// Whether a rung that is built is at most `remaining` long: what is less is not worth a new one.
+bool step_control_fits(const StepControl *control, double remaining);
+
 // Starts counting anew at `now`: time 0, ledger opened, coarse steps to be earned again.
 void step_control_restart(StepControl *control);
 
