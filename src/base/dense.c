@@ -16,6 +16,9 @@ void dpotri_(const char *uplo, const int *n, double *a, const int *lda, int *inf
              size_t uplo_size);
 void dsyev_(const char *jobz, const char *uplo, const int *n, double *a, const int *lda, double *w,
             double *work, const int *lwork, int *info, size_t jobz_size, size_t uplo_size);
+void dgeev_(const char *jobvl, const char *jobvr, const int *n, double *a, const int *lda,
+            double *wr, double *wi, double *vl, const int *ldvl, double *vr, const int *ldvr,
+            double *work, const int *lwork, int *info, size_t jobvl_size, size_t jobvr_size);
 
 void dense_use_one_thread(void)
 {
@@ -104,6 +107,15 @@ bool dense_eigen(double *a, int32_t n, double *values, double *work)
 {
     int info = 0, size = (int)dense_eigen_work(n);
     if (n > 0) dsyev_("V", "L", &n, a, &n, values, work, &size, &info, 1, 1);
+    return info == 0;
+}
+
+bool dense_eigen_general(double *a, int32_t n, double *re, double *im, double *vectors,
+                         double *work)
+{
+    int info = 0, size = (int)dense_eigen_work(n), one = 1;
+    if (n > 0)
+        dgeev_("N", "V", &n, a, &n, re, im, NULL, &one, vectors, &n, work, &size, &info, 1, 1);
     return info == 0;
 }
 

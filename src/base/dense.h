@@ -39,6 +39,12 @@ bool dense_invert_factored(double *a, int32_t n);
 int64_t dense_eigen_work(int32_t n);
 bool dense_eigen(double *a, int32_t n, double *values, double *work);
 
+// Eigenvalues (re, im: [n]) and right eigenvectors of a general `a` [n * n], which is destroyed. A
+// complex pair takes two columns of `vectors` [n * n], real and imaginary part of the one with im >
+// 0. work: [dense_eigen_work(n)].
+bool dense_eigen_general(double *a, int32_t n, double *re, double *im, double *vectors,
+                         double *work);
+
 // A general matrix: column-major, `rows` long columns, no gaps.
 typedef struct DenseView {
     const double *values;
