@@ -1,0 +1,423 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// With x = [u; w/s], w = lambda u, the shifted inverse maps x = [a; b] to [u; u + a/s] where
+//
+//     (A - W) u = -M (a + b) - (C - W) a/s,   A = s M + C + K/s,  friction rows combined as in P,
+//
+// and its eigenvalues are theta = 1/(lambda - s). Held unknowns are 0 throughout.
+#include "stepping/growth.h"
+
+#include "base/dense.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+// A moving unknown of the interface.
+typedef struct Moving {
+    int32_t unknown;
+    int32_t normal;   // of a slipping tangent; -1: no friction here
+    double friction;   // s mu(|v|)
+    double weakening;   // W, force * time / length
+} Moving;
+
+struct Growth {
+    GrowthDef def;
+    BulkOperator *system;   // not owned, like the next two
+    const Interface *interface;
+    const FrictionLaw *law;
+    int32_t shift_count;
+    double shift[GROWTH_SHIFTS_MAX];   // s, 1/time
+    InterfaceOperator *at[GROWTH_SHIFTS_MAX];   // A; owned, like all that follows
+    Moving *moving;   // [interface_count]
+    int32_t moving_count;
+    double *matrix;   // [interface_count^2] of the moving unknowns
+    int32_t *pivots;   // [interface_count]
+    double *step;   // [interface_count]
+    double *g, *border;   // [interface_count]
+    double *rhs, *image;   // [dof_count]
+    double *basis;   // [2 dof_count * (vectors + 1)] orthonormal
+    double *projected;   // [(vectors + 1) * vectors] Hessenberg
+    double *square, *ritz;   // [vectors^2]
+    double *theta_re, *theta_im, *dots;   // [vectors + 1]
+    double *eigen_work;   // [dense_eigen_work(vectors)]
+    double *mode_re, *mode_im, *real_mode, *candidate;   // [interface_count]
+};
+
+GrowthDef growth_def(double length, double speed, int32_t contact_count)
+{
+    return (GrowthDef){.slowest = speed / (4 * length),
+                       .fastest = speed * contact_count / length,
+                       .stride = 3,
+                       .vectors = 60,
+                       .tolerance = 1e-8};
+}
+
+static bool allocate(Growth *growth, Error *err)
+{
+    int64_t m = growth->interface->count, n = growth->system->dof_count, k = growth->def.vectors;
+    growth->moving = NEW_ARRAY(Moving, m, err);
+    growth->matrix = NEW_ARRAY(double, m *m, err);
+    growth->pivots = NEW_ARRAY(int32_t, m, err);
+    growth->step = NEW_ARRAY(double, m, err);
+    growth->g = NEW_ARRAY(double, m, err);
+    growth->border = NEW_ARRAY(double, m, err);
+    growth->rhs = NEW_ARRAY(double, n, err);
+    growth->image = NEW_ARRAY(double, n, err);
+    growth->basis = NEW_ARRAY(double, 2 * n * (k + 1), err);
+    growth->projected = NEW_ARRAY(double, (k + 1) * k, err);
+    growth->square = NEW_ARRAY(double, k *k, err);
+    growth->ritz = NEW_ARRAY(double, k *k, err);
+    growth->theta_re = NEW_ARRAY(double, k + 1, err);
+    growth->theta_im = NEW_ARRAY(double, k + 1, err);
+    growth->dots = NEW_ARRAY(double, k + 1, err);
+    growth->eigen_work = NEW_ARRAY(double, dense_eigen_work((int32_t)k), err);
+    growth->mode_re = NEW_ARRAY(double, m, err);
+    growth->mode_im = NEW_ARRAY(double, m, err);
+    growth->real_mode = NEW_ARRAY(double, m, err);
+    growth->candidate = NEW_ARRAY(double, m, err);
+    return error_is_clean(err);
+}
+
+Growth *growth_create(const Block *block, const GrowthDef *def, Error *err)
+{
+    Growth *growth = NEW_ARRAY(Growth, 1, err);
+    if (!growth) goto cleanup;
+    growth->def = *def;
+    growth->system = block->system;
+    growth->interface = block->interface;
+    growth->law = block->law;
+    TRY(allocate(growth, err));
+    for (double s = def->slowest; growth->shift_count < GROWTH_SHIFTS_MAX; s *= 2) {
+        int32_t k = growth->shift_count++;
+        growth->shift[k] = s;
+        OperatorTerms terms = {.mass = s, .damping = 1, .stiffness = 1 / s};
+        growth->at[k] = interface_operator_create(block->system, terms, err);
+        if (!growth->at[k]) goto cleanup;
+        if (s >= def->fastest) break;
+    }
+cleanup:
+    if (error_is_clean(err)) return growth;
+    growth_destroy(growth);
+    return NULL;
+}
+
+void growth_destroy(Growth *growth)
+{
+    if (!growth) return;
+    for (int32_t k = 0; k < GROWTH_SHIFTS_MAX; k++) interface_operator_destroy(growth->at[k]);
+    double *arrays[] = {growth->matrix,    growth->step,       growth->g,        growth->border,
+                        growth->rhs,       growth->image,      growth->basis,    growth->projected,
+                        growth->square,    growth->ritz,       growth->theta_re, growth->theta_im,
+                        growth->dots,      growth->eigen_work, growth->mode_re,  growth->mode_im,
+                        growth->real_mode, growth->candidate};
+    for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; k++) memory_free(arrays[k]);
+    memory_free(growth->moving);
+    memory_free(growth->pivots);
+    memory_free(growth);
+}
+
+static void add_moving(Growth *growth, int32_t unknown)
+{
+    growth->moving[growth->moving_count++] = (Moving){.unknown = unknown, .normal = -1};
+}
+
+static void list_moving(Growth *growth, const State *state)
+{
+    const Interface *interface = growth->interface;
+    growth->moving_count = 0;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        if (state->status[i] == CONTACT_STICK) continue;
+        int32_t t = interface_tangent(i), n = interface_normal(i);
+        add_moving(growth, t);
+        if (state->status[i] == CONTACT_OPEN) {
+            add_moving(growth, n);
+            continue;
+        }
+        Moving *slipping = &growth->moving[growth->moving_count - 1];
+        double speed = fabs(state->slip_rate[t]);
+        slipping->normal = n;
+        slipping->friction = status_direction(state->status[i]) *
+                             friction_coefficient(growth->law, speed);
+        slipping->weakening = -friction_slope(growth->law, speed) * state->reaction[n];
+    }
+    for (int32_t j = 0; j < interface->rod_count; j++) {
+        if (!state->rod_touches[j]) add_moving(growth, interface_rod(interface, j));
+    }
+}
+
+// --- the scan -----------------------------------------------------------------------------------
+
+// The largest eigenvalue of W^1/2 S[F,F]^-1 W^1/2 by powers of it; the inverse stands in `matrix`.
+static double largest_load(const Growth *growth)
+{
+    enum { POWERS_MAX = 2000 };
+    int32_t count = growth->moving_count;
+    double *x = growth->step, *y = growth->g, load = 0, square = 0;
+    for (int32_t a = 0; a < count; a++) {
+        x[a] = sqrt(fmax(growth->moving[a].weakening, 0));
+        square += x[a] * x[a];
+    }
+    if (square == 0) return 0;
+    for (int32_t power = 0; power < POWERS_MAX; power++) {
+        double norm = sqrt(dense_dot(x, x, count)), before = load;
+        for (int32_t a = 0; a < count; a++)
+            x[a] *= sqrt(fmax(growth->moving[a].weakening, 0)) / norm;
+        dense_symmetric_apply(growth->matrix, count, x, y);
+        load = dense_dot(x, y, count);
+        for (int32_t a = 0; a < count; a++)
+            x[a] = sqrt(fmax(growth->moving[a].weakening, 0)) * y[a];
+        if (fabs(load - before) <= 1e-12 * load) break;
+    }
+    return load;
+}
+
+static double load_at(Growth *growth, int32_t k)
+{
+    int32_t count = growth->moving_count;
+    int64_t size = growth->interface->count;
+    const double *schur = interface_operator_schur(growth->at[k]);
+    for (int32_t b = 0; b < count; b++) {
+        const double *column = schur + size * growth->moving[b].unknown;
+        for (int32_t a = 0; a < count; a++)
+            growth->matrix[(int64_t)count * b + a] = column[growth->moving[a].unknown];
+    }
+    if (!dense_cholesky(growth->matrix, count) || !dense_invert_factored(growth->matrix, count))
+        return INFINITY;
+    return largest_load(growth);
+}
+
+GrowthScan growth_scan(Growth *growth, const State *state)
+{
+    double load[GROWTH_SHIFTS_MAX] = {0};
+    int32_t best = 0, count = growth->shift_count;
+    list_moving(growth, state);
+    for (int32_t k = 0; k < count; k++) {
+        load[k] = load_at(growth, k);
+        if (load[k] > load[best]) best = k;
+    }
+    GrowthScan scan = {.load = load[best], .rate = growth->shift[best]};
+    if (best == 0 || best == count - 1) return scan;
+    // The top of the parabola through three neighbours, in log s.
+    double slope = (load[best + 1] - load[best - 1]) / 2;
+    double curve = load[best + 1] - 2 * load[best] + load[best - 1];
+    if (!(curve < 0)) return scan;
+    scan.load -= slope * slope / (2 * curve);
+    scan.rate *= exp2(-slope / curve);
+    return scan;
+}
+
+// --- the eigenproblem ---------------------------------------------------------------------------
+
+// LU of the moving unknowns' rows of A - W, the friction rows combined.
+static bool factor_moving(Growth *growth, int32_t k)
+{
+    int32_t count = growth->moving_count;
+    int64_t size = growth->interface->count;
+    const double *schur = interface_operator_schur(growth->at[k]);
+    for (int32_t b = 0; b < count; b++) {
+        const double *column = schur + size * growth->moving[b].unknown;
+        double *out = growth->matrix + (int64_t)count * b;
+        for (int32_t a = 0; a < count; a++) {
+            const Moving *row = &growth->moving[a];
+            out[a] = column[row->unknown];
+            if (row->normal >= 0) out[a] += row->friction * column[row->normal];
+        }
+        out[b] -= growth->moving[b].weakening;
+    }
+    return dense_lu(growth->matrix, count, growth->pivots);
+}
+
+// to = shifted inverse of from; both [2 dof_count].
+static bool apply_inverse(Growth *growth, int32_t k, const double *from, double *to, Error *err)
+{
+    BulkOperator *system = growth->system;
+    int32_t n = system->dof_count;
+    double s = growth->shift[k];
+    const double *a = from, *b = from + n;
+    for (int32_t j = 0; j < n; j++) to[j] = a[j] + b[j];
+    bulk_operator_apply(system, BULK_MASS, to, growth->rhs);
+    bulk_operator_apply(system, BULK_DAMPING, a, growth->image);
+    for (int32_t j = 0; j < n; j++) growth->rhs[j] = -growth->rhs[j] - growth->image[j] / s;
+    TRY(interface_operator_condense(growth->at[k], growth->rhs, growth->g, err));
+    for (int32_t r = 0; r < growth->moving_count; r++) {
+        const Moving *row = &growth->moving[r];
+        growth->step[r] = growth->g[row->unknown] +
+                          row->weakening * a[system->interface_dofs[row->unknown]] / s;
+        if (row->normal >= 0) growth->step[r] += row->friction * growth->g[row->normal];
+    }
+    dense_lu_solve(growth->matrix, growth->moving_count, growth->pivots, growth->step);
+    memset(growth->border, 0, (size_t)growth->interface->count * sizeof(double));
+    for (int32_t r = 0; r < growth->moving_count; r++)
+        growth->border[growth->moving[r].unknown] = growth->step[r];
+    TRY(interface_operator_expand(growth->at[k], growth->border, to, err));
+    for (int32_t j = 0; j < growth->interface->count; j++)
+        to[system->interface_dofs[j]] = growth->border[j];
+    for (int32_t j = 0; j < n; j++) to[n + j] = to[j] + a[j] / s;
+cleanup:
+    return error_is_clean(err);
+}
+
+// Makes `x` orthogonal to the first `count` vectors, twice (once loses digits); dots: what was
+// taken off. Returns what is left of its length, and scales it to 1.
+static double orthogonalise(const Growth *growth, int32_t count, double *x, double *dots)
+{
+    int32_t size = 2 * growth->system->dof_count;
+    DenseView basis = {growth->basis, size, count};
+    memset(dots, 0, (size_t)count * sizeof(double));
+    for (int32_t pass = 0; pass < 2; pass++) {
+        dense_apply_transposed(basis, x, 1, 0, growth->dots);
+        dense_apply(basis, growth->dots, -1, 1, x);
+        for (int32_t j = 0; j < count; j++) dots[j] += growth->dots[j];
+    }
+    double norm = sqrt(dense_dot(x, x, size));
+    for (int32_t j = 0; j < size && norm > 0; j++) x[j] /= norm;
+    return norm;
+}
+
+// The first vector: what an uneven slip brings about.
+static bool start_basis(Growth *growth, int32_t k, Error *err)
+{
+    int32_t n = growth->system->dof_count;
+    double *seed = growth->basis + 2 * (int64_t)n, *dots = growth->projected;
+    memset(seed, 0, 2 * (size_t)n * sizeof(double));
+    for (int32_t j = 0; j < n; j++) seed[j] = 1e-3 * (1 + 0.5 * cos(1.7 * j));
+    for (int32_t j = 0; j < growth->interface->count; j++)
+        seed[growth->system->interface_dofs[j]] = 0;
+    for (int32_t r = 0; r < growth->moving_count; r++)
+        seed[growth->system->interface_dofs[growth->moving[r].unknown]] = 1 + 0.5 * cos(1.3 * r);
+    TRY(apply_inverse(growth, k, seed, growth->basis, err));
+    orthogonalise(growth, 0, growth->basis, dots);
+cleanup:
+    return error_is_clean(err);
+}
+
+// Fills `projected` [(vectors + 1) rows]; *count: the dimension reached, *rest: its last residual.
+static bool build_basis(Growth *growth, int32_t k, int32_t *count, double *rest, Error *err)
+{
+    int64_t size = 2 * (int64_t)growth->system->dof_count, rows = growth->def.vectors + 1;
+    TRY(start_basis(growth, k, err));
+    memset(growth->projected, 0, (size_t)(rows * (rows - 1)) * sizeof(double));
+    for (*count = 0; *count < growth->def.vectors;) {
+        int32_t j = (*count)++;
+        double *next = growth->basis + size * (j + 1), *column = growth->projected + rows * j;
+        TRY(apply_inverse(growth, k, growth->basis + size * j, next, err));
+        double length = sqrt(dense_dot(next, next, (int32_t)size));
+        *rest = orthogonalise(growth, j + 1, next, column);
+        if (!(*rest > 1e-13 * length)) {   // the space is invariant: all of it is exact
+            *rest = 0;
+            break;
+        }
+        column[j + 1] = *rest;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// u on the interface of a Ritz vector, from one column of `ritz`.
+static void lift_mode(const Growth *growth, int32_t count, const double *column, double *mode)
+{
+    int64_t size = 2 * (int64_t)growth->system->dof_count;
+    for (int32_t m = 0; m < growth->interface->count; m++) {
+        const double *entry = growth->basis + growth->system->interface_dofs[m];
+        double sum = 0;
+        for (int32_t j = 0; j < count; j++) sum += entry[size * j] * column[j];
+        mode[m] = sum;
+    }
+}
+
+// Largest slip 1, real and positive; im may be NULL.
+static void scale_mode(const Growth *growth, double *re, double *im)
+{
+    int32_t largest = 0;
+    double square = 0;
+    for (int32_t i = 0; i < growth->interface->contact_count; i++) {
+        int32_t t = interface_tangent(i);
+        double here = re[t] * re[t] + (im ? im[t] * im[t] : 0);
+        if (here > square) {
+            square = here;
+            largest = t;
+        }
+    }
+    if (square == 0) return;
+    double c = re[largest] / square, d = im ? im[largest] / square : 0;   // times conj/|.|^2
+    for (int32_t m = 0; m < growth->interface->count; m++) {
+        double x = re[m], y = im ? im[m] : 0;
+        re[m] = x * c + y * d;
+        if (im) im[m] = y * c - x * d;
+    }
+}
+
+// Keeps lambda where it is new and among the rightmost; returns its place or -1.
+static int32_t keep_rate(GrowthRates *rates, GrowthRate found)
+{
+    int32_t place = 0;
+    double size = hypot(found.re, found.im);
+    for (int32_t k = 0; k < rates->count; k++) {
+        if (hypot(rates->rate[k].re - found.re, rates->rate[k].im - found.im) <= 1e-6 * size)
+            return -1;
+        if (rates->rate[k].re >= found.re) place = k + 1;
+    }
+    if (place >= GROWTH_KEPT) return -1;
+    if (rates->count < GROWTH_KEPT) rates->count++;
+    for (int32_t k = rates->count - 1; k > place; k--) rates->rate[k] = rates->rate[k - 1];
+    rates->rate[place] = found;
+    return place;
+}
+
+// One converged eigenpair: columns re (and im) of its Ritz vector.
+static void take_pair(Growth *growth, int32_t count, GrowthRate found, const double *re,
+                      const double *im, GrowthRates *rates)
+{
+    if (keep_rate(rates, found) == 0) {
+        lift_mode(growth, count, re, growth->mode_re);
+        memset(growth->mode_im, 0, (size_t)growth->interface->count * sizeof(double));
+        if (im) lift_mode(growth, count, im, growth->mode_im);
+        // The pair came by theta with im > 0; lambda with im > 0 has the conjugate vector.
+        for (int32_t m = 0; m < growth->interface->count; m++) growth->mode_im[m] *= -1;
+        scale_mode(growth, growth->mode_re, growth->mode_im);
+    }
+    if (found.im == 0 && found.re > rates->real.re) {
+        rates->real = found;
+        lift_mode(growth, count, re, growth->real_mode);
+        scale_mode(growth, growth->real_mode, NULL);
+        rates->real_mode = growth->real_mode;
+    }
+}
+
+static bool rates_near_shift(Growth *growth, int32_t k, GrowthRates *rates, Error *err)
+{
+    int32_t count = 0;
+    double rest = 0, s = growth->shift[k];
+    int64_t rows = growth->def.vectors + 1;
+    if (!factor_moving(growth, k)) return true;   // s is itself a rate; other shifts see it
+    TRY(build_basis(growth, k, &count, &rest, err));
+    for (int32_t j = 0; j < count; j++)
+        memcpy(growth->square + (int64_t)count * j, growth->projected + rows * j,
+               (size_t)count * sizeof(double));
+    if (!dense_eigen_general(growth->square, count, growth->theta_re, growth->theta_im,
+                             growth->ritz, growth->eigen_work))
+        FAIL(err, ERROR_COMPUTE, "the growth rates near %g were not found", s);
+    for (int32_t j = 0; j < count; j++) {
+        bool pair = growth->theta_im[j] != 0;
+        double x = growth->theta_re[j], y = growth->theta_im[j], square = x * x + y * y;
+        const double *re = growth->ritz + (int64_t)count * j, *im = pair ? re + count : NULL;
+        double last = hypot(re[count - 1], pair ? im[count - 1] : 0);
+        if (pair) j++;
+        if (!(rest * last <= growth->def.tolerance * sqrt(square))) continue;
+        // lambda = s + 1/theta; of a pair the one with im > 0 is kept, whose vector is conjugate.
+        GrowthRate found = {.re = s + x / square, .im = fabs(y) / square};
+        take_pair(growth, count, found, re, im, rates);
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+bool growth_rates(Growth *growth, const State *state, GrowthRates *rates, Error *err)
+{
+    *rates = (GrowthRates){.mode_re = growth->mode_re, .mode_im = growth->mode_im};
+    list_moving(growth, state);
+    for (int32_t k = 0; k < growth->shift_count; k += growth->def.stride)
+        TRY(rates_near_shift(growth, k, rates, err));
+cleanup:
+    return error_is_clean(err);
+}

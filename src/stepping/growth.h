@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// How fast does a small disturbance of a quasi-static state grow? Around a state, with the moving
+// unknowns u (slipping tangents, open nodes, rod nodes let go, everything inside the block; what
+// sticks, is pressed or is pushed stays put), disturbances u exp(lambda t) obey
+//
+//     P(lambda) u = 0,   P = lambda^2 M + lambda (C - W) + K,   row of a slipping tangent:
+//                        P_t + s mu(v) P_n                      (s: direction of slip)
+//
+// W = diag(-mu'(|v_i|) r_n,i) is the weakening; P_n u is the change of the pressing force at a
+// held normal, so mu P_n couples pressure to slip and makes P unsymmetric. Two questions to it:
+//
+//   growth_rates  the rightmost lambda, exactly: shift-and-invert Arnoldi on the companion form
+//                 with real shifts s (Saad, Numerical Methods for Large Eigenvalue Problems, 2011,
+//                 ch. 8). Each product costs one solve with s M + C + K/s, which the border
+//                 (bulk/interface_operator) factors once for all states. Re lambda > 0 first: l_sc;
+//                 lambda real and > 0 first: l_c.
+//   growth_scan   real growth without the coupling: the largest weakening that S(s)[F,F] bears,
+//                 S(s) = s M + C + K/s condensed, over s. Small Cholesky factors only. The pair of real
+//                 rates is born as a double root between two s, so the largest load is
+//                 interpolated in log s.
+//
+// Called by study/stability.
+#ifndef AMONTONS_STEPPING_GROWTH_H
+#define AMONTONS_STEPPING_GROWTH_H
+
+#include "stepping/state.h"
+
+enum { GROWTH_KEPT = 8, GROWTH_SHIFTS_MAX = 24 };
+
+typedef struct GrowthDef {
+    double slowest, fastest;   // rates looked for: the scan's s go up from one to the other by 2,
+        // 1/time
+    int32_t stride;   // Arnoldi at every stride-th of them: 3
+    int32_t vectors;   // of a Krylov space: 60
+    double tolerance;   // of an eigenpair, |P u| against its terms: 1e-8
+} GrowthDef;
+// For a block of this length with so many contact nodes, and c_L: c/(4 L) to some c/dx.
+GrowthDef growth_def(double length, double speed, int32_t contact_count);
+
+typedef struct GrowthRate {
+    double re, im;   // lambda, im >= 0, 1/time
+} GrowthRate;
+
+// Arrays belong to the Growth it came from, until its next use.
+typedef struct GrowthRates {
+    int32_t count;   // at most GROWTH_KEPT
+    GrowthRate rate[GROWTH_KEPT];   // of largest re, descending
+    GrowthRate real;   // the largest real positive one; 0: none
+    const double *mode_re, *mode_im;   // [interface_count] of rate[0]; largest slip 1
+    const double *real_mode;   // [interface_count] of `real`; NULL: none
+} GrowthRates;
+
+typedef struct GrowthScan {
+    double load;   // largest weakening over what is borne: >= 1 is real growth
+    double rate;   // s where that is, 1/time
+} GrowthScan;
+
+typedef struct Growth Growth;
+
+Growth *growth_create(const Block *block, const GrowthDef *def, Error *err);
+void growth_destroy(Growth *growth);   // NULL is fine
+
+// Nothing is allocated. ERROR_COMPUTE: the small eigenproblem was not solved.
+bool growth_rates(Growth *growth, const State *state, GrowthRates *rates, Error *err);
+GrowthScan growth_scan(Growth *growth, const State *state);
+
+#endif

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Growth rates against a dense eigensolver of the whole companion form, a rigid block's rate, and
+// the exact dispersion relation of a shear column.
+#include "stepping/growth.h"
+
+#include "base/dense.h"
+#include "block_mesh.h"
+#include "dense_by_hand.h"
+
+#include <complex.h>
+
+typedef double complex Complex;
+
+// --- a block, its interface and a state ---------------------------------------------------------
+
+typedef struct Case {
+    Mesh mesh;
+    Bulk bulk;
+    Interface interface;
+    ReducedBulk reduced;
+    BulkOperator system;
+    FrictionLaw law;
+    State state;
+    Growth *growth;
+} Case;
+
+static void case_build_block(Case *test, const BlockDef *def, const Material *material)
+{
+    Error err = {0};
+    dense_use_one_thread();
+    block_build(def, &test->mesh);
+    assert_true(bulk_assemble(&test->mesh, material, &test->bulk, &err));
+    InterfaceDef where = {.has_rod = true,
+                          .rod_name = "rod",
+                          .rod_height = def->height / 2,
+                          .rod_width = def->height / def->nz * 1.1};
+    if (!interface_build(&test->mesh, &where, &test->interface, &err)) fail_msg("%s", err.message);
+}
+
+static void case_open(Case *test, GrowthDef def)
+{
+    Error err = {0};
+    const Interface *interface = &test->interface;
+    if (!test->system.dof_count)
+        assert_true(bulk_operator_create(&test->bulk, test->mesh.position, interface->dofs,
+                                         interface->count, &test->system, &err));
+    Block block = {.system = &test->system, .interface = interface, .law = &test->law};
+    assert_true(state_create(&test->system, interface, &test->state, &err));
+    memset(test->state.rod_touches, 1, (size_t)interface->rod_count);
+    test->growth = growth_create(&block, &def, &err);
+    assert_non_null(test->growth);
+}
+
+static void case_close(Case *test)
+{
+    growth_destroy(test->growth);
+    state_destroy(&test->state);
+    bulk_operator_destroy(&test->system);
+    reduction_destroy(&test->reduced);
+    interface_destroy(&test->interface);
+    bulk_destroy(&test->bulk);
+    mesh_destroy(&test->mesh);
+}
+
+static void slip(State *state, int32_t i, uint8_t status, double rate, double pressing)
+{
+    state->status[i] = status;
+    state->slip_rate[2 * i] = rate * (status == CONTACT_SLIP_FORWARD ? 1 : -1);
+    state->reaction[2 * i + 1] = pressing;
+}
+
+// --- the reference: all eigenvalues of the companion form ---------------------------------------
+
+static int by_real_part(const void *a, const void *b)
+{
+    double x = creal(*(const Complex *)a), y = creal(*(const Complex *)b);
+    return (x < y) - (x > y);
+}
+
+// One of M, C, K, dense, with friction rows combined and W taken off C, on the moving unknowns.
+static double *moving_matrix(const Case *test, BulkTerm term, const int32_t *moving, int32_t count)
+{
+    int32_t n = test->system.dof_count;
+    const State *state = &test->state;
+    double *unit = hand_matrix(n, 1), *image = hand_matrix(n, 1), *out = hand_matrix(count, count);
+    for (int32_t b = 0; b < count; b++) {
+        memset(unit, 0, (size_t)n * sizeof *unit);
+        unit[moving[b]] = 1;
+        bulk_operator_apply(&test->system, term, unit, image);
+        for (int32_t i = 0; i < test->interface.contact_count; i++) {
+            if (!status_slips(state->status[i])) continue;
+            const int32_t *dofs = test->system.interface_dofs + 2 * i;
+            double rate = state->slip_rate[2 * i], mu = test->law.mu_static;
+            double slope = (test->law.mu_static - test->law.mu_kinetic) /
+                           test->law.critical_velocity;
+            mu -= slope * fabs(rate);
+            image[dofs[0]] += (rate > 0 ? mu : -mu) * image[dofs[1]];
+            if (term == BULK_DAMPING && moving[b] == dofs[0])
+                image[dofs[0]] -= slope * state->reaction[2 * i + 1];
+        }
+        for (int32_t a = 0; a < count; a++) out[b * count + a] = image[moving[a]];
+    }
+    free(unit);
+    free(image);
+    return out;
+}
+
+// The rates with im >= 0, rightmost first, into `rates`; returns how many.
+static int32_t dense_rates(const Case *test, Complex *rates)
+{
+    int32_t n = test->system.dof_count, count = 0, *moving = calloc((size_t)n, sizeof *moving);
+    const State *state = &test->state;
+    for (int32_t dof = 0; dof < n; dof++) {
+        bool held = false;
+        for (int32_t k = 0; k < test->interface.count; k++) {
+            if (test->system.interface_dofs[k] != dof) continue;
+            int32_t i = k / 2;
+            if (i >= test->interface.contact_count)
+                held = state->rod_touches[k - 2 * test->interface.contact_count];
+            else
+                held = state->status[i] == CONTACT_STICK ||
+                       (status_slips(state->status[i]) && k % 2);
+        }
+        if (!held) moving[count++] = dof;
+    }
+    double *m = moving_matrix(test, BULK_MASS, moving, count);
+    double *c = moving_matrix(test, BULK_DAMPING, moving, count);
+    double *k = moving_matrix(test, BULK_STIFFNESS, moving, count);
+    int32_t size = 2 * count, found = 0;
+    double *both = hand_matrix(count, size), *companion = hand_matrix(size, size);
+    memcpy(both, k, (size_t)(count * count) * sizeof *k);
+    memcpy(both + count * count, c, (size_t)(count * count) * sizeof *k);
+    assert_true(hand_solve(m, count, both, size));
+    for (int32_t b = 0; b < size; b++) {
+        if (b >= count) companion[b * size + b - count] = 1;
+        for (int32_t a = 0; a < count; a++) companion[b * size + count + a] = -both[b * count + a];
+    }
+    double *re = hand_matrix(size, 1), *im = hand_matrix(size, 1), *v = hand_matrix(size, size);
+    double *work = hand_matrix((int32_t)dense_eigen_work(size), 1);
+    assert_true(dense_eigen_general(companion, size, re, im, v, work));
+    for (int32_t j = 0; j < size; j++)
+        if (im[j] >= 0) rates[found++] = re[j] + im[j] * I;
+    qsort(rates, (size_t)found, sizeof *rates, by_real_part);
+    double *all[] = {m, c, k, both, companion, re, im, v, work};
+    for (size_t a = 0; a < sizeof all / sizeof *all; a++) free(all[a]);
+    free(moving);
+    return found;
+}
+
+// Every rate found is one of the dense ones, and the rightmost ones are all found, but for those of
+// the overdamped bulk that crowd at -E/eta.
+static void assert_same_rates(const Case *test, double tolerance)
+{
+    Error err = {0};
+    GrowthRates found;
+    Complex *wanted = malloc((size_t)(2 * test->system.dof_count) * sizeof *wanted);
+    int32_t count = dense_rates(test, wanted);
+    assert_true(growth_rates(test->growth, &test->state, &found, &err));
+    for (int32_t k = 0; k < found.count; k++) {
+        Complex here = found.rate[k].re + found.rate[k].im * I;
+        double nearest = INFINITY;
+        for (int32_t j = 0; j < count; j++) nearest = fmin(nearest, cabs(wanted[j] - here));
+        if (!(nearest <= tolerance * cabs(here)))
+            fail_msg("%g + %g i is no eigenvalue: the nearest is %g off", creal(here), cimag(here),
+                     nearest);
+    }
+    double real = 0;
+    for (int32_t k = 0; k < count; k++) {
+        if (k < GROWTH_KEPT && creal(wanted[k]) > -0.1) {
+            assert_true(k < found.count);
+            assert_near("Re lambda", found.rate[k].re, creal(wanted[k]),
+                        tolerance * cabs(wanted[k]));
+        }
+        if (cimag(wanted[k]) == 0 && creal(wanted[k]) > real) real = creal(wanted[k]);
+    }
+    assert_near("largest real rate", found.real.re, real, tolerance * real);
+    free(wanted);
+}
+
+static const Material SOFT = {.young = 1, .poisson = 0.34, .density = 1, .eta1 = 1, .eta2 = 1};
+static const FrictionLaw LAW = {FRICTION_LINEAR_WEAKENING, 0.38, 0.1, 3.4e-4};
+
+static void set_state(Case *test, double pressure, int32_t slipping)
+{
+    const Interface *interface = &test->interface;
+    State *state = &test->state;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        double pressing = pressure * interface->weight[i] * (0.3 + 1.4 * interface->x[i]);
+        state->status[i] = CONTACT_STICK;
+        state->reaction[2 * i + 1] = pressing;
+        if (i < slipping) slip(state, i, CONTACT_SLIP_FORWARD, 1e-5 * (1 + i % 3), pressing);
+    }
+}
+
+// From too little weakening to grow to so much that several real rates exist.
+static void test_against_dense(void **unused)
+{
+    (void)unused;
+    for (int32_t reduced = 0; reduced < 2; reduced++) {
+        Error err = {0};
+        Case test = {.law = LAW};
+        BlockDef def = {ELEMENT_Q4,  .nx = 8,       .nz = 5,
+                        .length = 1, .height = 0.5, .distortion = 0.1};
+        case_build_block(&test, &def, &SOFT);
+        if (reduced) {
+            double *rotation = hand_matrix(test.interface.count, 1);
+            ReductionDef how = {1e-3, {1, 2, 1, 1}};
+            assert_true(reduction_build(&test.bulk, test.interface.dofs, test.interface.count, &how,
+                                        &test.reduced, &err));
+            assert_true(bulk_operator_reduce(&test.reduced, rotation, 1, &test.system, &err));
+            free(rotation);
+        }
+        case_open(&test, growth_def(1, 1.06, test.interface.contact_count));
+        double pressures[] = {1e-4, 1e-3, 2e-3, 3e-3, 6e-3, 8e-3};
+        int32_t growing = 0;
+        for (size_t p = 0; p < sizeof pressures / sizeof *pressures; p++) {
+            for (int32_t slipping = 0; slipping < 9; slipping += 2) {
+                set_state(&test, pressures[p], slipping);
+                assert_same_rates(&test, 1e-6);
+                GrowthRates found;
+                assert_true(growth_rates(test.growth, &test.state, &found, &err));
+                growing += found.real.re > 0;
+            }
+            // A mixed state: backward slip, an open node, a rod node let go.
+            slip(&test.state, 3, CONTACT_SLIP_BACKWARD, 2e-5, pressures[p] / 8);
+            test.state.status[0] = CONTACT_OPEN;
+            test.state.rod_touches[0] = 0;
+            assert_same_rates(&test, 1e-6);
+            test.state.rod_touches[0] = 1;
+        }
+        assert_in_range(growing, 3, 27);
+        case_close(&test);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_against_dense)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
