@@ -15,6 +15,7 @@ typedef struct Command {
 static const Command commands[] = {
     {"run", command_run, "SCENE", "simulates a scene into a result folder"},
     {"static", command_static, "SCENE", "finds the equilibrium under a given load"},
+    {"stability", command_stability, "SCENE", "finds where slow slip loses stability: l_c, mu_M"},
     {"render", command_render, "RESULT", "draws the pictures of a stored result again"},
     {"info", command_info, "FILE", "says what a mesh, a scene or a result holds"},
 };
@@ -28,7 +29,7 @@ static int print_help(void)
            "When and how an elastic block pushed by a rod starts to slide.\n"
            "\n");
     for (int32_t k = 0; k < COMMAND_COUNT; k++)
-        printf("  %-7s %-8s %s\n", commands[k].name, commands[k].arguments, commands[k].sentence);
+        printf("  %-10s %-8s %s\n", commands[k].name, commands[k].arguments, commands[k].sentence);
     printf("\n"
            "  amontons help COMMAND     more about a command (also: amontons COMMAND --help)\n"
            "  amontons info keys        every key that a scene may have\n"

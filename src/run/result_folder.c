@@ -12,10 +12,11 @@
 enum { PATH_SIZE = PATH_MAX + 300 };
 
 // What a run leaves, in the order in which it is removed.
-static const char *const OWN_FILES[] = {"run.json",        "run.json.part",    "history.h5",
-                                        "history.h5.part", "fields.pvd",       "fields.pvd.part",
-                                        "static.json",     "static.json.part", "static.h5",
-                                        "static.h5.part",  "static.vtu",       "static.vtu.part"};
+static const char *const OWN_FILES[] = {
+    "run.json",       "run.json.part",       "history.h5",   "history.h5.part",
+    "fields.pvd",     "fields.pvd.part",     "static.json",  "static.json.part",
+    "static.h5",      "static.h5.part",      "static.vtu",   "static.vtu.part",
+    "stability.json", "stability.json.part", "stability.h5", "stability.h5.part"};
 static const char *const OWN_FOLDERS[] = {"fields", "figures"};
 static const char *const OWN_ENDINGS[] = {".vtu", ".vtp", ".png", ".part"};
 

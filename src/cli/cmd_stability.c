@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cli/commands.h"
+#include "cli/progress.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    OVERRIDES_MAX = 200,
+    OPTION_OVERWRITE = 1000,
+    OPTION_SET,
+    OPTION_FROM,
+    OPTION_SLIDINGS,
+    OPTION_WHOLE
+};
+
+enum { SLIDINGS_STANDARD = 2 };   // the second peak already belongs to the periodic regime
+
+typedef struct StabilityWords {
+    const char *scene, *folder, *from, *slidings;
+    const char *overrides[OVERRIDES_MAX];
+    int32_t override_count;
+    bool overwrite, quiet, whole, too_many_scenes, too_many_overrides;
+} StabilityWords;
+
+// The table goes to standard output, the progress of what comes before it to standard error.
+typedef struct Table {
+    Progress progress;
+    bool quiet, begun;
+    double length;
+} Table;
+
+static volatile sig_atomic_t stop_wanted = 0;   // a signal can reach nothing else
+
+static void want_stop(int signal_number)
+{
+    (void)signal_number;
+    stop_wanted = 1;
+}
+
+static error_t take_option(int key, char *word, struct argp_state *state)
+{
+    StabilityWords *words = state->input;
+    switch (key) {
+    case 'o':
+        words->folder = word;
+        return 0;
+    case 'q':
+        words->quiet = true;
+        return 0;
+    case OPTION_OVERWRITE:
+        words->overwrite = true;
+        return 0;
+    case OPTION_FROM:
+        words->from = word;
+        return 0;
+    case OPTION_SLIDINGS:
+        words->slidings = word;
+        return 0;
+    case OPTION_WHOLE:
+        words->whole = true;
+        return 0;
+    case OPTION_SET:
+        if (words->override_count == OVERRIDES_MAX)
+            words->too_many_overrides = true;
+        else
+            words->overrides[words->override_count++] = word;
+        return 0;
+    case ARGP_KEY_ARG:
+        if (words->override_count && strchr(word, '='))   // --set a=1 b=2
+            return take_option(OPTION_SET, word, state);
+        if (words->scene) words->too_many_scenes = true;
+        words->scene = word;
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static void read_options(int argc, char **argv, StabilityWords *words)
+{
+    static const struct argp_option known[] = {
+        {"output", 'o', "DIR", 0,
+         "Leave stability.json and stability.h5 in DIR (default: no files)", 0},
+        {"set", OPTION_SET, "KEY=VALUE", 0,
+         "Use this value in the place of the scene's; may be given several times", 0},
+        {"from", OPTION_FROM, "STATE", 0,
+         "Where the path begins: `sliding`, when the block has come to rest after sliding (the "
+         "default), or `start`, the relaxed block",
+         0},
+        {"slidings", OPTION_SLIDINGS, "N", 0,
+         "With --from sliding: after the N-th one, computed by time stepping (default: 2)", 0},
+        {"whole", OPTION_WHOLE, NULL, 0, "Follow the front to the end of the block, beyond l_c", 0},
+        {"overwrite", OPTION_OVERWRITE, NULL, 0, "Replace an earlier result in DIR", 0},
+        {"quiet", 'q', NULL, 0, "Print nothing but errors", 0},
+        {0}};
+    static const struct argp argp = {
+        .options = known,
+        .parser = take_option,
+        .args_doc = "SCENE",
+        .doc =
+            "Follows the quasi-static slip of the scene file SCENE and prints, for each position "
+            "l of the slip front, how fast small disturbances of that state grow. l_sc is where "
+            "the first oscillation grows, l_c where the first disturbance grows without "
+            "oscillating: there slow slip turns into sliding, and mu is mu_M."
+            "\vThe instability itself is not stepped in time. Example:\n\n"
+            "  amontons stability validation/paper/fig1.yaml --set mesh.set.nx=40 "
+            "mesh.set.nz=40 -o stable"};
+    options_parse(&argp, argc, argv, "amontons stability", words);
+}
+
+static int check_options(const StabilityWords *words, StabilityOptions *options)
+{
+    if (!words->scene)
+        return report_misuse("stability needs a scene, as in `amontons stability "
+                             "validation/paper/fig1.yaml`");
+    if (words->too_many_scenes) return report_misuse("stability takes one scene");
+    if (words->too_many_overrides) return report_misuse("more than 200 settings by --set");
+    if (words->folder && !*words->folder) return report_misuse("-o: the folder has no name");
+    bool start = words->from && strcmp(words->from, "start") == 0;
+    if (words->from && !start && strcmp(words->from, "sliding") != 0)
+        return report_misuse("--from %s: allowed are sliding and start", words->from);
+    if (start && words->slidings)
+        return report_misuse("--slidings has no meaning with --from start");
+    options->slidings = start ? 0 : SLIDINGS_STANDARD;
+    if (words->slidings) {
+        char *end = NULL;
+        long count = strtol(words->slidings, &end, 10);
+        if (*words->slidings == 0 || *end || count < 1 || count > 1000)
+            return report_misuse("--slidings %s: a whole number from 1 to 1000 is allowed",
+                                 words->slidings);
+        options->slidings = (int32_t)count;
+    }
+    return 0;
+}
+
+static void show_step(const StepView *view, void *context)
+{
+    Table *table = context;
+    progress_step(view, &table->progress);
+}
+
+static void show_point(const StabilityPoint *point, void *context)
+{
+    Table *table = context;
+    if (table->quiet) return;
+    if (!table->begun) {
+        progress_end(&table->progress);
+        printf("%10s %12s %9s %12s %12s %12s %9s  %s\n", "l", "U", "mu", "Re lambda", "Im lambda",
+               "real rate", "load", "certified");
+        table->begun = true;
+    }
+    printf("%10.5g %12.6g %9.5f %12.4g %12.4g ", point->front, point->U, point->mu, point->rate_re,
+           point->rate_im);
+    if (point->real_rate > 0)
+        printf("%12.4g", point->real_rate);
+    else
+        printf("%12s", "-");
+    printf(" %9.4f  %s\n", point->load, point->certified ? "yes" : "no");
+    fflush(stdout);
+}
+
+static void print_length(const char *name, double value, const char *sentence)
+{
+    if (isnan(value))
+        printf("  %-22s %-8s %s\n", name, "none", sentence);
+    else
+        printf("  %-22s %-8.4f %s\n", name, value, sentence);
+}
+
+static void print_answers(const StabilitySummary *summary)
+{
+    printf("\n");
+    print_length("l_sc/L", summary->l_sc, "an oscillation grows");
+    print_length("l_sc/L (certificate)", summary->l_sc_certificate,
+                 "viscosity alone no longer bears the weakening");
+    print_length("l_c/L", summary->l_c, "slow slip runs away, however slow the rod");
+    print_length("l_c/L at V", summary->l_c_rod,
+                 "slip at V grows to v_c within half an oscillation");
+    print_length("l_c/L (scan)", summary->l_c_scan, "as l_c, with the pressure held fixed");
+    print_length("mu_M, V -> 0", summary->mu_c, "mu at l_c");
+    print_length("mu_M at V", summary->mu_rod, "mu at l_c at V");
+    printf("  (the front goes from node to node: %.4f L between two)\n", summary->element);
+    printf("  time taken             %.1f s (before the path %.1f, path %.1f, growth rates %.1f)\n",
+           summary->seconds_before + summary->seconds_path + summary->seconds_growth,
+           summary->seconds_before, summary->seconds_path, summary->seconds_growth);
+    if (*summary->folder)
+        printf("Results in %s: stability.json, and the growing modes in stability.h5\n",
+               summary->folder);
+}
+
+int command_stability(int argc, char **argv)
+{
+    StabilityWords words = {0};
+    StabilityOptions options = {.stop = &stop_wanted};
+    StabilitySummary summary;
+    Error err = {0};
+    Scene *scene = NULL;
+    read_options(argc, argv, &words);
+    int status = check_options(&words, &options);
+    if (status != 0) return status;
+    if (!amontons_scene_read(words.scene, words.overrides, words.override_count, &scene, &err))
+        return report_error(&err);
+    Table table = {.progress = progress_begin(words.quiet), .quiet = words.quiet};
+    struct sigaction action = {.sa_handler = want_stop, .sa_flags = (int)SA_RESETHAND};
+    sigaction(SIGINT, &action, NULL);
+    options.folder = words.folder;
+    options.overwrite = words.overwrite;
+    options.whole = words.whole;
+    options.on_step = show_step;
+    options.on_point = show_point;
+    options.context = &table;
+    bool done = amontons_stability(scene, &options, &summary, &err);
+    progress_end(&table.progress);
+    if (!done)
+        status = report_error(&err);
+    else if (!words.quiet)
+        print_answers(&summary);
+    amontons_scene_destroy(scene);
+    return status;
+}

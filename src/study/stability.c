@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "study/stability.h"
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "run/result_folder.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+// A step of the path in units of crossing time + viscous time: long against all that can grow.
+static const double PATH_STEP = 10;
+// What the rod moves in a step, in units of (mu_S - mu_K) p H/E (the front crosses a block within
+// some 4 of them), but not more than about this part of an element.
+static const double PATH_SLIP = 0.02, PATH_ELEMENTS = 0.5;
+enum {
+    PATH_STEPS_MAX = 20000,   // some 20 times what 320 contact nodes need
+    POINTS_BEYOND = 2   // front positions that are shown beyond l_c
+};
+
+static double friction_slip(const Simulation *simulation)
+{
+    const FrictionLaw *law = &simulation->law;
+    double drop = law->kind == FRICTION_COULOMB ? law->mu_static : law->mu_static - law->mu_kinetic;
+    return drop * simulation->scales.load / simulation->model.length * simulation->model.height /
+           simulation->material.young;
+}
+
+static bool check_scene(const Scene *scene, Error *err)
+{
+    if (scene->rod.kind == ROD_NONE || !(scene->rod.velocity > 0))
+        FAIL(err, ERROR_INPUT,
+             "%s: stability follows the slip that a rod drives: rod.velocity must be above 0 and "
+             "rod.kind push or bonded",
+             scene->path);
+    if (!(scene->friction.mu_static > 0))
+        FAIL(err, ERROR_INPUT, "%s: without friction (friction.mu_static = 0) nothing can grow",
+             scene->path);
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool stop_wanted(const StabilityPath *path, Error *err)
+{
+    const StabilityOptions *options = path->options;
+    if (options->stop && *options->stop) FAIL(err, ERROR_INTERRUPT, "stopped; nothing was written");
+    return false;
+cleanup:
+    return true;
+}
+
+// Time stepping until the block has come to rest after the wanted number of slidings.
+static bool run_slidings(StabilityPath *path, Error *err)
+{
+    Simulation *simulation = path->simulation;
+    const Events *events = &simulation->events;
+    bool finished = false;
+    while (events->kinds[EVENT_LEADING] < path->options->slidings || events->rapid >= 0) {
+        if (stop_wanted(path, err)) goto cleanup;
+        if (finished)
+            FAIL(err, ERROR_INPUT,
+                 "%s: only %d of %d slidings ended before the scene's end at U = %g: give a later "
+                 "time.until, or start the path earlier (--from start, --slidings)",
+                 simulation->scene.path, events->kinds[EVENT_LEADING], path->options->slidings,
+                 simulation->seen.U);
+        TRY(amontons_simulation_step(simulation, NULL, &finished, err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// The path's own steps, from where the simulation stands.
+static bool open_path(StabilityPath *path, Error *err)
+{
+    Simulation *simulation = path->simulation;
+    const Interface *interface = &simulation->interface;
+    double elements = interface->contact_count;
+    double slip = friction_slip(simulation) * fmin(PATH_SLIP, PATH_ELEMENTS / elements);
+    double step = PATH_STEP * simulation->scales.time;
+    StepControlDef def = {.tolerance = INFINITY,
+                          .step_max = step,
+                          .step_min = 1e-12 * step,
+                          .wave_step = INFINITY,
+                          .growth_max = 2,
+                          .use_certificate = false};
+    Block block = {.system = &simulation->system,
+                   .interface = interface,
+                   .law = &simulation->law,
+                   .rod = &simulation->rod};
+    TRY(step_control_create(&block, &def, &path->control, err));
+    TRY(state_create(&simulation->system, interface, &path->last, err));
+    state_copy(&simulation->control.now, &path->control.now);
+    path->U_start = simulation->rod.velocity * path->control.now.time;
+    for (int32_t j = 0; j < interface->rod_count; j++) simulation->rod.origin[j] += path->U_start;
+    simulation->rod.velocity = slip / step;
+    step_control_restart(&path->control);
+    GrowthDef growth = growth_def(simulation->model.length,
+                                  material_speeds(&simulation->material).longitudinal,
+                                  interface->contact_count);
+    path->growth = growth_create(&block, &growth, err);
+    path->room = interface->contact_count + 1;
+    path->points = NEW_ARRAY(StabilityPoint, path->room, err);
+    path->modes = NEW_ARRAY(double, 2 * (int64_t)path->room * interface->contact_count, err);
+    path->critical_mode = NEW_ARRAY(double, interface->contact_count, err);
+cleanup:
+    return error_is_clean(err);
+}
+
+static void keep_slip(const Interface *interface, const double *mode, double *slip)
+{
+    for (int32_t i = 0; i < interface->contact_count; i++) slip[i] = mode[interface_tangent(i)];
+}
+
+// The growth rates of `last`, as it was seen.
+static bool add_point(StabilityPath *path, const Observation *seen, Error *err)
+{
+    const Interface *interface = &path->simulation->interface;
+    StabilityPoint *point = &path->points[path->count];
+    GrowthRates rates;
+    double started = clock_seconds();
+    TRY(growth_rates(path->growth, &path->last, &rates, err));
+    *point =
+        (StabilityPoint){.front = seen->front,
+                         .U = path->U_start + seen->U,
+                         .mu = seen->mu,
+                         .rate_re = rates.count > 0 ? rates.rate[0].re : NAN,
+                         .rate_im = rates.count > 0 ? rates.rate[0].im : NAN,
+                         .real_rate = rates.real.re,
+                         .load = growth_scan(path->growth, &path->last).load,
+                         .certified = certificate_holds(&path->control.certificate, &path->last)};
+    double *mode = path->modes + 2 * (int64_t)path->count * interface->contact_count;
+    keep_slip(interface, rates.mode_re, mode);
+    keep_slip(interface, rates.mode_im, mode + interface->contact_count);
+    if (rates.real_mode && path->critical < 0) {
+        path->critical = path->count;
+        keep_slip(interface, rates.real_mode, path->critical_mode);
+    }
+    path->count++;
+    path->seconds_growth += clock_seconds() - started;
+    if (path->options->on_point) path->options->on_point(point, path->options->context);
+cleanup:
+    return error_is_clean(err);
+}
+
+// Steps until the front has reached the end, or is some positions beyond l_c.
+static bool follow_path(StabilityPath *path, Error *err)
+{
+    const Interface *interface = &path->simulation->interface;
+    double end = interface->x[interface->contact_count - 1];
+    Observation before = {.front = INFINITY};
+    for (int32_t step = 0; step < PATH_STEPS_MAX; step++) {
+        if (stop_wanted(path, err)) goto cleanup;
+        state_copy(&path->control.now, &path->last);
+        TRY(step_control_advance(&path->control, INFINITY, err));
+        Observation seen = observe(&path->control, &path->simulation->scales);
+        bool farther = path->count == 0 || before.front > path->points[path->count - 1].front;
+        if (seen.front > before.front && farther) TRY(add_point(path, &before, err));
+        before = seen;
+        bool beyond = path->critical >= 0 && path->count > path->critical + POINTS_BEYOND;
+        if (seen.front >= end || (beyond && !path->options->whole)) break;
+    }
+cleanup:
+    if (!error_is_clean(err)) error_context(err, "on the quasi-static path");
+    return error_is_clean(err);
+}
+
+// --- where something is lost --------------------------------------------------------------------
+
+// A measure of a point that is below 0 where it holds and reaches 0 where it is lost. Between two
+// points it is taken as linear in l.
+typedef double (*Margin)(const StabilityPath *path, int32_t k);
+
+static double certificate_margin(const StabilityPath *path, int32_t k)
+{
+    return path->points[k].certified ? -INFINITY : 0;
+}
+
+static double real_part(const StabilityPath *path, int32_t k)
+{
+    return path->points[k].rate_re;
+}
+
+static double overload(const StabilityPath *path, int32_t k)
+{
+    return path->points[k].load - 1;
+}
+
+// Near the birth of the real pair (Im lambda)^2 goes linearly through 0; the first point of the
+// real pair has lost its own, and stands for what the two before it point at.
+static double frequency_square(const StabilityPath *path, int32_t k)
+{
+    const StabilityPoint *point = &path->points[k];
+    if (!(point->rate_re > 0)) return -INFINITY;
+    if (point->rate_im > 0) return -point->rate_im * point->rate_im;
+    if (k < 2 || !(point[-1].rate_im > 0) || !(point[-2].rate_re > 0)) return 0;
+    double square = point[-1].rate_im * point[-1].rate_im;
+    double fall = (point[-2].rate_im * point[-2].rate_im - square) /
+                  (point[-1].front - point[-2].front);
+    return fmax(fall * (point->front - point[-1].front) - square, 0);
+}
+
+// Half a period's growth against v_c/V.
+static double half_period(const StabilityPath *path, int32_t k)
+{
+    const StabilityPoint *point = &path->points[k];
+    double ratio = path->simulation->law.critical_velocity / path->simulation->scene.rod.velocity;
+    if (!(point->rate_re > 0)) return -INFINITY;
+    if (!(point->rate_im > 0)) return INFINITY;
+    return M_PI * point->rate_re / point->rate_im - log(ratio);
+}
+
+// Where the margin is lost first: l, U and mu there (the point's own where the margin jumps).
+static StabilityPoint first_loss(const StabilityPath *path, Margin margin)
+{
+    StabilityPoint lost = {.front = NAN, .U = NAN, .mu = NAN, .rate_im = NAN};
+    for (int32_t k = 0; k < path->count; k++) {
+        double after = margin(path, k), before = k > 0 ? margin(path, k - 1) : 0;
+        if (!(after >= 0)) continue;
+        lost = path->points[k];
+        if (k == 0 || !isfinite(before) || before >= 0) break;
+        const StabilityPoint *last = &path->points[k - 1];
+        double part = isfinite(after) ? before / (before - after) : 1;
+        lost.front = last->front + part * (lost.front - last->front);
+        lost.U = last->U + part * (lost.U - last->U);
+        lost.mu = last->mu + part * (lost.mu - last->mu);
+        break;
+    }
+    return lost;
+}
+
+static void summarise(const StabilityPath *path, StabilitySummary *summary)
+{
+    const Interface *interface = &path->simulation->interface;
+    double length = path->simulation->model.length;
+    StabilityPoint swings = first_loss(path, real_part);
+    StabilityPoint slides = first_loss(path, frequency_square);
+    StabilityPoint rod = first_loss(path, half_period);
+    *summary =
+        (StabilitySummary){.l_sc_certificate = first_loss(path, certificate_margin).front / length,
+                           .l_sc = swings.front / length,
+                           .l_c_scan = first_loss(path, overload).front / length,
+                           .l_c = slides.front / length,
+                           .l_c_rod = rod.front / length,
+                           .mu_c = slides.mu,
+                           .mu_rod = rod.mu,
+                           .U_c = slides.U,
+                           .U_rod = rod.U,
+                           .frequency = swings.rate_im,
+                           .element = 1.0 / fmax(interface->contact_count - 1, 1),
+                           .points = path->count,
+                           .path_steps = path->control.counters.accepted,
+                           .seconds_growth = path->seconds_growth};
+}
+
+static void path_destroy(StabilityPath *path)
+{
+    growth_destroy(path->growth);
+    step_control_destroy(&path->control);
+    state_destroy(&path->last);
+    amontons_simulation_destroy(path->simulation);
+    memory_free(path->points);
+    memory_free(path->modes);
+    memory_free(path->critical_mode);
+}
+
+bool amontons_stability(const Scene *scene, const StabilityOptions *options,
+                        StabilitySummary *summary, Error *err)
+{
+    StabilityPath path = {.options = options, .critical = -1};
+    double started = clock_seconds();
+    *summary = (StabilitySummary){.l_c = NAN, .mu_c = NAN};
+    TRY(check_scene(scene, err));
+    if (options->folder) TRY(result_folder_prepare(options->folder, options->overwrite, err));
+    RunOptions run = {.on_step = options->on_step, .context = options->context};
+    TRY(amontons_simulation_create(scene, &run, &path.simulation, err));
+    TRY(run_slidings(&path, err));
+    double before = clock_seconds();
+    TRY(open_path(&path, err));
+    TRY(follow_path(&path, err));
+    summarise(&path, summary);
+    summary->seconds_before = before - started;
+    summary->seconds_path = clock_seconds() - before - path.seconds_growth;
+    if (options->folder) {
+        snprintf(summary->folder, sizeof summary->folder, "%s", options->folder);
+        TRY(stability_write(&path, summary, err));
+    }
+cleanup:
+    path_destroy(&path);
+    return error_is_clean(err);
+}
