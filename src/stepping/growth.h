@@ -15,8 +15,8 @@
 //                 (bulk/interface_operator) factors once for all states. Re lambda > 0 first: l_sc;
 //                 lambda real and > 0 first: l_c.
 //   growth_scan   real growth without the coupling: the largest weakening that S(s)[F,F] bears,
-//                 S(s) = s M + C + K/s condensed, over s. Small Cholesky factors only. The pair of real
-//                 rates is born as a double root between two s, so the largest load is
+//                 S(s) = s M + C + K/s condensed, over s. Small Cholesky factors only. The pair
+//                 of real rates is born as a double root between two s, so the largest load is
 //                 interpolated in log s.
 //
 // Called by study/stability.

@@ -34,6 +34,10 @@ static bool check_scene(const Scene *scene, Error *err)
              "%s: stability follows the slip that a rod drives: rod.velocity must be above 0 and "
              "rod.kind push or bonded",
              scene->path);
+    if (scene->time.scheme != SCHEME_SDIRK2)
+        FAIL(err, ERROR_INPUT,
+             "%s: the quasi-static path needs implicit steps: --set time.scheme=sdirk2",
+             scene->path);
     if (!(scene->friction.mu_static > 0))
         FAIL(err, ERROR_INPUT, "%s: without friction (friction.mu_static = 0) nothing can grow",
              scene->path);
