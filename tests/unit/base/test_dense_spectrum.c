@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Eigenvalues, inverses, products and the sign of a determinant behind base/dense, against matrices
+// whose answers are known in closed form and against sums written out.
+#include "base/dense.h"
+
+#include "dense_by_hand.h"
+#include "near.h"
+#include "random_numbers.h"
+
+enum { SIZE_TRIED = 30 };
+static const double PI = 3.14159265358979323846;
+
+static void fill_random(Random *random, double *a, int32_t count)
+{
+    for (int32_t k = 0; k < count; k++) a[k] = random_between(random, -1, 1);
+}
+
+// c = a b + keep c, or a' b, by the definition.
+static void hand_product(DenseView a, DenseView b, bool transposed, double factor, double keep,
+                         double *c)
+{
+    int32_t rows = transposed ? a.columns : a.rows, inner = transposed ? a.rows : a.columns;
+    for (int32_t j = 0; j < b.columns; j++) {
+        for (int32_t i = 0; i < rows; i++) {
+            double sum = 0;
+            for (int32_t k = 0; k < inner; k++)
+                sum += a.values[transposed ? i * a.rows + k : k * a.rows + i] *
+                       b.values[j * b.rows + k];
+            c[j * rows + i] = factor * sum + (keep == 0 ? 0 : keep * c[j * rows + i]);
+        }
+    }
+}
+
+// The second difference of a string held at both ends: 2 - 2 cos(k pi / (n + 1)), with sines.
+static void test_eigen_of_a_string(void **state)
+{
+    (void)state;
+    dense_use_one_thread();
+    for (int32_t n = 0; n <= SIZE_TRIED; n++) {
+        double a[SIZE_TRIED * SIZE_TRIED + 1] = {0}, values[SIZE_TRIED + 1];
+        double *work = hand_matrix((int32_t)dense_eigen_work(n), 1);
+        for (int32_t k = 0; k < n; k++) {
+            a[k * n + k] = 2;
+            if (k + 1 < n) a[k * n + k + 1] = -1;   // the lower triangle is read
+            if (k + 1 < n) a[(k + 1) * n + k] = NAN;
+        }
+        assert_true(dense_eigen(a, n, values, work));
+        for (int32_t k = 0; k < n; k++) {
+            double angle = (k + 1) * PI / (n + 1), sign = a[k * n] < 0 ? -1 : 1;
+            assert_near("eigenvalue", values[k], 2 - 2 * cos(angle), 1e-14 * (n + 1));
+            for (int32_t i = 0; i < n; i++)
+                assert_near("eigenvector", sign * a[k * n + i],
+                            sqrt(2. / (n + 1)) * sin(angle * (i + 1)), 1e-12);
+        }
+        free(work);
+    }
+}
+
+// Jacobi's rotations agree on random matrices; the vectors are orthonormal and give A back, even
+// where eigenvalues meet.
+static void test_eigen_of_random_matrices(void **state)
+{
+    (void)state;
+    Random random = {.state = 2};
+    for (int32_t n = 1; n <= SIZE_TRIED; n += 3) {
+        double a[SIZE_TRIED * SIZE_TRIED], kept[SIZE_TRIED * SIZE_TRIED], values[SIZE_TRIED];
+        double wanted[SIZE_TRIED], back[SIZE_TRIED * SIZE_TRIED], unit[SIZE_TRIED * SIZE_TRIED];
+        double scaled[SIZE_TRIED * SIZE_TRIED];
+        double *work = hand_matrix((int32_t)dense_eigen_work(n), 1);
+        for (int32_t j = 0; j < n; j++)
+            for (int32_t i = 0; i <= j; i++)
+                a[j * n + i] = a[i * n + j] = n % 2 ? random_between(&random, -1, 1) : i == j;
+        memcpy(kept, a, sizeof a);
+        memcpy(back, a, sizeof a);
+        hand_eigenvalues(back, n, wanted);
+        assert_true(dense_eigen(a, n, values, work));
+        assert_all_near("eigenvalues", values, wanted, n, 1e-13);
+        DenseView vectors = {a, n, n};
+        hand_product(vectors, vectors, true, 1, 0, unit);
+        for (int32_t k = 0; k < n * n; k++) assert_near("Q'Q", unit[k], k % (n + 1) == 0, 1e-13);
+        for (int32_t k = 0; k < n * n; k++)   // Q' transposed back: rows scaled by eigenvalues
+            scaled[k] = values[k % n] * a[(k % n) * n + k / n];
+        hand_product(vectors, (DenseView){scaled, n, n}, false, 1, 0, back);
+        assert_all_near("Q D Q'", back, kept, n * n, 1e-13);
+        free(work);
+    }
+}
+
+// Hilbert's matrix has an inverse in whole numbers.
+static void test_inverse_of_hilbert(void **state)
+{
+    (void)state;
+    const double inverse[] = {16,  -120,  240,  -140,  -120, 1200, -2700, 1680,
+                              240, -2700, 6480, -4200, -140, 1680, -4200, 2800};
+    double a[16];
+    for (int32_t k = 0; k < 16; k++) a[k] = k % 4 >= k / 4 ? 1. / (k % 4 + k / 4 + 1) : NAN;
+    assert_true(dense_cholesky(a, 4));
+    assert_true(dense_invert_factored(a, 4));
+    assert_all_near("inverse", a, inverse, 16, 1e-11);   // both triangles
+    assert_true(dense_invert_factored(NULL, 0));
+}
+
+static void test_products(void **state)
+{
+    (void)state;
+    Random random = {.state = 3};
+    for (int32_t trial = 0; trial < 100; trial++) {
+        int32_t m = random_index(&random, 9), n = random_index(&random, 9);
+        int32_t k = 1 + random_index(&random, 9);
+        double a[81], b[81], c[81], wanted[81], x[9], y[9];
+        double factor = random_between(&random, -2, 2), keep = trial % 3 == 0 ? 0 : -0.5;
+        fill_random(&random, a, 81);
+        fill_random(&random, b, 81);
+        fill_random(&random, c, 81);
+        memcpy(wanted, c, sizeof c);
+        if (keep == 0)   // then what stood there does not matter
+            for (int32_t e = 0; e < m * n; e++) c[e] = NAN;
+        DenseView tall = {a, k, m}, wide = {a, m, k}, right = {b, k, n};
+        hand_product(tall, right, true, factor, keep, wanted);
+        dense_multiply_transposed(tall, right, factor, keep, c);
+        assert_all_near("a' b", c, wanted, m * n, 1e-14);
+        if (m == 0 || n == 0) continue;
+        hand_product(wide, right, false, factor, 1, wanted);
+        dense_multiply(wide, right, factor, 1, c);
+        assert_all_near("a b", c, wanted, m * n, 1e-13);
+
+        fill_random(&random, y, 9);
+        memcpy(x, y, sizeof y);
+        hand_product(wide, (DenseView){b, k, 1}, false, factor, 1, x);
+        dense_apply(wide, b, factor, 1, y);
+        assert_all_near("a x", y, x, 9, 1e-13);
+        hand_product(tall, (DenseView){b, k, 1}, true, factor, keep, x);
+        dense_apply_transposed(tall, b, factor, keep, y);
+        assert_all_near("a' x", y, x, m, 1e-13);
+    }
+}
+
+static int lu_sign(double *a, int32_t n)
+{
+    int32_t pivots[SIZE_TRIED];
+    dense_lu(a, n, pivots);
+    return dense_lu_sign(a, n, pivots);
+}
+
+// Permutations have the sign of their inversions; a symmetric matrix that of its negative
+// eigenvalues; a block that turns has a positive determinant without any real eigenvalue.
+static void test_lu_sign(void **state)
+{
+    (void)state;
+    Random random = {.state = 4};
+    int32_t seen[2] = {0};
+    for (int32_t trial = 0; trial < 200; trial++) {
+        int32_t n = 1 + random_index(&random, 12), order[12], inversions = 0;
+        double a[144] = {0}, copy[144], values[12];
+        for (int32_t k = 0; k < n; k++) {
+            int32_t at = random_index(&random, k + 1);
+            order[k] = order[at];
+            order[at] = k;
+        }
+        for (int32_t i = 0; i < n; i++)
+            for (int32_t j = 0; j < i; j++) inversions += order[j] > order[i];
+        for (int32_t k = 0; k < n; k++) a[k * n + order[k]] = random_between(&random, 0.5, 2);
+        assert_int_equal(lu_sign(a, n), inversions % 2 ? -1 : 1);
+
+        int32_t negative = 0;
+        for (int32_t j = 0; j < n; j++)
+            for (int32_t i = 0; i <= j; i++)
+                a[j * n + i] = a[i * n + j] = random_between(&random, -1, 1);
+        memcpy(copy, a, sizeof a);
+        hand_eigenvalues(copy, n, values);
+        for (int32_t k = 0; k < n; k++) negative += values[k] < 0;
+        seen[negative % 2]++;
+        assert_int_equal(lu_sign(a, n), negative % 2 ? -1 : 1);
+    }
+    assert_true(seen[0] > 50 && seen[1] > 50);
+    double turn[] = {0.1, 1, -1, 0.1}, singular[] = {1, 2, 2, 4};
+    assert_int_equal(lu_sign(turn, 2), 1);
+    assert_int_equal(lu_sign(singular, 2), 0);
+    assert_int_equal(dense_lu_sign(NULL, 0, NULL), 1);   // the empty product
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_eigen_of_a_string),
+        cmocka_unit_test(test_eigen_of_random_matrices),
+        cmocka_unit_test(test_inverse_of_hilbert),
+        cmocka_unit_test(test_products),
+        cmocka_unit_test(test_lu_sign),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

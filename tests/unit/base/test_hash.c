@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a cache key needs of a hash: every bit counts, so do lengths and the borders between pieces,
+// nothing that is structured collides, and the digest is the same tomorrow.
+#include "base/hash.h"
+
+#include "near.h"
+#include "random_numbers.h"
+
+static void digest(const Hash *hash, uint64_t half[2])
+{
+    char text[HASH_TEXT_SIZE];
+    hash_write(hash, text);
+    assert_int_equal(sscanf(text, "%16lx%16lx", &half[0], &half[1]), 2);
+}
+
+static void digest_bytes(const void *bytes, size_t size, uint64_t half[2])
+{
+    Hash hash = hash_start();
+    hash_bytes(&hash, bytes, size);
+    digest(&hash, half);
+}
+
+// One flipped bit changes about half of each half's bits: the count over all flips is binomial.
+static void test_every_bit_counts(void **state)
+{
+    (void)state;
+    Random random = {.state = 1};
+    double changed[2] = {0};
+    int32_t flips = 0;
+    for (size_t size = 1; size <= 40; size++) {
+        unsigned char bytes[40];
+        for (size_t k = 0; k < size; k++) bytes[k] = (unsigned char)random_bits(&random);
+        uint64_t before[2], after[2];
+        digest_bytes(bytes, size, before);
+        for (size_t bit = 0; bit < 8 * size; bit++, flips++) {
+            bytes[bit / 8] ^= (unsigned char)(1 << bit % 8);
+            digest_bytes(bytes, size, after);
+            bytes[bit / 8] ^= (unsigned char)(1 << bit % 8);
+            for (int h = 0; h < 2; h++) {
+                int count = __builtin_popcountll(before[h] ^ after[h]);
+                assert_in_range(count, 8, 56);   // a mean of 32 and a deviation of 4
+                changed[h] += count;
+            }
+        }
+    }
+    for (int h = 0; h < 2; h++) assert_near("bits changed", changed[h] / flips, 32, 0.5);
+}
+
+// Zeros appended or moved over a border between two pieces are not the same input.
+static void test_lengths_count(void **state)
+{
+    (void)state;
+    static const unsigned char zeros[64];
+    uint64_t seen[65][2];
+    for (size_t size = 0; size <= 64; size++) {
+        digest_bytes(zeros, size, seen[size]);
+        for (size_t k = 0; k < size; k++)
+            for (int h = 0; h < 2; h++) assert_true(seen[k][h] != seen[size][h]);
+    }
+    uint64_t pieces[2][2];
+    for (int which = 0; which < 2; which++) {
+        Hash hash = hash_start();
+        hash_text(&hash, which ? "ab" : "a");
+        hash_text(&hash, which ? "c" : "bc");
+        digest(&hash, pieces[which]);
+    }
+    assert_true(pieces[0][0] != pieces[1][0] && pieces[0][1] != pieces[1][1]);
+}
+
+static int compare_words(const void *a, const void *b)
+{
+    uint64_t left = *(const uint64_t *)a, right = *(const uint64_t *)b;
+    return left < right ? -1 : left > right;
+}
+
+// 2^20 inputs that differ as little as numbers in a scene do: by 2^-64, no two of 2^20 random words
+// of 64 bits meet with a probability of 3e-8.
+static void test_structured_inputs_do_not_collide(void **state)
+{
+    (void)state;
+    enum { COUNT = 1 << 20 };
+    uint64_t *half[2] = {malloc(COUNT * sizeof(uint64_t)), malloc(COUNT * sizeof(uint64_t))};
+    for (int32_t k = 0; k < COUNT; k++) {
+        Hash hash = hash_start();
+        hash_number(&hash, k % 1024);
+        hash_number(&hash, ldexp(1, -(k / 1024)));   // 2^-1023: below the normal numbers too
+        uint64_t both[2];
+        digest(&hash, both);
+        for (int h = 0; h < 2; h++) half[h][k] = both[h];
+    }
+    for (int h = 0; h < 2; h++) {
+        qsort(half[h], COUNT, sizeof(uint64_t), compare_words);
+        for (int32_t k = 1; k < COUNT; k++) assert_true(half[h][k - 1] != half[h][k]);
+        free(half[h]);
+    }
+}
+
+static void test_numbers(void **state)
+{
+    (void)state;
+    const double values[] = {0.0, -0.0, 1.0, -1.0, 5e-324, 1 + 0x1p-52, INFINITY};
+    uint64_t seen[7][2];
+    for (int k = 0; k < 7; k++) {
+        Hash hash = hash_start();
+        hash_number(&hash, values[k]);
+        digest(&hash, seen[k]);
+    }
+    for (int k = 0; k < 7; k++)
+        for (int j = 0; j < k; j++)
+            assert_int_equal(seen[j][0] == seen[k][0] && seen[j][1] == seen[k][1],
+                             j == 0 && k == 1);
+}
+
+// The text is 32 lower-case hexadecimal digits, leading zeros too; and what it was when this test was
+// written, so that a cache outlives a compiler. The stored text is this program's own.
+static void test_text(void **state)
+{
+    (void)state;
+    for (int32_t k = 0; k < 4096; k++) {
+        Hash hash = hash_start();
+        hash_number(&hash, k);
+        char text[HASH_TEXT_SIZE + 1];
+        memset(text, 'x', sizeof text);
+        hash_write(&hash, text);
+        assert_int_equal(strspn(text, "0123456789abcdef"), HASH_TEXT_SIZE - 1);
+        assert_int_equal(text[HASH_TEXT_SIZE - 1], 0);
+        assert_int_equal(text[HASH_TEXT_SIZE], 'x');
+    }
+    Hash hash = hash_start();
+    char text[HASH_TEXT_SIZE];
+    hash_text(&hash, "a block pushed by a rod");
+    hash_number(&hash, 0.34);
+    hash_bytes(&hash, "", 0);
+    hash_write(&hash, text);
+    assert_string_equal(text, "81d16dd3cd7e855367f4d9025b8d0003");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_every_bit_counts),
+        cmocka_unit_test(test_lengths_count),
+        cmocka_unit_test(test_structured_inputs_do_not_collide),
+        cmocka_unit_test(test_numbers),
+        cmocka_unit_test(test_text),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
