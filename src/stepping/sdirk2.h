@@ -28,12 +28,14 @@ typedef struct Sdirk2 {
     double *v1, *predictor;   // [dof_count] work: v_1; u_j*
     double *g, *bound;   // [interface_count] work
     double *stage_velocity, *stage_reaction;   // [interface_count] work: of stage 1
+    int64_t steps;   // tried
 } Sdirk2;
 
 typedef struct StepOutcome {
     bool solved;   // false: a contact problem had no solution; `to` has no meaning
     double error;   // size of the estimated local error of u (bulk_operator_size), length
-    double residual;   // |M a + C v + K u - f - r| at the end, largest component, force/width
+    double residual;   // |M a + C v + K u - f - r| at the end, largest component, force/width; only
+                       // every 32nd step is looked at, the others say 0
     StagePower power[2];   // of the stages
     double load_work;   // of the step
 } StepOutcome;
