@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Observations made up number by number, for those who read them: events, peaks, history. Five
+// contact nodes at x = 0, 0.25, ..., 1, no rod nodes.
+#ifndef AMONTONS_TESTS_SEEN_BY_HAND_H
+#define AMONTONS_TESTS_SEEN_BY_HAND_H
+
+#include "near.h"
+#include "run/observation.h"
+
+enum { SEEN_NODES = 5 };
+
+typedef struct HandSeen {
+    Interface interface;
+    BulkOperator system;
+    State state;
+    Observation seen;
+    double x[SEEN_NODES], weight[SEEN_NODES];
+    int32_t pad[SEEN_NODES], dofs[2 * SEEN_NODES];
+    double displacement[2 * SEEN_NODES], slip_rate[2 * SEEN_NODES], reaction[2 * SEEN_NODES];
+    uint8_t status[SEEN_NODES];
+} HandSeen;
+
+// At rest, all sticking. Must not be moved.
+static inline void hand_seen_init(HandSeen *hand)
+{
+    memset(hand, 0, sizeof *hand);
+    for (int32_t i = 0; i < SEEN_NODES; i++) {
+        hand->x[i] = 0.25 * i;
+        hand->weight[i] = i == 0 || i == SEEN_NODES - 1 ? 0.125 : 0.25;
+        hand->status[i] = CONTACT_STICK;
+    }
+    for (int32_t k = 0; k < 2 * SEEN_NODES; k++) hand->dofs[k] = k;
+    hand->interface = (Interface){.contact_count = SEEN_NODES,
+                                  .count = 2 * SEEN_NODES,
+                                  .x = hand->x,
+                                  .weight = hand->weight,
+                                  .pad = hand->pad,
+                                  .pad_count = 1,
+                                  .dofs = hand->dofs};
+    hand->system = (BulkOperator){.dof_count = 2 * SEEN_NODES,
+                                  .interface_count = 2 * SEEN_NODES,
+                                  .interface_dofs = hand->dofs};
+    hand->state = (State){.dof_count = 2 * SEEN_NODES,
+                          .interface_count = 2 * SEEN_NODES,
+                          .contact_count = SEEN_NODES,
+                          .displacement = hand->displacement,
+                          .slip_rate = hand->slip_rate,
+                          .reaction = hand->reaction,
+                          .status = hand->status};
+    hand->seen = (Observation){.state = &hand->state,
+                               .interface = &hand->interface,
+                               .system = &hand->system,
+                               .certified = true};
+}
+
+// At time t and U = t/10: nodes slip at these rates, 0 means they stick; front and largest rate as
+// run/observation defines them.
+static inline const Observation *hand_seen(HandSeen *hand, double t, const double rate[SEEN_NODES])
+{
+    bool together = true;
+    hand->state.time = hand->seen.t = t;
+    hand->seen.U = t / 10;
+    hand->seen.front = 0;
+    hand->seen.max_slip_rate = 0;
+    for (int32_t i = 0; i < SEEN_NODES; i++) {
+        hand->slip_rate[interface_tangent(i)] = rate[i];
+        hand->status[i] = rate[i] > 0 ? CONTACT_SLIP_FORWARD
+                                      : (rate[i] < 0 ? CONTACT_SLIP_BACKWARD : CONTACT_STICK);
+        together = together && rate[i] != 0;
+        if (together) hand->seen.front = hand->x[i];
+        hand->seen.max_slip_rate = fmax(hand->seen.max_slip_rate, fabs(rate[i]));
+    }
+    return &hand->seen;
+}
+
+#endif
