@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A folder of a test's own, made empty and removed with all that is in it.
+#ifndef AMONTONS_TESTS_RESULT_PLACE_H
+#define AMONTONS_TESTS_RESULT_PLACE_H
+
+#include "near.h"
+
+#include <ftw.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { PLACE_SIZE = 256 };
+
+static inline void place_make(char place[PLACE_SIZE])
+{
+    const char *root = getenv("TMPDIR");
+    snprintf(place, PLACE_SIZE, "%s/amontons-XXXXXX", root ? root : "/tmp");
+    assert_non_null(mkdtemp(place));
+}
+
+static inline int place_remove_entry(const char *path, const struct stat *status, int type,
+                                     struct FTW *walk)
+{
+    (void)status;
+    (void)type;
+    (void)walk;
+    return remove(path);
+}
+
+static inline void place_remove(const char *place)
+{
+    nftw(place, place_remove_entry, 16, FTW_DEPTH | FTW_PHYS);
+}
+
+static inline const char *place_path(const char *place, const char *name)
+{
+    static char path[2 * PLACE_SIZE];
+    snprintf(path, sizeof path, "%s/%s", place, name);
+    return path;
+}
+
+static inline bool place_has(const char *place, const char *name)
+{
+    return access(place_path(place, name), F_OK) == 0;
+}
+
+static inline void place_write(const char *place, const char *name, const char *text)
+{
+    FILE *file = fopen(place_path(place, name), "w");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+}
+
+// The whole of a text file, at most `size` - 1 bytes.
+static inline void place_read(const char *place, const char *name, char *text, size_t size)
+{
+    FILE *file = fopen(place_path(place, name), "r");
+    assert_non_null(file);
+    text[fread(text, 1, size - 1, file)] = 0;
+    fclose(file);
+}
+
+#endif
