@@ -27,6 +27,7 @@ bool events_create(const Interface *interface, double rate_scale, Events *events
                        .rate_stop = RATE_STOP * rate_scale,
                        .rapid = -1,
                        .slow = -1,
+                       .front_before = interface->x[0],
                        .room = FIRST_ROOM};
     events->list = NEW_ARRAY(Event, FIRST_ROOM, err);
     events->slipped = NEW_ARRAY(uint8_t, interface->contact_count, err);

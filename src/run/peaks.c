@@ -64,14 +64,14 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Peaks from the end on of which each agrees with the one `period` before it, the first peak of the
-// run left out: the length of that run of peaks, `period` when not even the last one agrees.
+// Peaks from the end on that agree with the last one of their phase, the first peak of the run left
+// out: how many, at least `period`. A slow drift does not agree.
 static int32_t count_agreeing(const Peaks *peaks, int32_t period)
 {
-    int32_t first = peaks->count > 1 ? 1 : 0, agreeing = period;
-    for (int32_t k = peaks->count - 1; k - period >= first; k--) {
-        double mu = peaks->list[k].mu;
-        if (fabs(mu - peaks->list[k - period].mu) > peaks->tolerance * mu) break;
+    int32_t first = peaks->count > 1 ? 1 : 0, last = peaks->count - 1, agreeing = period;
+    for (int32_t k = last - period; k >= first; k--) {
+        double mu = peaks->list[last - (last - k) % period].mu;
+        if (fabs(peaks->list[k].mu - mu) > peaks->tolerance * mu) break;
         agreeing++;
     }
     return agreeing;

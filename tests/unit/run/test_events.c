@@ -57,7 +57,7 @@ static void expect_kinds(int32_t slow, int32_t bounded, int32_t leading)
     assert_int_equal(events.count, slow + bounded + leading);
 }
 
-// The front goes from 0.25 to 0.75 in 20: one slow event, open until it is closed.
+// The front goes from 0 over 0.25 to 0.75 in 20: one slow event, open until it is closed.
 static void test_slow(void **state)
 {
     (void)state;
@@ -71,8 +71,8 @@ static void test_slow(void **state)
     expect_flags(false, false, false);
     events_close(&events, &hand.seen);
     expect_event(0, EVENT_QUASI_STATIC, 10, 30, 0.75);
-    assert_near("start", events.list[0].front_start, 0.25, 0);
-    assert_near("front speed", events.list[0].front_speed, 0.5 / 20, 1e-15);
+    assert_near("start", events.list[0].front_start, 0, 0);   // in the step before
+    assert_near("front speed", events.list[0].front_speed, 0.75 / 20, 1e-15);
     assert_near("peak rate", events.list[0].peak_slip_rate, 1.9, 0);
     assert_int_equal(events.slow, -1);
     assert_string_equal(event_name(EVENT_QUASI_STATIC), "quasi-static");
@@ -142,6 +142,19 @@ static void test_leading(void **state)
     expect_event(1, EVENT_LEADING, 2, 7, 1);
     assert_near("peak rate", events.list[1].peak_slip_rate, 90, 0);
     assert_int_equal(events.list[2].kind, EVENT_QUASI_STATIC);
+}
+
+// A block that does not stand at x = 0, slipping fast in the first step that is seen.
+static void test_first_step(void **state)
+{
+    (void)state;
+    Error err = {0};
+    events_destroy(&events);
+    for (int32_t i = 0; i < SEEN_NODES; i++) hand.x[i] += 5;
+    assert_true(events_create(&hand.interface, 1, &events, &err));
+    see(0, 9, 9, 0, 0, 0);
+    assert_near("front before", events.list[0].front_start, 5, 0);
+    assert_near("reach", events.list[0].reach, 5.25, 0);
 }
 
 // Rapid slip ahead of a node that holds: the reach is without a gap.
@@ -232,6 +245,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_bounded, setup, teardown),
         cmocka_unit_test_setup_teardown(test_front_speed, setup, teardown),
         cmocka_unit_test_setup_teardown(test_leading, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_first_step, setup, teardown),
         cmocka_unit_test_setup_teardown(test_gap, setup, teardown),
         cmocka_unit_test_setup_teardown(test_open_node, setup, teardown),
         cmocka_unit_test_setup_teardown(test_run_ends_within, setup, teardown),

@@ -69,7 +69,8 @@ static void test_no_peak(void **state)
     PeaksSummary summary = peaks_summarise(&fixture.peaks);
     assert_int_equal(fixture.peaks.count, 0);
     assert_true(isnan(summary.mu_M) && isnan(summary.spread) && isnan(summary.critical_length));
-    assert_true(!summary.periodic && summary.counted == 0);
+    assert_true(summary.period == 0 && summary.counted == 0);
+    assert_true(isnan(summary.low) && isnan(summary.high));
     assert_near("largest", fixture.peaks.mu_max, 0.3, 0);
     fixture_destroy(&fixture);
 }
@@ -88,7 +89,7 @@ static void test_peak_values(void **state)
     assert_near("U", list[0].U, 0.1, 1e-15);   // t = 1
     assert_near("mu", list[1].mu, 0.3, 0);
     assert_near("U", list[1].U, 0.7, 1e-15);   // t = 7
-    assert_near("l_c", list[1].front, 0.5, 0);   // the front when the sliding began
+    assert_near("l_c", list[1].front, 0.25, 0);   // the front just before the sliding
     assert_true(isnan(list[0].front_uncertified));
     assert_near("l_sc", list[1].front_uncertified, 0.25, 0);
     assert_near("largest", fixture.peaks.mu_max, 0.8, 0);
@@ -107,13 +108,13 @@ static void test_periodic(void **state)
         cycle(&fixture, mu[k], k < 2);
         PeaksSummary summary = peaks_summarise(&fixture.peaks);
         assert_int_equal(summary.counted, counted[k]);
-        assert_int_equal(summary.periodic, k == 3);
+        assert_int_equal(summary.period, k == 3 ? 1 : 0);
         assert_int_equal(isnan(summary.spread), k < 2);
     }
     PeaksSummary summary = peaks_summarise(&fixture.peaks);
     assert_near("mu_M", summary.mu_M, 0.301, 1e-15);
     assert_near("spread", summary.spread, 0.002, 1e-15);
-    assert_near("l_c", summary.critical_length, 0.5, 0);
+    assert_near("l_c", summary.critical_length, 0.25, 0);
     assert_near("l_sc", summary.subcritical_length, 0.25, 0);
     assert_false(fixture.peaks.list[0].counts);
     for (int32_t k = 1; k < 4; k++) assert_true(fixture.peaks.list[k].counts);
@@ -131,23 +132,50 @@ static void test_settling(void **state)
     PeaksSummary summary = peaks_summarise(&fixture.peaks);
     assert_int_equal(summary.counted, 3);   // 0.31 is 3.5 % off
     assert_near("mu_M", summary.mu_M, 0.3, 1e-15);
-    assert_true(summary.periodic && isnan(summary.subcritical_length));
+    assert_true(summary.period == 1 && isnan(summary.subcritical_length));
+    assert_near("low", summary.low, 0.2995, 0);
+    assert_near("high", summary.high, 0.31, 0);   // the first is left out
     assert_false(fixture.peaks.list[1].counts);
     fixture_destroy(&fixture);
 }
 
-// High and low in turn: not periodic in this sense, and only the last one is spoken for.
+// High and low in turn: period 2 once three of each kind agree, mu_M the mean of as many high ones as
+// low ones.
 static void test_alternating(void **state)
 {
     (void)state;
+    const int32_t counted[] = {1, 1, 1, 1, 1, 4, 6, 6};
     Fixture fixture;
     fixture_build(&fixture);
-    for (int32_t k = 0; k < 8; k++) cycle(&fixture, k % 2 ? 0.34 : 0.3, true);
+    for (int32_t k = 0; k < 8; k++) {
+        cycle(&fixture, k % 2 ? 0.34 : 0.3, true);
+        PeaksSummary summary = peaks_summarise(&fixture.peaks);
+        assert_int_equal(summary.period, counted[k] > 1 ? 2 : 0);
+        assert_int_equal(summary.counted, counted[k]);
+    }
     PeaksSummary summary = peaks_summarise(&fixture.peaks);
-    assert_int_equal(summary.counted, 1);
-    assert_false(summary.periodic);
-    assert_near("mu_M", summary.mu_M, 0.34, 0);
+    assert_near("mu_M", summary.mu_M, 0.32, 1e-15);
+    assert_near("spread", summary.spread, 0.04, 1e-15);
+    assert_near("low", summary.low, 0.3, 0);
+    assert_near("high", summary.high, 0.34, 0);
+    assert_false(fixture.peaks.list[0].counts || fixture.peaks.list[1].counts);
     fixture_destroy(&fixture);
+}
+
+// A slow drift is no agreement: what counts agrees with the very last, not only with its neighbour.
+static void test_drift(void **state)
+{
+    (void)state;
+    for (int32_t period = 1; period <= 2; period++) {
+        Fixture fixture;
+        fixture_build(&fixture);
+        for (int32_t k = 0; k < 20; k++)
+            cycle(&fixture, 0.3 * (1 + 0.004 * (k / period)) * (k % period ? 1.2 : 1), true);
+        PeaksSummary summary = peaks_summarise(&fixture.peaks);
+        assert_int_equal(summary.period, period);
+        assert_int_equal(summary.counted, 3 * period);   // 0.8 % off, 1.2 % is too much
+        fixture_destroy(&fixture);
+    }
 }
 
 static void test_many(void **state)
@@ -228,10 +256,11 @@ static void test_memory_faults(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_no_peak),     cmocka_unit_test(test_peak_values),
-        cmocka_unit_test(test_periodic),    cmocka_unit_test(test_settling),
-        cmocka_unit_test(test_alternating), cmocka_unit_test(test_many),
-        cmocka_unit_test(test_recorders),   cmocka_unit_test(test_memory_faults),
+        cmocka_unit_test(test_no_peak),       cmocka_unit_test(test_peak_values),
+        cmocka_unit_test(test_periodic),      cmocka_unit_test(test_settling),
+        cmocka_unit_test(test_alternating),   cmocka_unit_test(test_drift),
+        cmocka_unit_test(test_many),          cmocka_unit_test(test_recorders),
+        cmocka_unit_test(test_memory_faults),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
