@@ -98,6 +98,15 @@ bool dense_invert_factored(double *a, int32_t n)
     return info == 0;
 }
 
+void dense_divide_both_sides(const double *lower, int32_t n, double *a)
+{
+    if (n == 0) return;
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, n, n, 1.0, lower,
+                n, a, n);
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, n, n, 1.0, lower,
+                n, a, n);
+}
+
 int64_t dense_eigen_work(int32_t n)
 {
     return 34 * (int64_t)n + 64;   // (block size 32 + 2) n

@@ -34,6 +34,9 @@ void dense_lower_square(const double *lower, int32_t n, double *c);
 // Inverse, both triangles, of a symmetric positive definite `a` [n * n] from its Cholesky factor.
 bool dense_invert_factored(double *a, int32_t n);
 
+// a := L^-1 a L^-T, both triangles of a symmetric `a` [n * n], with a Cholesky factor `lower`.
+void dense_divide_both_sides(const double *lower, int32_t n, double *a);
+
 // Eigenvalues, ascending, and orthonormal eigenvectors (columns, in place) of a symmetric `a` [n *
 // n]. values: [n]; work: [dense_eigen_work(n)].
 int64_t dense_eigen_work(int32_t n);

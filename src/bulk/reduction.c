@@ -11,7 +11,6 @@
 // loading, waves and the thin layers of very short steps must be covered: from a tenth of the
 // slowest rate of the block (viscous or wave) to the fastest.
 static const double SHIFT_LOW = 0.1, SHIFT_HIGH = 1e3, SHIFT_RATIO = 10;
-enum { SHIFTS_MAX = 24 };
 
 // Work of one build.
 typedef struct Reducer {
@@ -200,12 +199,12 @@ cleanup:
 
 // Shifts from SHIFT_LOW times the slowest to SHIFT_HIGH times the fastest of the block's two rates,
 // E/eta and c/L, in units of E/eta; lambda^2 = rho L^2 E / eta^2.
-static int32_t list_shifts(const BulkScales *scales, double *shifts)
+int32_t reduction_shifts(const BulkScales *scales, double shifts[REDUCTION_SHIFTS_MAX])
 {
     double lambda = sqrt(scales->mass * scales->stiffness) / scales->damping;
     double low = SHIFT_LOW * fmin(1, 1 / lambda), high = SHIFT_HIGH * fmax(1, 1 / lambda);
     int32_t count = (int32_t)ceil(log(high / low) / log(SHIFT_RATIO) - 1e-9) + 1;
-    if (count > SHIFTS_MAX) count = SHIFTS_MAX;
+    if (count > REDUCTION_SHIFTS_MAX) count = REDUCTION_SHIFTS_MAX;
     for (int32_t k = 0; k < count; k++) shifts[k] = low * pow(high / low, (double)k / (count - 1));
     return count;
 }
@@ -213,7 +212,7 @@ static int32_t list_shifts(const BulkScales *scales, double *shifts)
 static bool collect_interior(Reducer *work, ReducedBulk *reduced, Error *err)
 {
     const BulkScales *scales = &work->def->scales;
-    double shifts[SHIFTS_MAX], dropped = 0;
+    double shifts[REDUCTION_SHIFTS_MAX], dropped = 0;
     double lambda_square = scales->mass * scales->stiffness / (scales->damping * scales->damping);
     int64_t entries = (int64_t)work->dofs * work->m;
     double statics[3] = {0, 0, 1};
@@ -223,7 +222,7 @@ static bool collect_interior(Reducer *work, ReducedBulk *reduced, Error *err)
     memset(work->responses, 0, (size_t)entries * sizeof(double));
     TRY(compress(work, &dropped, err));
     work->largest = 0;
-    int32_t count = list_shifts(scales, shifts);
+    int32_t count = reduction_shifts(scales, shifts);
     for (int32_t k = 0; k < count; k++) {
         double terms[3] = {shifts[k] * lambda_square, 1, 1 / shifts[k]};
         TRY(respond(work, terms, work->responses, err));

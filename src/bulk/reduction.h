@@ -44,6 +44,7 @@ typedef struct ReducedBulk {
     double *stiffness;   // [m^2] S_K; the interior block is the unit matrix; owned
     double *load;   // [count] of the unit load; owned
     double *modes;   // [full_dofs * count] u = modes [u_b; q]; owned; NULL: not at hand
+    double error;                // of S(s), measured against the full mesh (bulk/reduction_check)
     double dropped;   // the largest singular value left out, over the largest
     int64_t factorisations;   // spent on it
     BulkScales scales;
@@ -52,6 +53,10 @@ typedef struct ReducedBulk {
 // interface_dofs: [interface_count] unknowns of `bulk` that stay.
 bool reduction_build(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
                      const ReductionDef *def, ReducedBulk *reduced, Error *err);
+enum { REDUCTION_SHIFTS_MAX = 24 };
+// The shifts a basis for these scales is built at, in units of E/eta, ascending; how many.
+int32_t reduction_shifts(const BulkScales *scales, double shifts[REDUCTION_SHIFTS_MAX]);
+
 void reduction_destroy(ReducedBulk *reduced);
 
 // full [full_dofs] = modes * state [count]. The modes must be at hand.

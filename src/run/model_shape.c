@@ -5,6 +5,7 @@
 #include "base/clock.h"
 #include "base/dense.h"
 #include "base/memory.h"
+#include "bulk/reduction_check.h"
 #include "run/shape_cache.h"
 
 #include <math.h>
@@ -13,6 +14,11 @@
 // 1e-4.
 static const double REDUCTION_TOLERANCES[] = {
     [ACCURACY_DRAFT] = 3e-2, [ACCURACY_STANDARD] = 1e-2, [ACCURACY_FINE] = 1e-3};
+
+// The error of S(s) that is accepted, over the tolerance of the basis: energies go with the square of
+// what is left out, so S is nearly always far better than that.
+static const double REDUCTION_ERROR_OVER_TOLERANCE = 1;
+enum { REDUCTION_ROUNDS_MAX = 3 };
 
 static const double ROD_HEIGHT = 0.5, ROD_WIDTH = 0.1;   // of H
 
@@ -155,6 +161,32 @@ static bool adopt_shape(Simulation *simulation, Shape *shape, Error *err)
                                 &simulation->system, err);
 }
 
+// Builds a basis and measures it on the full mesh; one that is not good enough is enriched by asking
+// for ten times smaller responses.
+static bool build_checked(Simulation *simulation, ReductionDef *def, Shape *shape, Error *err)
+{
+    const Bulk *bulk = &simulation->bulk;
+    const Interface *interface = &shape->interface;
+    ReducedBulk *reduced = &shape->reduced;
+    BulkOperator full = {0}, tried = {0};
+    double bound = REDUCTION_ERROR_OVER_TOLERANCE * def->tolerance;
+    TRY(bulk_operator_create(bulk, simulation->mesh.position, interface->dofs, interface->count,
+                             &full, err));
+    for (int32_t round = 0; round < REDUCTION_ROUNDS_MAX; round++) {
+        reduction_destroy(reduced);
+        TRY(reduction_build(bulk, interface->dofs, interface->count, def, reduced, err));
+        TRY(bulk_operator_reduce(reduced, shape->rotation, 1, &tried, err));
+        TRY(reduction_check(&full, &tried, &reduced->error, err));
+        bulk_operator_destroy(&tried);
+        if (reduced->error <= bound) break;
+        def->tolerance *= 0.1;
+    }
+cleanup:
+    bulk_operator_destroy(&full);
+    bulk_operator_destroy(&tried);
+    return error_is_clean(err);
+}
+
 // Reduces the assembled bulk; key: where the cache keeps it, empty for nowhere.
 static bool reduce_bulk(Simulation *simulation, const char *key, Error *err)
 {
@@ -172,13 +204,13 @@ static bool reduce_bulk(Simulation *simulation, const char *key, Error *err)
     shape.interface = simulation->interface;
     simulation->interface = (Interface){0};
     const Interface *interface = &shape.interface;
-    TRY(reduction_build(bulk, interface->dofs, interface->count, &def, &shape.reduced, err));
     shape.rotation = NEW_ARRAY(double, interface->count, err);
     if (!shape.rotation) goto cleanup;
     for (int32_t k = 0; k < interface->count; k++) {
         const double *position = simulation->mesh.position + 2 * (interface->dofs[k] / 2);
         shape.rotation[k] = interface->dofs[k] % 2 == 0 ? -position[1] : position[0];
     }
+    TRY(build_checked(simulation, &def, &shape, err));
     shape_cache_store(key, &shape, simulation->cache_note);
     TRY(adopt_shape(simulation, &shape, err));
 cleanup:

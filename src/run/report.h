@@ -11,7 +11,7 @@
 // The largest of each kind of error over a run's accepted steps, relative (run/observation).
 typedef struct RunErrors {
     double energy, complementarity, moment, equation;
-    double reduction;   // the largest response left out of the interior basis; 0: the full mesh
+    double reduction;   // of the interface operator, measured (bulk/reduction_check); 0: full mesh
     double moment_quasi_static;   // without inertia, over frames in which nothing is fast
 } RunErrors;
 

@@ -15,7 +15,7 @@
 enum { MESH_BYTES_MAX = 1 << 28, PATH_SIZE = PATH_MAX + 64, COUNTS = 8 };
 
 // Stands in every key: a new meaning of the arrays below needs a new number.
-static const char FORMAT[] = "shape 1 " AMONTONS_VERSION;
+static const char FORMAT[] = "shape 2 " AMONTONS_VERSION;
 
 void shape_destroy(Shape *shape)
 {
@@ -159,6 +159,7 @@ static bool read_shape(const CacheFile *file, Shape *shape, Error *err)
     reduced->interior_count = (int32_t)counts[4];
     reduced->count = interface->count + reduced->interior_count;
     reduced->dropped = counts[5];
+    reduced->error = counts[6];
     int64_t all = reduced->count, m = interface->count;
     return read_indices(file, "node", interface->contact_count, &interface->node, err) &&
            read_numbers(file, "x", interface->contact_count, &interface->x, err) &&
@@ -235,9 +236,9 @@ static bool store_shape(const char *key, const Shape *shape, Error *err)
     const Interface *interface = &shape->interface;
     const ReducedBulk *reduced = &shape->reduced;
     int64_t all = reduced->count, m = interface->count;
-    double counts[COUNTS] = {interface->contact_count, interface->rod_count,
-                             interface->pad_count,     reduced->full_dofs,
-                             reduced->interior_count,  reduced->dropped};
+    double counts[COUNTS] = {
+        interface->contact_count, interface->rod_count, interface->pad_count, reduced->full_dofs,
+        reduced->interior_count,  reduced->dropped,     reduced->error};
     list_numbers(&listing, "counts", counts, COUNTS);
     list_numbers(&listing, "sizes", &shape->sizes.length, sizeof(ShapeSizes) / sizeof(double));
     TRY(list_indices(&listing, "node", interface->node, interface->contact_count, err));

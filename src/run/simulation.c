@@ -272,7 +272,7 @@ static bool finish_run(Simulation *simulation, const Error *failure, RunSummary 
 {
     double started = clock_seconds();
     events_close(&simulation->events, &simulation->seen);
-    simulation->errors.reduction = simulation->reduced.dropped;
+    simulation->errors.reduction = simulation->reduced.error;
     PeaksSummary peaks = peaks_summarise(&simulation->peaks);
     RunCounters counters = count_run(simulation);
     if (simulation->history.file) {
