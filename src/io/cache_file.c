@@ -42,7 +42,10 @@ bool cache_file_write(const char *path, const char *key, const CacheArray *array
     Hash hash = hash_start();
     char head[HEAD_SIZE], digest[HASH_TEXT_SIZE];
     fill_head(key, head);
-    TRY(part_file_create(&part, path, err));
+    if (!part_file_create(&part, path, err)) {
+        if (part.taken) error_clear(err);   // it writes the same: the key says so
+        goto cleanup;
+    }
     TRY(write_counted(&part, &hash, head, HEAD_SIZE, err));
     for (int32_t k = 0; k < count; k++) {
         ArrayHead before = {.count = arrays[k].count};

@@ -41,6 +41,7 @@ bool part_file_create(PartFile *file, const char *path, Error *err)
         // Not every file system can lock; only a lock that another process holds is an error.
         if (flock(file->descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
             part_file_leave(file);
+            file->taken = true;
             FAIL(err, ERROR_FILE, "cannot write %s: another process is writing %s", path,
                  file->part);
         }

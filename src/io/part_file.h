@@ -15,6 +15,7 @@
 
 typedef struct PartFile {
     bool open;                   // false: zeroed, committed or discarded
+    bool taken;                  // another process is writing it: why create failed
     int descriptor;              // for reading and writing; valid while open
     char path[PATH_MAX];         // the final name
     char part[PATH_MAX + 8];     // the name until then
