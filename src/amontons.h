@@ -57,6 +57,16 @@ typedef struct RunCounters {
 } RunCounters;
 
 // What a run came to, for the closing lines; run.json holds more.
+// One phase of a run, for --profile.
+typedef struct RunPhase {
+    const char *name;       // "contact"; static storage
+    double seconds;         // wall time
+    int64_t count;          // of what `note` names
+    char note[96];          // "Newton steps"; or why it was skipped
+} RunPhase;
+
+enum { RUN_PHASES_MAX = 16 };
+
 typedef struct RunSummary {
     double mu_low, mu_high;        // smallest and largest peak, the first left out
     int32_t period;                // 1: the last peaks agree; 2: every second one; 0: neither
@@ -69,6 +79,9 @@ typedef struct RunSummary {
     RunCounters counters;
     int32_t field_files;   // VTU files written
     int32_t figures;   // pictures drawn
+    int32_t phase_count;
+    RunPhase phases[RUN_PHASES_MAX];   // [phase_count]; rungs, contact, certificate and bulk are parts
+                                       // of relax and solve
     char folder[AMONTONS_PATH_SIZE];   // where everything lies
 } RunSummary;
 

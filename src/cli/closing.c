@@ -82,3 +82,14 @@ void closing_print(const char *title, const RunSummary *summary)
     if (summary->field_files > 0) print_file(summary->folder, "fields.pvd", fields);
     if (summary->figures > 0) print_pictures(summary->folder);
 }
+
+void closing_print_profile(const RunSummary *summary)
+{
+    printf("%-18s %10s %6s %10s\n", "Where time went", "seconds", "%", "count");
+    double total = summary->seconds_total > 0 ? summary->seconds_total : 1;
+    for (int32_t k = 0; k < summary->phase_count; k++) {
+        const RunPhase *phase = &summary->phases[k];
+        printf("  %-16s %10.4f %6.1f %10lld  %s\n", phase->name, phase->seconds,
+               100 * phase->seconds / total, (long long)phase->count, phase->note);
+    }
+}

@@ -7,14 +7,14 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { OVERRIDES_MAX = 200, OPTION_OVERWRITE = 1000, OPTION_SET };
+enum { OVERRIDES_MAX = 200, OPTION_OVERWRITE = 1000, OPTION_SET, OPTION_PROFILE };
 
 typedef struct Options {
     const char *scene;
     const char *folder;
     const char *overrides[OVERRIDES_MAX];
     int32_t override_count;
-    bool overwrite, quiet, too_many_scenes, too_many_overrides;
+    bool overwrite, quiet, profile, too_many_scenes, too_many_overrides;
 } Options;
 
 // A signal can reach nothing but a variable of the file.
@@ -68,6 +68,9 @@ static error_t take_option(int key, char *word, struct argp_state *state)
     case OPTION_OVERWRITE:
         options->overwrite = true;
         return 0;
+    case OPTION_PROFILE:
+        options->profile = true;
+        return 0;
     case 'q':
         options->quiet = true;
         return 0;
@@ -87,6 +90,8 @@ static void read_options(int argc, char **argv, Options *options)
         {"set", OPTION_SET, "KEY=VALUE", 0,
          "Use this value in the place of the scene's; may be given several times", 0},
         {"overwrite", OPTION_OVERWRITE, NULL, 0, "Replace an earlier result in DIR", 0},
+        {"profile", OPTION_PROFILE, NULL, 0,
+         "Say at the end where the time went, and what was skipped and why", 0},
         {"quiet", 'q', NULL, 0, "Print nothing but errors", 0},
         {0}};
     static const struct argp argp = {
@@ -138,6 +143,7 @@ static int run_scene(const Scene *scene, const Options *options, const char *fol
     progress_end(&progress);
     if (!done) return report_error(&err);
     if (!options->quiet) closing_print(amontons_scene_title(scene), &summary);
+    if (options->profile) closing_print_profile(&summary);
     return 0;
 }
 

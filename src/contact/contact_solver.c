@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/contact_solver.h"
 
+#include "base/clock.h"
 #include "base/dense.h"
 #include "base/memory.h"
 
@@ -240,7 +241,8 @@ static void fix_rod_kind(const ContactProblem *problem, ContactSolution *solutio
     }
 }
 
-bool contact_solve(ContactSolver *solver, const ContactProblem *problem, ContactSolution *solution)
+static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
+                           ContactSolution *solution)
 {
     solver->solves++;
     fix_rod_kind(problem, solution);
@@ -267,4 +269,12 @@ bool contact_solve(ContactSolver *solver, const ContactProblem *problem, Contact
     }
     solver->unsolved++;
     return false;
+}
+
+bool contact_solve(ContactSolver *solver, const ContactProblem *problem, ContactSolution *solution)
+{
+    double started = clock_seconds();
+    bool solved = solve_statuses(solver, problem, solution);
+    solver->seconds += clock_seconds() - started;
+    return solved;
 }

@@ -36,6 +36,7 @@ typedef struct ContactSolver {
     int64_t iterations;   // counted, Newton steps
     int64_t fallbacks;   // counted, solves in which only the worst status was changed
     int64_t unsolved;   // counted
+    double seconds;          // wall time spent
 } ContactSolver;
 
 bool contact_solver_create(const Interface *interface, ContactSolverDef def, ContactSolver *solver,

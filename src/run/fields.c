@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "run/fields.h"
 
+#include "base/clock.h"
 #include "base/memory.h"
 
 #include <errno.h>
@@ -238,6 +239,7 @@ bool fields_record(void *self, const Observation *seen, Error *err)
 {
     Fields *fields = self;
     if (!is_due(fields, seen)) return true;
+    double started = clock_seconds();
     char bulk[NAME_SIZE - 8], line[NAME_SIZE - 8], path[PATH_SIZE];
     snprintf(bulk, sizeof bulk, "bulk_%06d.vtu", fields->written);
     snprintf(line, sizeof line, "interface_%06d.vtp", fields->written);
@@ -250,6 +252,7 @@ bool fields_record(void *self, const Observation *seen, Error *err)
     // The list is written anew each time: a run that is cut off leaves one that opens.
     snprintf(path, sizeof path, "%s/fields.pvd", fields->folder);
     TRY(field_file_write_pvd(path, fields->entries, fields->entry_count, err));
+    fields->seconds += clock_seconds() - started;
 cleanup:
     return error_is_clean(err);
 }

@@ -38,6 +38,7 @@ typedef struct Fields {
     char (*names)[32];   // [entry_count] file names the entries point to
     int32_t entry_count, room;
     int32_t written;   // times written
+    double seconds;               // wall time spent
     double next_U, next_t;   // when the next is due
 } Fields;
 

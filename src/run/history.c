@@ -96,6 +96,7 @@ static double node_value(const History *history, const Observation *seen, Result
 bool history_record(void *self, const Observation *seen, Error *err)
 {
     History *history = self;
+    double started = clock_seconds();
     int32_t count = seen->interface->contact_count;
     if (history->rows == 0) {
         for (int32_t i = 0; i < count; i++)
@@ -111,6 +112,7 @@ bool history_record(void *self, const Observation *seen, Error *err)
     }
     history->rows++;
     double now = clock_seconds();
+    history->seconds += now - started;
     if (now - history->flushed_at > FLUSH_EVERY) {
         TRY(array_file_flush(history->file, err));
         history->flushed_at = now;

@@ -11,6 +11,7 @@
 typedef struct History {
     ArrayFile *file;   // NULL: no history is kept; owned
     int64_t rows;   // steps recorded
+    double seconds;             // wall time spent
     double flushed_at;   // wall time of the last flush, s
     double *row;   // [contact_count] work; owned
     double *pad;   // [contact_count] the nodes' pads as stored; owned

@@ -7,7 +7,9 @@
 #include "base/memory.h"
 #include "run/explicit_loop.h"
 #include "run/model.h"
+#include "run/output.h"
 #include "run/result_folder.h"
+#include "run/summary.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -43,48 +45,6 @@ static bool report_step(void *self, const Observation *seen, Error *err)
     return true;
 }
 
-static bool open_history(Simulation *simulation, Error *err)
-{
-    const Scene *scene = &simulation->scene;
-    WaveSpeeds speeds = material_speeds(&simulation->material);
-    ResultHead head = {.title = scene->title,
-                       .units = scene->units == UNITS_SI ? "si" : "normalised",
-                       .version = AMONTONS_VERSION,
-                       .numbers = {[NUMBER_LENGTH] = simulation->model.length,
-                                   [NUMBER_PRESSURE] = scene->load.pressure,
-                                   [NUMBER_LOAD] = simulation->scales.load,
-                                   [NUMBER_ROD_VELOCITY] = scene->rod.velocity,
-                                   [NUMBER_CRITICAL_VELOCITY] = simulation->law.critical_velocity,
-                                   [NUMBER_MU_STATIC] = simulation->law.mu_static,
-                                   [NUMBER_MU_KINETIC] = simulation->law.mu_kinetic,
-                                   [NUMBER_C_LONGITUDINAL] = speeds.longitudinal,
-                                   [NUMBER_C_SHEAR] = speeds.shear,
-                                   [NUMBER_C_RAYLEIGH] = speeds.rayleigh,
-                                   [NUMBER_MU_M] = NAN,
-                                   [NUMBER_L_C] = NAN}};
-    TRY(history_create(simulation->folder, &head, &simulation->interface, &simulation->law,
-                       &simulation->history, err));
-    recorders_add(&simulation->recorders, &simulation->history, history_record);
-cleanup:
-    return error_is_clean(err);
-}
-
-static bool open_fields(Simulation *simulation, Error *err)
-{
-    const Scene *scene = &simulation->scene;
-    FieldsDef def = {.every_U = scene->output.fields_every_U,
-                     .every_t = scene->output.fields_every_t,
-                     .at_events = scene->output.fields_at_events};
-    TRY(fields_create(&def, simulation->folder, &simulation->mesh, &simulation->interface,
-                      &simulation->fields, err));
-    simulation->fields.material = &simulation->material;
-    simulation->fields.law = &simulation->law;
-    simulation->fields.events = &simulation->events;
-    recorders_add(&simulation->recorders, &simulation->fields, fields_record);
-cleanup:
-    return error_is_clean(err);
-}
-
 // Events come first: the others read them.
 static bool open_recorders(Simulation *simulation, Error *err)
 {
@@ -94,8 +54,10 @@ static bool open_recorders(Simulation *simulation, Error *err)
     recorders_add(&simulation->recorders, &simulation->events, events_record);
     TRY(peaks_create(&simulation->events, scene->time.periodic_tolerance, &simulation->peaks, err));
     recorders_add(&simulation->recorders, &simulation->peaks, peaks_record);
-    if (writes_results(simulation) && scene->output.history) TRY(open_history(simulation, err));
-    if (writes_results(simulation) && scene->output.fields) TRY(open_fields(simulation, err));
+    if (writes_results(simulation) && scene->output.history)
+        TRY(output_open_history(simulation, err));
+    if (writes_results(simulation) && scene->output.fields)
+        TRY(output_open_fields(simulation, err));
     recorders_add(&simulation->recorders, simulation, report_step);
 cleanup:
     return error_is_clean(err);
@@ -206,65 +168,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-static RunCounters count_run(const Simulation *simulation)
-{
-    const StepControl *control = &simulation->control;
-    const StepCounters *steps = &control->counters;
-    const ContactSolver *solver = &control->scheme.solver;
-    return (RunCounters){.accepted = steps->accepted,
-                         .rejected = steps->rejected_error + steps->rejected_uncertified,
-                         .rejected_uncertified = steps->rejected_uncertified,
-                         .unsolved_retries = steps->unsolved,
-                         .factorisations = simulation->system.factorisations,
-                         .solves = simulation->system.solves,
-                         .contact_solves = solver->solves,
-                         .contact_iterations = solver->iterations,
-                         .contact_fallbacks = solver->fallbacks,
-                         .certificates = control->certificate.checks,
-                         .loop_allocations = simulation->allocations_before > 0
-                                                 ? memory_counters().allocations -
-                                                       simulation->allocations_before
-                                                 : 0};
-}
-
-static void summarise_run(const Simulation *simulation, const RunCounters *counters,
-                          const PeaksSummary *peaks, RunSummary *summary)
-{
-    const int32_t *kinds = simulation->events.kinds;
-    *summary = (RunSummary){.mu_M = peaks->mu_M,
-                            .mu_M_spread = peaks->spread,
-                            .mu_low = peaks->low,
-                            .mu_high = peaks->high,
-                            .period = peaks->period,
-                            .peaks = simulation->peaks.count,
-                            .peaks_counted = peaks->counted,
-                            .quasi_static = kinds[EVENT_QUASI_STATIC],
-                            .bounded = kinds[EVENT_BOUNDED],
-                            .leading = kinds[EVENT_LEADING],
-                            .critical_length = peaks->critical_length / simulation->model.length,
-                            .energy_error = simulation->errors.energy,
-                            .moment_error = simulation->errors.moment,
-                            .complementarity_error = simulation->errors.complementarity,
-                            .seconds_solve = simulation->timing.solve,
-                            .seconds_output = simulation->timing.output,
-                            .seconds_total = simulation->timing.total,
-                            .counters = *counters,
-                            .field_files = simulation->fields.written,
-                            .figures = simulation->figures};
-    snprintf(summary->folder, sizeof summary->folder, "%s", simulation->folder);
-}
-
-static bool draw_figures(Simulation *simulation, Error *err)
-{
-    const SceneNames *wanted = &simulation->scene.output.figures;
-    const char *names[SCENE_LIST_MAX];
-    if (wanted->count == 0) return true;
-    for (int32_t k = 0; k < wanted->count; k++) names[k] = wanted->name[k];
-    if (!amontons_render_result(simulation->folder, names, wanted->count, err)) return false;
-    simulation->figures = wanted->count;
-    return true;
-}
-
 // Closes history, draws, reports. failure: NULL, or why the run ended early; it is reported, and
 // what was computed is kept.
 static bool finish_run(Simulation *simulation, const Error *failure, RunSummary *summary,
@@ -274,11 +177,11 @@ static bool finish_run(Simulation *simulation, const Error *failure, RunSummary 
     events_close(&simulation->events, &simulation->seen);
     simulation->errors.reduction = simulation->reduced.error;
     PeaksSummary peaks = peaks_summarise(&simulation->peaks);
-    RunCounters counters = count_run(simulation);
+    RunCounters counters = summary_count(simulation);
     if (simulation->history.file) {
         TRY(history_finish(&simulation->history, &simulation->peaks, &simulation->events, &peaks,
                            err));
-        TRY(draw_figures(simulation, err));
+        TRY(output_draw_figures(simulation, err));
     }
     simulation->timing.output += clock_seconds() - started;
     simulation->timing.total = clock_seconds() - simulation->started;
@@ -296,7 +199,7 @@ static bool finish_run(Simulation *simulation, const Error *failure, RunSummary 
                             .cache_note = simulation->cache_note};
         TRY(report_write(simulation->folder, &report, err));
     }
-    summarise_run(simulation, &counters, &peaks, summary);
+    summary_fill(simulation, &counters, &peaks, summary);
 cleanup:
     return error_is_clean(err);
 }

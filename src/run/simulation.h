@@ -44,6 +44,7 @@ struct Simulation {
     double started;   // wall clock, s
     int64_t allocations_before;   // memory_counters() when the time loop began
     int32_t figures;   // drawn
+    double figures_seconds;
 };
 
 #endif

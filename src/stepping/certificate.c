@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "stepping/certificate.h"
 
+#include "base/clock.h"
 #include "base/dense.h"
 #include "base/memory.h"
 
@@ -82,7 +83,10 @@ bool certificate_holds(Certificate *certificate, const State *state)
 {
     const double *schur = certificate->damping ? interface_operator_schur(certificate->damping)
                                                : NULL;
-    return is_definite(certificate, state, schur);
+    double started = clock_seconds();
+    bool holds = is_definite(certificate, state, schur);
+    certificate->seconds += clock_seconds() - started;
+    return holds;
 }
 
 // det J > 0, J with the pressure that follows slip.
@@ -116,5 +120,9 @@ bool certificate_step_resolves(Certificate *certificate, const State *state,
                                const InterfaceOperator *rung)
 {
     const double *schur = interface_operator_schur(rung);
-    return is_definite(certificate, state, schur) || coupled_is_positive(certificate, state, schur);
+    double started = clock_seconds();
+    bool resolves = is_definite(certificate, state, schur) ||
+                    coupled_is_positive(certificate, state, schur);
+    certificate->seconds += clock_seconds() - started;
+    return resolves;
 }

@@ -33,6 +33,7 @@ typedef struct Certificate {
     int32_t *moving;             // [count] work: F; owned
     int32_t *pivots;             // [count] work; owned
     int64_t checks;   // counted: Cholesky factorisations
+    double seconds;              // wall time spent
 } Certificate;
 
 bool certificate_create(const Block *block, Certificate *certificate, Error *err);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "stepping/ladder.h"
 
+#include "base/clock.h"
+
 #include <math.h>
 
 const double SDIRK2_GAMMA = 1.0 - 0.70710678118654752440;
@@ -33,9 +35,10 @@ int32_t ladder_find(const Ladder *ladder, double step)
 InterfaceOperator *ladder_rung(Ladder *ladder, int32_t k, Error *err)
 {
     if (!ladder->rung[k]) {
-        double scaled = SDIRK2_GAMMA * ladder_step(ladder, k);
+        double started = clock_seconds(), scaled = SDIRK2_GAMMA * ladder_step(ladder, k);
         OperatorTerms terms = {.mass = 1 / scaled, .damping = 1, .stiffness = scaled};
         ladder->rung[k] = interface_operator_create(ladder->system, terms, err);
+        ladder->seconds += clock_seconds() - started;
         if (!ladder->rung[k]) error_context(err, "step %g", ladder_step(ladder, k));
     }
     return ladder->rung[k];

@@ -17,6 +17,7 @@ typedef struct Ladder {
     int32_t rung_count;   // usable rungs: 0 .. rung_count - 1
     InterfaceOperator *rung[LADDER_RUNGS_MAX];   // NULL: not built; owned
     int64_t accepted[LADDER_RUNGS_MAX];   // steps, counted by step_control
+    double seconds;              // wall time spent on building rungs
 } Ladder;
 
 // Rungs from step_max down to the last that is not below step_min.

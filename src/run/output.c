@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "run/output.h"
+
+#include "base/clock.h"
+
+#include <math.h>
+
+bool output_open_history(Simulation *simulation, Error *err)
+{
+    const Scene *scene = &simulation->scene;
+    WaveSpeeds speeds = material_speeds(&simulation->material);
+    ResultHead head = {.title = scene->title,
+                       .units = scene->units == UNITS_SI ? "si" : "normalised",
+                       .version = AMONTONS_VERSION,
+                       .numbers = {[NUMBER_LENGTH] = simulation->model.length,
+                                   [NUMBER_PRESSURE] = scene->load.pressure,
+                                   [NUMBER_LOAD] = simulation->scales.load,
+                                   [NUMBER_ROD_VELOCITY] = scene->rod.velocity,
+                                   [NUMBER_CRITICAL_VELOCITY] = simulation->law.critical_velocity,
+                                   [NUMBER_MU_STATIC] = simulation->law.mu_static,
+                                   [NUMBER_MU_KINETIC] = simulation->law.mu_kinetic,
+                                   [NUMBER_C_LONGITUDINAL] = speeds.longitudinal,
+                                   [NUMBER_C_SHEAR] = speeds.shear,
+                                   [NUMBER_C_RAYLEIGH] = speeds.rayleigh,
+                                   [NUMBER_MU_M] = NAN,
+                                   [NUMBER_L_C] = NAN}};
+    TRY(history_create(simulation->folder, &head, &simulation->interface, &simulation->law,
+                       &simulation->history, err));
+    recorders_add(&simulation->recorders, &simulation->history, history_record);
+cleanup:
+    return error_is_clean(err);
+}
+
+bool output_open_fields(Simulation *simulation, Error *err)
+{
+    const Scene *scene = &simulation->scene;
+    FieldsDef def = {.every_U = scene->output.fields_every_U,
+                     .every_t = scene->output.fields_every_t,
+                     .at_events = scene->output.fields_at_events};
+    TRY(fields_create(&def, simulation->folder, &simulation->mesh, &simulation->interface,
+                      &simulation->fields, err));
+    simulation->fields.material = &simulation->material;
+    simulation->fields.law = &simulation->law;
+    simulation->fields.events = &simulation->events;
+    recorders_add(&simulation->recorders, &simulation->fields, fields_record);
+cleanup:
+    return error_is_clean(err);
+}
+
+bool output_draw_figures(Simulation *simulation, Error *err)
+{
+    const SceneNames *wanted = &simulation->scene.output.figures;
+    const char *names[SCENE_LIST_MAX];
+    if (wanted->count == 0) return true;
+    for (int32_t k = 0; k < wanted->count; k++) names[k] = wanted->name[k];
+    double started = clock_seconds();
+    if (!amontons_render_result(simulation->folder, names, wanted->count, err)) return false;
+    simulation->figures = wanted->count;
+    simulation->figures_seconds = clock_seconds() - started;
+    return true;
+}

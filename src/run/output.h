@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a scene asks to be written, opened as recorders or drawn at the end. Called by run/simulation;
+// what is not asked for is never called.
+#ifndef AMONTONS_RUN_OUTPUT_H
+#define AMONTONS_RUN_OUTPUT_H
+
+#include "run/simulation.h"
+
+bool output_open_history(Simulation *simulation, Error *err);
+bool output_open_fields(Simulation *simulation, Error *err);
+bool output_draw_figures(Simulation *simulation, Error *err);   // from the finished history
+
+#endif

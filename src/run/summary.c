@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "run/summary.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static void add_phase(RunSummary *summary, const char *name, double seconds, int64_t count,
+                      const char *note)
+{
+    RunPhase *phase = &summary->phases[summary->phase_count++];
+    *phase = (RunPhase){.name = name, .seconds = seconds, .count = count};
+    snprintf(phase->note, sizeof phase->note, "%s", note);
+}
+
+// Where the time went, in the order of a run, and for what was skipped the reason.
+static void list_phases(const Simulation *simulation, RunSummary *summary)
+{
+    const RunTiming *timing = &simulation->timing;
+    const StepControl *control = &simulation->control;
+    const ContactSolver *solver = &control->scheme.solver;
+    const Certificate *certificate = &control->certificate;
+    const RunModel *model = &simulation->model;
+    bool cached = model->from_cache, reduced = simulation->reduced.count > 0;
+    bool fields = simulation->fields.written > 0;
+    double inside = solver->seconds + certificate->seconds + control->ladder.seconds;
+    char note[96];
+    add_phase(summary, "mesh", timing->mesh, model->elements,
+              !cached  ? "elements, read through gmsh"
+              : fields ? "elements: fields need the mesh"
+                       : "skipped: the shape is in the cache");
+    snprintf(note, sizeof note, "unknowns for %d%s", model->full_dofs,
+             cached    ? ", from the cache"
+             : reduced ? ""
+                       : ": not reduced");
+    add_phase(summary, "assemble, reduce", timing->reduce, model->reduced_dofs, note);
+    add_phase(summary, "relax", timing->relax, model->relaxation_steps, "steps before t = 0");
+    add_phase(summary, "rungs", control->ladder.seconds, simulation->system.factorisations,
+              "factorisations, each when first used");
+    add_phase(summary, "contact", solver->seconds, solver->iterations, "Newton steps");
+    add_phase(summary, "certificate", certificate->seconds, certificate->checks,
+              simulation->scene.time.certificate ? "definiteness checks" : "skipped: switched off");
+    add_phase(summary, "bulk", fmax(timing->solve + timing->relax - inside, 0),
+              simulation->system.solves, "stages: products and substitutions");
+    add_phase(summary, "history", simulation->history.seconds, simulation->history.rows,
+              simulation->history.rows > 0 ? "rows" : "skipped: output.history is false");
+    add_phase(summary, "fields", simulation->fields.seconds, simulation->fields.written,
+              fields ? "times, recovered and written by VTK"
+                     : "skipped: output.fields is none, VTK is not loaded");
+    add_phase(summary, "figures", simulation->figures_seconds, simulation->figures,
+              simulation->figures > 0 ? "pictures"
+                                      : "skipped: output.figures is empty, OpenGL is not loaded");
+    add_phase(summary, "total", timing->total, control->counters.accepted, "accepted steps");
+}
+
+RunCounters summary_count(const Simulation *simulation)
+{
+    const StepControl *control = &simulation->control;
+    const StepCounters *steps = &control->counters;
+    const ContactSolver *solver = &control->scheme.solver;
+    return (RunCounters){.accepted = steps->accepted,
+                         .rejected = steps->rejected_error + steps->rejected_uncertified,
+                         .rejected_uncertified = steps->rejected_uncertified,
+                         .unsolved_retries = steps->unsolved,
+                         .factorisations = simulation->system.factorisations,
+                         .solves = simulation->system.solves,
+                         .contact_solves = solver->solves,
+                         .contact_iterations = solver->iterations,
+                         .contact_fallbacks = solver->fallbacks,
+                         .certificates = control->certificate.checks,
+                         .loop_allocations = simulation->allocations_before > 0
+                                                 ? memory_counters().allocations -
+                                                       simulation->allocations_before
+                                                 : 0};
+}
+
+void summary_fill(const Simulation *simulation, const RunCounters *counters,
+                  const PeaksSummary *peaks, RunSummary *summary)
+{
+    const int32_t *kinds = simulation->events.kinds;
+    *summary = (RunSummary){.mu_M = peaks->mu_M,
+                            .mu_M_spread = peaks->spread,
+                            .mu_low = peaks->low,
+                            .mu_high = peaks->high,
+                            .period = peaks->period,
+                            .peaks = simulation->peaks.count,
+                            .peaks_counted = peaks->counted,
+                            .quasi_static = kinds[EVENT_QUASI_STATIC],
+                            .bounded = kinds[EVENT_BOUNDED],
+                            .leading = kinds[EVENT_LEADING],
+                            .critical_length = peaks->critical_length / simulation->model.length,
+                            .energy_error = simulation->errors.energy,
+                            .moment_error = simulation->errors.moment,
+                            .complementarity_error = simulation->errors.complementarity,
+                            .seconds_solve = simulation->timing.solve,
+                            .seconds_output = simulation->timing.output,
+                            .seconds_total = simulation->timing.total,
+                            .counters = *counters,
+                            .field_files = simulation->fields.written,
+                            .figures = simulation->figures};
+    snprintf(summary->folder, sizeof summary->folder, "%s", simulation->folder);
+    list_phases(simulation, summary);
+}
