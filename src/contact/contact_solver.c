@@ -22,7 +22,8 @@ bool contact_solver_create(const Interface *interface, ContactSolverDef def, Con
     solver->pivots = NEW_ARRAY(int32_t, count, err);
     solver->matrix = NEW_ARRAY(double, count *count, err);
     solver->step = NEW_ARRAY(double, count, err);
-    solver->residual = NEW_ARRAY(double, count, err);
+    solver->kept_free = NEW_ARRAY(int32_t, count, err);
+    solver->kept_status = NEW_ARRAY(uint8_t, interface->contact_count, err);
     return error_is_clean(err);
 }
 
@@ -32,7 +33,8 @@ void contact_solver_destroy(ContactSolver *solver)
     memory_free(solver->pivots);
     memory_free(solver->matrix);
     memory_free(solver->step);
-    memory_free(solver->residual);
+    memory_free(solver->kept_free);
+    memory_free(solver->kept_status);
     *solver = (ContactSolver){0};
 }
 
@@ -124,15 +126,24 @@ static double equation(const ContactProblem *problem, const ContactSolution *sol
            status_direction(solution->status[i]) * mu * solution->reaction[interface_normal(i)];
 }
 
-static bool newton_step(ContactSolver *solver, const ContactProblem *problem,
-                        ContactSolution *solution, int32_t free_count)
+// The factored matrix of an earlier step still fits: same operator, same unknowns, same directions.
+static bool kept_fits(const ContactSolver *solver, const ContactProblem *problem,
+                      const ContactSolution *solution, int32_t free_count)
+{
+    size_t contacts = (size_t)problem->interface->contact_count;
+    return solver->kept_schur == problem->schur && solver->kept_count == free_count &&
+           memcmp(solver->kept_status, solution->status, contacts) == 0 &&
+           memcmp(solver->kept_free, solver->free, (size_t)free_count * sizeof(int32_t)) == 0;
+}
+
+static bool factor_matrix(ContactSolver *solver, const ContactProblem *problem,
+                          const ContactSolution *solution, int32_t free_count)
 {
     int32_t count = problem->interface->count;
     for (int32_t a = 0; a < free_count; a++) {
         int32_t row = solver->free[a];
         const double *schur_row = problem->schur + (int64_t)row * count;   // symmetric
         int32_t i = slipping_node(problem, solution, row);
-        solver->step[a] = -equation(problem, solution, row);
         if (i < 0) {
             for (int32_t b = 0; b < free_count; b++)
                 solver->matrix[(int64_t)b * free_count + a] = schur_row[solver->free[b]];
@@ -148,7 +159,24 @@ static bool newton_step(ContactSolver *solver, const ContactProblem *problem,
         solver->matrix[(int64_t)a * free_count + a] += friction_slope(problem->law, speed) *
                                                        solution->reaction[interface_normal(i)];
     }
+    solver->factorisations++;
+    solver->kept_schur = NULL;
     if (!dense_lu(solver->matrix, free_count, solver->pivots)) return false;
+    solver->kept_schur = problem->schur;
+    solver->kept_count = free_count;
+    memcpy(solver->kept_status, solution->status, (size_t)problem->interface->contact_count);
+    memcpy(solver->kept_free, solver->free, (size_t)free_count * sizeof(int32_t));
+    return true;
+}
+
+// One Newton step on the free unknowns; *reused: with a matrix of an earlier one.
+static bool newton_step(ContactSolver *solver, const ContactProblem *problem,
+                        ContactSolution *solution, int32_t free_count, bool *reused)
+{
+    *reused = kept_fits(solver, problem, solution, free_count);
+    if (!*reused && !factor_matrix(solver, problem, solution, free_count)) return false;
+    for (int32_t a = 0; a < free_count; a++)
+        solver->step[a] = -equation(problem, solution, solver->free[a]);
     dense_lu_solve(solver->matrix, free_count, solver->pivots, solver->step);
     for (int32_t a = 0; a < free_count; a++) solution->velocity[solver->free[a]] += solver->step[a];
     return true;
@@ -247,6 +275,7 @@ static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
     solver->solves++;
     fix_rod_kind(problem, solution);
     int32_t limit = solver->def.iterations_all + solver->def.iterations_one;
+    double before = INFINITY;   // residual of the step before, where the matrix was reused
     hold_unknowns(problem, solution);
     compute_reaction(problem, solution);
     for (int32_t iteration = 0; iteration < limit; iteration++) {
@@ -254,13 +283,18 @@ static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
         if (iteration == solver->def.iterations_all) solver->fallbacks++;
         int32_t free_count = list_free(problem, solution, solver->free);
         solver->iterations++;
-        if (!newton_step(solver, problem, solution, free_count)) break;
+        bool reused = false;
+        if (!newton_step(solver, problem, solution, free_count, &reused)) break;
         compute_reaction(problem, solution);
         Scales scales = problem_scales(problem, solution);
         double residual = equations_residual(solver, problem, solution, free_count);
         if (!isfinite(residual)) break;
         bool equations_hold = residual <= solver->def.tolerance * scales.force;
-        if (!change_all && !equations_hold) continue;   // first solve for these statuses
+        // An old matrix that no longer brings a digit a step has had its time.
+        if (!equations_hold && reused && residual > 0.1 * before) solver->kept_schur = NULL;
+        before = reused ? residual : INFINITY;
+        // First solve for these statuses, where steps are not Newton's own or only one may change.
+        if (!equations_hold && (reused || !change_all)) continue;
         Violation found = update_statuses(solver, problem, solution, scales, change_all);
         if (found.broken == 0 && equations_hold) return true;
         if (found.broken == 0) continue;

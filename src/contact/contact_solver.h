@@ -7,9 +7,11 @@
 //     row of a slipping tangent:   S_t + s mu S_n + mu'(|v_t|) r_n e_t,     s = sign of slip,
 //
 // then every status is checked against its own conditions and changed where it breaks them. The
-// linear system is dense and unsymmetric. When statuses cycle, only the worst one is changed at a
-// time; when that does not settle either, the problem counts as unsolved and the caller must take a
-// smaller step (with mu_S > 1 it may have no solution). Called by stepping/sdirk2.
+// linear system is dense and unsymmetric; its factors are kept and used again (by the next
+// iteration, stage or step) while operator and statuses stay and they still gain a digit a step.
+// When statuses cycle, only the worst one is changed at a time; when that does not settle either,
+// the problem counts as unsolved and the caller must take a smaller step (with mu_S > 1 it may have
+// no solution). Called by stepping/sdirk2.
 #ifndef AMONTONS_CONTACT_CONTACT_SOLVER_H
 #define AMONTONS_CONTACT_CONTACT_SOLVER_H
 
@@ -31,7 +33,11 @@ typedef struct ContactSolver {
     int32_t *pivots;   // [count] work; owned
     double *matrix;   // [count^2] work; owned
     double *step;   // [count] work; owned
-    double *residual;   // [count] work: S v - g; owned
+    int32_t *kept_free;      // [count] unknowns `matrix` is factored for; owned
+    uint8_t *kept_status;    // [contact_count] statuses it is factored for; owned
+    int32_t kept_count;      // of kept_free
+    const double *kept_schur;   // operator it is factored for; NULL: it holds no factors
+    int64_t factorisations;  // counted
     int64_t solves;   // counted
     int64_t iterations;   // counted, Newton steps
     int64_t fallbacks;   // counted, solves in which only the worst status was changed
