@@ -16,13 +16,6 @@
 
 #include <cmocka.h>
 
-// cmocka 1.1.5 compares floats only, in single precision.
-static void assert_near(double value, double wanted, double tolerance)
-{
-    if (!(fabs(value - wanted) <= tolerance))
-        fail_msg("%.17g is not %.17g within %g", value, wanted, tolerance);
-}
-
 // Three squares of side 1 in a row.
 //     4---5---6---7
 //     |   |   |   |
@@ -216,75 +209,6 @@ static void test_memory_faults(void **state)
     mesh_destroy(&mesh);
 }
 
-// --- meshes/pads.geo ----------------------------------------------------------------------------
-
-// n pads, together fill * length long, the first at x = 0 and the last ending at x = length.
-static void test_pads(void **state)
-{
-    (void)state;
-    for (int32_t n = 1; n <= 12; n = 2 * n + 1) {
-        MeshParameter parameters[] = {{"n", n, ""},
-                                      {"length", 2, ""},
-                                      {"height", 1, ""},
-                                      {"fill", 0.7, ""},
-                                      {"pad_height", 0.1, ""},
-                                      {"cells_pad", 4, ""},
-                                      {"shape", 0, "quad"},
-                                      {"order", n == 3 ? 2 : 1, ""}};
-        if (n == 7) snprintf(parameters[6].text, GROUP_NAME_SIZE, "triangle");
-        char path[600];
-        Error err = {0};
-        MeshFile file;
-        Mesh mesh;
-        MeshContact contact;
-        double fill = n == 1 ? 1 : 0.7, touching = 0;
-        snprintf(path, sizeof path, "%s/meshes/pads.geo", getenv("AMONTONS_SOURCE"));
-        if (!mesh_file_read(path, parameters, 8, &file, &err) ||
-            !mesh_build(&file, path, &mesh, &err) || !mesh_contact(&mesh, NULL, 0, &contact, &err))
-            fail_msg("%s", err.message);
-        assert_int_equal(contact.curve_count, n);
-        assert_int_equal(contact.node_count, n * (n == 3 ? 9 : 5));
-        for (int32_t c = 0; c < n; c++) {
-            const MeshCurve *pad = &contact.curves[c];
-            char name[GROUP_NAME_SIZE];
-            snprintf(name, sizeof name, "contact_%d", c + 1);
-            assert_string_equal(pad->name, name);
-            touching += mesh.position[2 * pad->nodes[pad->node_count - 1]] -
-                        mesh.position[2 * pad->nodes[0]];
-        }
-        assert_near(touching, fill * 2, 1e-12);
-        assert_true(mesh.position[2 * contact.nodes[0]] == 0);
-        assert_true(mesh.position[2 * contact.nodes[contact.node_count - 1]] == 2);
-        assert_near(mesh_summarise(&mesh).area, 2 * 1 + fill * 2 * 0.1, 1e-10);
-        assert_near(mesh.z_max, 1.1, 1e-15);
-        mesh_contact_destroy(&contact);
-        mesh_destroy(&mesh);
-    }
-}
-
-static void test_bad_pads(void **state)
-{
-    (void)state;
-    static const struct {
-        MeshParameter parameter;
-        const char *message;
-    } rows[] = {{{"fill", 1.2, ""}, "fill must be above 0 and below 1, found 1.2"},
-                {{"n", 0, ""}, "n must be a whole number from 1 on, found 0"},
-                {{"pad_height", -1, ""}, "pad_height must be above 0"},
-                {{"cells_gap", 1.5, ""}, "whole numbers from 1 on"},
-                {{"shape", 0, "hex"}, "shape must be quad or triangle, found hex"}};
-    char path[600];
-    snprintf(path, sizeof path, "%s/meshes/pads.geo", getenv("AMONTONS_SOURCE"));
-    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
-        Error err = {0};
-        MeshFile file;
-        assert_false(mesh_file_read(path, &rows[k].parameter, 1, &file, &err));
-        assert_int_equal(err.code, ERROR_INPUT);
-        if (!strstr(err.message, rows[k].message)) fail_msg("%s", err.message);
-        mesh_file_destroy(&file);
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -296,8 +220,6 @@ int main(void)
         cmocka_unit_test(test_overlap),
         cmocka_unit_test(test_inside_and_unglued),
         cmocka_unit_test(test_memory_faults),
-        cmocka_unit_test(test_pads),
-        cmocka_unit_test(test_bad_pads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -170,8 +170,8 @@ static void test_check(void **state)
 static void test_shipped(void **state)
 {
     (void)state;
-    static const char *const meshes[] = {"block.geo", "pads.geo"};
-    for (int32_t m = 0; m < 2; m++) {
+    static const char *const meshes[] = {"block.geo", "pads.geo", "grooves.geo"};
+    for (int32_t m = 0; m < 3; m++) {
         char path[PATH_SIZE];
         Error err = {0};
         GeoParameters known;
@@ -179,7 +179,7 @@ static void test_shipped(void **state)
         assert_true(geo_parameters_read(path, &known, &err));
         assert_true(known.count >= 10);
         for (int32_t k = 0; k < known.count; k++) {
-            MeshParameter wrong = {.value = -7.5};   // refused by every number of both files
+            MeshParameter wrong = {.value = -7.5};   // refused by every number of all files
             Error found = {0};
             MeshFile mesh;
             memcpy(wrong.name, known.items[k].name, sizeof wrong.name);
