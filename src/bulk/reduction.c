@@ -16,6 +16,7 @@ static const double SHIFT_LOW = 0.1, SHIFT_HIGH = 1e3, SHIFT_RATIO = 10;
 typedef struct Reducer {
     const Bulk *bulk;
     const ReductionDef *def;
+    const int32_t *interface_dofs;   // [m]
     SparseAnalysis *analysis;
     double *values;   // [entries] of a shifted matrix
     double *statics;   // [dofs * m] constraint modes, unit interface rows included
@@ -70,7 +71,11 @@ static bool reducer_create(const Bulk *bulk, const int32_t *interface_dofs, int3
                            const ReductionDef *def, Reducer *work, Error *err)
 {
     int64_t dofs = bulk->dof_count, columns = (int64_t)m + 1;
-    *work = (Reducer){.bulk = bulk, .def = def, .dofs = bulk->dof_count, .m = m};
+    *work = (Reducer){.bulk = bulk,
+                      .def = def,
+                      .interface_dofs = interface_dofs,
+                      .dofs = bulk->dof_count,
+                      .m = m};
     work->room = 2 * m + 64;
     work->analysis = sparse_analyse(&bulk->pattern, interface_dofs, m, err);
     work->values = NEW_ARRAY(double, bulk->pattern.start[dofs], err);
@@ -126,20 +131,24 @@ static bool respond(Reducer *work, const double terms[3], double *responses, Err
     SparseFactor *factor = factor_terms(work, terms, err);
     if (!factor) goto cleanup;
     TRY(sparse_border_responses(factor, responses, err));
+    for (int64_t j = 0; j < work->m; j++) {   // exact where it is known, so that no rounding grows
+        for (int32_t i = 0; i < work->m; i++)
+            responses[j * work->dofs + work->interface_dofs[i]] = i == j;
+    }
     double *last = responses + (int64_t)work->dofs * work->m;
     TRY(sparse_condense(factor, work->unit_load, work->border, err));
     memset(work->border, 0, (size_t)work->m * sizeof(double));
     TRY(sparse_expand(factor, work->border, last, err));
+    for (int32_t i = 0; i < work->m; i++) last[work->interface_dofs[i]] = 0;
 cleanup:
     sparse_factor_destroy(factor);
     return error_is_clean(err);
 }
 
 // responses -= Phi (Phi' K responses), twice for rounding; leaves K times the result in `forces`.
-static void project_out(Reducer *work)
+static void project_out(Reducer *work, int32_t columns)
 {
     int64_t dofs = work->dofs;
-    int32_t columns = work->m + 1;
     DenseView phi = {work->interior, work->dofs, work->r};
     DenseView forces = {work->forces, work->dofs, columns};
     DenseView overlap = {work->overlap, work->r, columns};
@@ -166,17 +175,40 @@ static bool make_room(Reducer *work, int32_t columns, Error *err)
     return work->overlap != NULL;
 }
 
-// Adds to Phi what the responses hold beyond it: left singular vectors in the energy norm,
-// responses Q / sqrt(lambda) with responses' K responses = Q lambda Q'.
-static bool compress(Reducer *work, double *dropped, Error *err)
+// What the first `columns` responses hold beyond Phi: responses' K responses = Q lambda Q', with Q
+// in `gram`.
+static bool decompose(Reducer *work, int32_t columns, Error *err)
 {
-    int32_t columns = work->m + 1;
     DenseView responses = {work->responses, work->dofs, columns};
     DenseView forces = {work->forces, work->dofs, columns};
-    project_out(work);
+    project_out(work, columns);
     dense_multiply_transposed(responses, forces, 1, 0, work->gram);
     if (!dense_eigen(work->gram, columns, work->eigenvalues, work->eigen_work))
         FAIL(err, ERROR_LIBRARY, "LAPACK: the responses of the interior could not be compressed");
+cleanup:
+    return error_is_clean(err);
+}
+
+// The `kept` last singular vectors, responses Q / sqrt(lambda), behind Phi's columns.
+static void place_vectors(Reducer *work, int32_t columns, int32_t kept)
+{
+    DenseView responses = {work->responses, work->dofs, columns};
+    for (int32_t k = 0; k < kept; k++) {
+        const double *vector = work->gram + (int64_t)(columns - 1 - k) * columns;
+        double scale = 1 / sqrt(work->eigenvalues[columns - 1 - k]);
+        dense_apply(responses, vector, scale, 0,
+                    work->interior + (int64_t)work->dofs * (work->r + k));
+    }
+}
+
+// Adds to Phi what the responses hold beyond it: left singular vectors in the energy norm. Forming
+// responses' K responses squares rounding: a vector with singular value s of the largest comes out
+// orthonormal to 1e-16 / s^2 only. Decomposing those kept once more brings that to 1e-16 and shows
+// (eigenvalues 1 and 0) which of them were nothing but rounding.
+static bool compress(Reducer *work, double *dropped, Error *err)
+{
+    int32_t columns = work->m + 1;
+    TRY(decompose(work, columns, err));
     double top = sqrt(fmax(work->eigenvalues[columns - 1], 0));
     work->largest = fmax(work->largest, top);
     int32_t kept = 0;
@@ -186,13 +218,14 @@ static bool compress(Reducer *work, double *dropped, Error *err)
     if (kept < columns)
         *dropped = fmax(*dropped, sqrt(fmax(work->eigenvalues[columns - 1 - kept], 0)));
     TRY(make_room(work, kept, err));
-    for (int32_t k = 0; k < kept; k++) {
-        double *vector = work->gram + (int64_t)(columns - 1 - k) * columns;
-        double scale = 1 / sqrt(work->eigenvalues[columns - 1 - k]);
-        dense_apply(responses, vector, scale, 0,
-                    work->interior + (int64_t)work->dofs * (work->r + k));
-    }
-    work->r += kept;
+    place_vectors(work, columns, kept);
+    memcpy(work->responses, work->interior + (int64_t)work->dofs * work->r,
+           (size_t)((int64_t)work->dofs * kept) * sizeof(double));
+    TRY(decompose(work, kept, err));
+    int32_t real = 0;
+    while (real < kept && work->eigenvalues[kept - 1 - real] > 0.5) real++;
+    place_vectors(work, kept, real);
+    work->r += real;
 cleanup:
     return error_is_clean(err);
 }
