@@ -3,7 +3,7 @@
 // never trusted: a header that says what it is, and a checksum over all of it. Called by
 // run/shape_cache.
 //
-//     "amontons-cache 1\n" key (32 digits) 0...   { name[32] count 0 values }*   "end" -1 0   checksum
+//     "amontons-cache 1\n" key 0...  { name count 0 values }*  "end" -1 0  checksum
 //
 // Numbers are the machine's own: a cache does not travel.
 #ifndef AMONTONS_IO_CACHE_FILE_H

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A block reduced to its contact nodes and one rod node, with the full matrices beside it, dense.
+#ifndef AMONTONS_TESTS_REDUCED_BLOCK_H
+#define AMONTONS_TESTS_REDUCED_BLOCK_H
+
+#include "base/dense.h"
+#include "block_mesh.h"
+#include "bulk/interface_operator.h"
+#include "dense_by_hand.h"
+
+typedef struct ReducedBlock {
+    Mesh mesh;
+    Bulk bulk;
+    int32_t interface_count;
+    int32_t *dofs;   // [interface_count], x and z of each contact node, then x of a rod node
+    ReductionDef def;
+    ReducedBulk reduced;
+} ReducedBlock;
+
+static inline BulkScales block_scales(const Mesh *mesh, const Material *material, double load)
+{
+    double length = mesh->x_max - mesh->x_min;
+    return (BulkScales){.stiffness = material->young,
+                        .damping = material->eta1 + material->eta2,
+                        .mass = material->density * length * length,
+                        .load = load};
+}
+
+// Assembles, loads the top with `load` per length along -z and a quarter of it along x; reduces
+// unless tolerance is 0.
+static inline void reduced_block_build(const BlockDef *shape, const Material *material, double load,
+                                       double tolerance, ReducedBlock *block)
+{
+    Error err = {0};
+    MeshCurve contact, rod, top;
+    double traction[2] = {load / 4, -load};
+    dense_use_one_thread();
+    memset(block, 0, sizeof *block);
+    block_build(shape, &block->mesh);
+    assert_true(bulk_assemble(&block->mesh, material, &block->bulk, &err));
+    assert_true(mesh_curve(&block->mesh, "contact", &contact, &err));
+    assert_true(mesh_curve(&block->mesh, "rod", &rod, &err));
+    assert_true(mesh_curve(&block->mesh, "top", &top, &err));
+    bulk_add_traction(&block->mesh, &top, traction, &block->bulk);
+    block->interface_count = 2 * contact.node_count + 1;
+    block->dofs = calloc((size_t)block->interface_count, sizeof *block->dofs);
+    for (int32_t k = 0; k < 2 * contact.node_count; k++)
+        block->dofs[k] = 2 * contact.nodes[k / 2] + k % 2;
+    block->dofs[block->interface_count - 1] = 2 * rod.nodes[rod.node_count / 2];
+    double largest = dense_max_abs(block->bulk.load, block->bulk.dof_count);
+    block->def = (ReductionDef){.tolerance = tolerance,
+                                .scales = block_scales(&block->mesh, material, largest)};
+    if (tolerance > 0 && !reduction_build(&block->bulk, block->dofs, block->interface_count,
+                                          &block->def, &block->reduced, &err))
+        fail_msg("%s", err.message);
+}
+
+static inline void reduced_block_destroy(ReducedBlock *block)
+{
+    reduction_destroy(&block->reduced);
+    free(block->dofs);
+    bulk_destroy(&block->bulk);
+    mesh_destroy(&block->mesh);
+}
+
+// S of A = mass M + damping C + stiffness K: on the full mesh, or on a reduced bulk.
+static inline double *full_schur(ReducedBlock *block, OperatorTerms terms)
+{
+    Error err = {0};
+    BulkOperator system;
+    int32_t m = block->interface_count;
+    double *schur = hand_matrix(m, m);
+    assert_true(
+        bulk_operator_create(&block->bulk, block->mesh.position, block->dofs, m, &system, &err));
+    InterfaceOperator *rung = interface_operator_create(&system, terms, &err);
+    if (!rung) fail_msg("%s", err.message);
+    memcpy(schur, interface_operator_schur(rung), (size_t)(m * m) * sizeof *schur);
+    interface_operator_destroy(rung);
+    bulk_operator_destroy(&system);
+    return schur;
+}
+
+static inline double *reduced_schur(const ReducedBulk *reduced, OperatorTerms terms)
+{
+    Error err = {0};
+    BulkOperator system;
+    int32_t m = reduced->interface_count;
+    double *schur = hand_matrix(m, m), *rotation = hand_matrix(m, 1);
+    assert_true(bulk_operator_reduce(reduced, rotation, 1, &system, &err));
+    InterfaceOperator *rung = interface_operator_create(&system, terms, &err);
+    if (!rung) fail_msg("%s", err.message);
+    memcpy(schur, interface_operator_schur(rung), (size_t)(m * m) * sizeof *schur);
+    interface_operator_destroy(rung);
+    bulk_operator_destroy(&system);
+    free(rotation);
+    return schur;
+}
+
+// The least and the largest eigenvalue of `wanted`^-1 (value - wanted), by Gauss and Jacobi: relative
+// differences in the energy norm of `wanted`, with their sign.
+static inline void energy_differences(const double *value, const double *wanted, int32_t n,
+                                      double *least, double *largest)
+{
+    double *lower = hand_matrix(n, n), *a = hand_matrix(n, n), *values = hand_matrix(n, 1);
+    memcpy(lower, wanted, (size_t)(n * n) * sizeof *lower);
+    for (int32_t j = 0; j < n; j++) {   // Cholesky: lower, columns
+        for (int32_t k = 0; k < j; k++)
+            for (int32_t i = j; i < n; i++) lower[j * n + i] -= lower[k * n + i] * lower[k * n + j];
+        double root = sqrt(lower[j * n + j]);
+        assert_true(root > 0);
+        for (int32_t i = j; i < n; i++) lower[j * n + i] /= root;
+    }
+    for (int32_t k = 0; k < n * n; k++) a[k] = value[k] - wanted[k];
+    for (int side = 0; side < 2; side++) {   // a := L^-1 a, transposed: twice gives L^-1 a L^-T
+        for (int32_t j = 0; j < n; j++) {
+            for (int32_t i = 0; i < n; i++) {
+                for (int32_t k = 0; k < i; k++) a[j * n + i] -= lower[k * n + i] * a[j * n + k];
+                a[j * n + i] /= lower[i * n + i];
+            }
+        }
+        for (int32_t j = 0; j < n; j++) {
+            for (int32_t i = 0; i < j; i++) {
+                double swapped = a[j * n + i];
+                a[j * n + i] = a[i * n + j];
+                a[i * n + j] = swapped;
+            }
+        }
+    }
+    hand_eigenvalues(a, n, values);
+    *least = values[0];
+    *largest = values[n - 1];
+    free(lower);
+    free(a);
+    free(values);
+}
+
+#endif
