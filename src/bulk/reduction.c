@@ -12,6 +12,8 @@
 // slowest rate of the block (viscous or wave) to the fastest.
 static const double SHIFT_LOW = 0.1, SHIFT_HIGH = 1e3, SHIFT_RATIO = 10;
 
+static const double DECOMPOSE_AGAIN = 1e-4;   // lambda over the largest: 1e-12 of orthonormality
+
 // Work of one build.
 typedef struct Reducer {
     const Bulk *bulk;
@@ -201,10 +203,25 @@ static void place_vectors(Reducer *work, int32_t columns, int32_t kept)
     }
 }
 
-// Adds to Phi what the responses hold beyond it: left singular vectors in the energy norm. Forming
-// responses' K responses squares rounding: a vector with singular value s of the largest comes out
-// orthonormal to 1e-16 / s^2 only. Decomposing those kept once more brings that to 1e-16 and shows
-// (eigenvalues 1 and 0) which of them were nothing but rounding.
+// The `kept` vectors just placed, decomposed once more. Forming responses' K responses squares
+// rounding: a vector with singular value s of the largest came out orthonormal to 1e-16 / s^2 only.
+// Now it is to 1e-16, and those that were nothing but rounding show (eigenvalues 1 and 0). How many
+// are left.
+static bool place_again(Reducer *work, int32_t *kept, Error *err)
+{
+    int64_t dofs = work->dofs;
+    memcpy(work->responses, work->interior + dofs * work->r,
+           (size_t)(dofs * *kept) * sizeof(double));
+    TRY(decompose(work, *kept, err));
+    int32_t placed = *kept, left = 0;
+    while (left < placed && work->eigenvalues[placed - 1 - left] > 0.5) left++;
+    place_vectors(work, placed, left);
+    *kept = left;
+cleanup:
+    return error_is_clean(err);
+}
+
+// Adds to Phi what the responses hold beyond it: left singular vectors in the energy norm.
 static bool compress(Reducer *work, double *dropped, Error *err)
 {
     int32_t columns = work->m + 1;
@@ -219,13 +236,9 @@ static bool compress(Reducer *work, double *dropped, Error *err)
         *dropped = fmax(*dropped, sqrt(fmax(work->eigenvalues[columns - 1 - kept], 0)));
     TRY(make_room(work, kept, err));
     place_vectors(work, columns, kept);
-    memcpy(work->responses, work->interior + (int64_t)work->dofs * work->r,
-           (size_t)((int64_t)work->dofs * kept) * sizeof(double));
-    TRY(decompose(work, kept, err));
-    int32_t real = 0;
-    while (real < kept && work->eigenvalues[kept - 1 - real] > 0.5) real++;
-    place_vectors(work, kept, real);
-    work->r += real;
+    double least = kept > 0 ? work->eigenvalues[columns - kept] : INFINITY;
+    if (least < DECOMPOSE_AGAIN * top * top) TRY(place_again(work, &kept, err));
+    work->r += kept;
 cleanup:
     return error_is_clean(err);
 }
