@@ -80,8 +80,8 @@ typedef struct RunSummary {
     int32_t field_files;   // VTU files written
     int32_t figures;   // pictures drawn
     int32_t phase_count;
-    RunPhase phases[RUN_PHASES_MAX];   // [phase_count]; rungs, contact, certificate and bulk are parts
-                                       // of relax and solve
+    // Rungs, contact, certificate and bulk are parts of relax and solve.
+    RunPhase phases[RUN_PHASES_MAX];
     char folder[AMONTONS_PATH_SIZE];   // where everything lies
 } RunSummary;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The paper's scene on a coarse mesh, without pictures and cache: a whole run in some hundredths of a
-// second.
+// The paper's scene on a coarse mesh, without pictures and cache: a whole run in some hundredths of
+// a second.
 #ifndef AMONTONS_TESTS_SMALL_SCENE_H
 #define AMONTONS_TESTS_SMALL_SCENE_H
 
@@ -15,9 +15,9 @@ static inline Scene *small_scene(const char *const *more)
     Error err = {0};
     Scene *scene = NULL;
     const char *source = getenv("AMONTONS_SOURCE");
-    const char *settings[SMALL_SETTINGS_MAX] = {"mesh.set.nx=10",        "mesh.set.nz=10",
+    const char *settings[SMALL_SETTINGS_MAX] = {"mesh.set.nx=10",         "mesh.set.nz=10",
                                                 "time.until={U: 0.0055}", "output.fields=none",
-                                                "output.figures=[]",     "reduction.cache=false"};
+                                                "output.figures=[]",      "reduction.cache=false"};
     int32_t count = 6;
     while (*more) settings[count++] = *more++;
     char path[1000];

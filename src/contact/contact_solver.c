@@ -10,7 +10,7 @@
 
 ContactSolverDef contact_solver_def(void)
 {
-    return (ContactSolverDef){.iterations_all = 30, .iterations_one = 200, .tolerance = 1e-11};
+    return (ContactSolverDef){.iterations_all = 30, .iterations_one = 200, .tolerance = 1e-12};
 }
 
 bool contact_solver_create(const Interface *interface, ContactSolverDef def, ContactSolver *solver,
@@ -269,6 +269,20 @@ static void fix_rod_kind(const ContactProblem *problem, ContactSolution *solutio
     }
 }
 
+// What touches nothing feels nothing, not even rounding.
+static void free_reactions(const ContactProblem *problem, ContactSolution *solution)
+{
+    const Interface *interface = problem->interface;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        if (solution->status[i] != CONTACT_OPEN) continue;
+        solution->reaction[interface_tangent(i)] = 0;
+        solution->reaction[interface_normal(i)] = 0;
+    }
+    for (int32_t j = 0; j < interface->rod_count; j++) {
+        if (!solution->rod_touches[j]) solution->reaction[interface_rod(interface, j)] = 0;
+    }
+}
+
 static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
                            ContactSolution *solution)
 {
@@ -296,7 +310,10 @@ static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
         // First solve for these statuses, where steps are not Newton's own or only one may change.
         if (!equations_hold && (reused || !change_all)) continue;
         Violation found = update_statuses(solver, problem, solution, scales, change_all);
-        if (found.broken == 0 && equations_hold) return true;
+        if (found.broken == 0 && equations_hold) {
+            free_reactions(problem, solution);
+            return true;
+        }
         if (found.broken == 0) continue;
         hold_unknowns(problem, solution);
         compute_reaction(problem, solution);

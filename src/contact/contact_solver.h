@@ -21,7 +21,7 @@ typedef struct ContactSolverDef {
     int32_t iterations_all;   // Newton steps in which every broken status is changed: 30, some ten
         // times what a solvable problem was seen to need
     int32_t iterations_one;   // and then those that change only the worst: 200
-    double tolerance;   // of residual forces, relative to the largest force: 1e-11, some 1e3
+    double tolerance;   // of residual forces, relative to the largest force: 1e-12, some 1e2
         // above what rounding leaves in S v - g
 } ContactSolverDef;
 ContactSolverDef contact_solver_def(void);

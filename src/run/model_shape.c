@@ -15,8 +15,8 @@
 static const double REDUCTION_TOLERANCES[] = {
     [ACCURACY_DRAFT] = 3e-2, [ACCURACY_STANDARD] = 1e-2, [ACCURACY_FINE] = 1e-3};
 
-// The error of S(s) that is accepted, over the tolerance of the basis: energies go with the square of
-// what is left out, so S is nearly always far better than that.
+// The error of S(s) that is accepted, over the tolerance of the basis: energies go with the square
+// of what is left out, so S is nearly always far better than that.
 static const double REDUCTION_ERROR_OVER_TOLERANCE = 1;
 enum { REDUCTION_ROUNDS_MAX = 3 };
 
@@ -161,8 +161,8 @@ static bool adopt_shape(Simulation *simulation, Shape *shape, Error *err)
                                 &simulation->system, err);
 }
 
-// Builds a basis and measures it on the full mesh; one that is not good enough is enriched by asking
-// for ten times smaller responses.
+// Builds a basis and measures it on the full mesh; one that is not good enough is enriched by
+// asking for ten times smaller responses.
 static bool build_checked(Simulation *simulation, ReductionDef *def, Shape *shape, Error *err)
 {
     const Bulk *bulk = &simulation->bulk;

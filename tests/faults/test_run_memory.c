@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Every allocation of a tiny run fails in turn: the run says it is out of memory, and gives back all it
-// had, whatever it was about.
+// Every allocation of a tiny run fails in turn: the run says it is out of memory, and gives back
+// all it had, whatever it was about.
 #include "base/memory.h"
 #include "result_place.h"
 #include "small_scene.h"

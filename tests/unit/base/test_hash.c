@@ -111,8 +111,8 @@ static void test_numbers(void **state)
                              j == 0 && k == 1);
 }
 
-// The text is 32 lower-case hexadecimal digits, leading zeros too; and what it was when this test was
-// written, so that a cache outlives a compiler. The stored text is this program's own.
+// The text is 32 lower-case hexadecimal digits, leading zeros too; and what it was when this test
+// was written, so that a cache outlives a compiler. The stored text is this program's own.
 static void test_text(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The reduced matrices against V' K V, V' C V, V' M V of the full ones, formed by hand: static modes,
-// blocks, definiteness, rigid motions, loads, and what the operator makes of them.
+// The reduced matrices against V' K V, V' C V, V' M V of the full ones, formed by hand: static
+// modes, blocks, definiteness, rigid motions, loads, and what the operator makes of them.
 #include "bulk/reduction.h"
 
 #include "base/memory.h"

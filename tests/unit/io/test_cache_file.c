@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A cache file is read back to the bit or not at all: cut, changed, foreign and half-written ones are
-// refused with a reason, and writers do not disturb each other.
+// A cache file is read back to the bit or not at all: cut, changed, foreign and half-written ones
+// are refused with a reason, and writers do not disturb each other.
 #include "io/cache_file.h"
 
 #include "base/memory.h"

@@ -119,7 +119,8 @@ static void test_front_speed(void **state)
     assert_true(isnan(events.list[2].front_speed));
 }
 
-// Leading when every node has slipped in the course of the event, not all at once; backward slip too.
+// Leading when every node has slipped in the course of the event, not all at once; backward slip
+// too.
 static void test_leading(void **state)
 {
     (void)state;

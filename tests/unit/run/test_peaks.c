@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Made-up cycles of loading and sliding: which peaks there are, which count, and what they come to. And
-// the recorders, by which peaks are fed after events.
+// Made-up cycles of loading and sliding: which peaks there are, which count, and what they come to.
+// And the recorders, by which peaks are fed after events.
 #include "run/peaks.h"
 
 #include "base/memory.h"
@@ -139,8 +139,8 @@ static void test_settling(void **state)
     fixture_destroy(&fixture);
 }
 
-// High and low in turn: period 2 once three of each kind agree, mu_M the mean of as many high ones as
-// low ones.
+// High and low in turn: period 2 once three of each kind agree, mu_M the mean of as many high ones
+// as low ones.
 static void test_alternating(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Whole runs on a coarse mesh: the same bits twice, balances, what is written and when, and how a run
-// that is stopped or fails leaves things.
+// Whole runs on a coarse mesh: the same bits twice, balances, what is written and when, and how a
+// run that is stopped or fails leaves things.
 #include "run/simulation.h"
 
 #include "base/memory.h"
