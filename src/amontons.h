@@ -152,7 +152,8 @@ typedef struct StabilityPoint {
     bool certified;                // viscosity alone bears the weakening
 } StabilityPoint;
 
-// Where something is first lost, over L, between two positions of the front; NaN: not on the path.
+// Where something is first lost, over L, between two positions of the front; NaN: nowhere. l_c and
+// l_c_rod are 1 where the front crosses the block before.
 typedef struct StabilitySummary {
     double l_sc_certificate;       // the certificate of time stepping; at a contact node
     double l_sc;                   // Re lambda > 0: oscillations grow

@@ -103,7 +103,7 @@ static bool open_path(StabilityPath *path, Error *err)
                                   material_speeds(&simulation->material).longitudinal,
                                   interface->contact_count);
     path->growth = growth_create(&block, &growth, err);
-    path->room = interface->contact_count + 1;
+    path->room = interface->contact_count + 2;
     path->points = NEW_ARRAY(StabilityPoint, path->room, err);
     path->modes = NEW_ARRAY(double, 2 * (int64_t)path->room * interface->contact_count, err);
     path->critical_mode = NEW_ARRAY(double, interface->contact_count, err);
@@ -147,7 +147,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Steps until the front has reached the end, or is some positions beyond l_c.
+// Steps until the front has reached the end (whose own state is the last point), or is some
+// positions beyond l_c.
 static bool follow_path(StabilityPath *path, Error *err)
 {
     const Interface *interface = &path->simulation->interface;
@@ -162,7 +163,12 @@ static bool follow_path(StabilityPath *path, Error *err)
         if (seen.front > before.front && farther) TRY(add_point(path, &before, err));
         before = seen;
         bool beyond = path->critical >= 0 && path->count > path->critical + POINTS_BEYOND;
-        if (seen.front >= end || (beyond && !path->options->whole)) break;
+        if (beyond && !path->options->whole) break;
+        if (seen.front < end) continue;
+        path->at_end = true;
+        state_copy(&path->control.now, &path->last);
+        TRY(add_point(path, &seen, err));
+        break;
     }
 cleanup:
     if (!error_is_clean(err)) error_context(err, "on the quasi-static path");
@@ -233,13 +239,20 @@ static StabilityPoint first_loss(const StabilityPath *path, Margin margin)
     return lost;
 }
 
+// The same, or the end of the block: there it slides, whether or not anything grows.
+static StabilityPoint first_sliding(const StabilityPath *path, Margin margin)
+{
+    StabilityPoint lost = first_loss(path, margin);
+    return isnan(lost.front) && path->at_end ? path->points[path->count - 1] : lost;
+}
+
 static void summarise(const StabilityPath *path, StabilitySummary *summary)
 {
     const Interface *interface = &path->simulation->interface;
     double length = path->simulation->model.length;
     StabilityPoint swings = first_loss(path, real_part);
-    StabilityPoint slides = first_loss(path, frequency_square);
-    StabilityPoint rod = first_loss(path, half_period);
+    StabilityPoint slides = first_sliding(path, frequency_square);
+    StabilityPoint rod = first_sliding(path, half_period);
     *summary =
         (StabilitySummary){.l_sc_certificate = first_loss(path, certificate_margin).front / length,
                            .l_sc = swings.front / length,

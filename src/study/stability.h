@@ -21,6 +21,7 @@ typedef struct StabilityPath {
     StabilityPoint *points;   // [room]
     double *modes;   // [room][2][contact_count] slip of the rightmost mode, re and im; largest 1
     double *critical_mode;   // [contact_count] slip of the real growing mode at l_c
+    bool at_end;   // the front has crossed the block
     int32_t critical;   // point where l_c was found; -1: not yet
     double seconds_growth;
 } StabilityPath;
