@@ -253,6 +253,7 @@ static void summarise(const StabilityPath *path, StabilitySummary *summary)
     StabilityPoint swings = first_loss(path, real_part);
     StabilityPoint slides = first_sliding(path, frequency_square);
     StabilityPoint rod = first_sliding(path, half_period);
+    if (slides.front < rod.front) rod = slides;
     *summary =
         (StabilitySummary){.l_sc_certificate = first_loss(path, certificate_margin).front / length,
                            .l_sc = swings.front / length,

@@ -233,8 +233,195 @@ static void test_against_dense(void **unused)
     }
 }
 
+// A block so stiff that it only shoves: (mu_S - mu_K) P / (rho H v_c), whatever its shape and
+// however pressure changes along it.
+static void test_rigid_block(void **unused)
+{
+    (void)unused;
+    Error err = {0};
+    Material stiff = {.young = 1e9, .poisson = 0.3, .density = 1.7, .eta1 = 1e6, .eta2 = 1e6};
+    Case test = {.law = {FRICTION_LINEAR_WEAKENING, 0.6, 0.2, 0.05}};
+    BlockDef def = {ELEMENT_Q4, .nx = 2, .nz = 2, .length = 0.8, .height = 0.3};
+    case_build_block(&test, &def, &stiff);
+    double pressure = 4, rate = (0.6 - 0.2) * pressure / (1.7 * 0.3 * 0.05);
+    GrowthDef how = growth_def(0.8, 0.8 * rate, test.interface.contact_count);
+    case_open(&test, how);
+    memset(test.state.rod_touches, 0, (size_t)test.interface.rod_count);
+    for (int32_t i = 0; i < 3; i++)
+        slip(&test.state, i, CONTACT_SLIP_FORWARD, 1e-3, pressure * test.interface.weight[i]);
+    GrowthRates rates;
+    assert_true(growth_rates(test.growth, &test.state, &rates, &err));
+    assert_near("growth rate", rates.rate[0].re, rate, 1e-6 * rate);
+    assert_near("it does not swing", rates.rate[0].im, 0, 0);
+    assert_near("the real one", rates.real.re, rate, 1e-6 * rate);
+    for (int32_t i = 0; i < 3; i++) {
+        assert_near("all slip alike", rates.mode_re[2 * i], 1, 1e-6);
+        assert_near("in one direction", rates.real_mode[2 * i], 1, 1e-6);
+        assert_near("none lifts off", rates.mode_re[2 * i + 1], 0, 0);
+    }
+    // Beyond v_c, and with Coulomb friction, nothing weakens: it only drifts.
+    for (int32_t i = 0; i < 3; i++) test.state.slip_rate[2 * i] = 0.06;
+    assert_true(growth_rates(test.growth, &test.state, &rates, &err));
+    assert_true(rates.real.re < 1e-3 * rate);   // a double root at 0
+    assert_near("nothing to bear", growth_scan(test.growth, &test.state).load, 0, 0);
+    case_close(&test);
+}
+
+// --- a shear column -----------------------------------------------------------------------------
+
+enum { LAYERS = 200 };
+
+// One column, sides periodic: u_x alone is sheared, linear elements, lumped mass; u_z of the foot
+// hangs on a spring of its own. Contact node: the foot. Rod node: u_x of the top, held.
+static void column_build(Case *test, double shear, double eta, double density, double height)
+{
+    Error err = {0};
+    int32_t nodes = LAYERS + 1, n = 2 * nodes;
+    double h = height / LAYERS;
+    Bulk *bulk = &test->bulk;
+    *bulk = (Bulk){.dof_count = n};
+    bulk->pattern.size = n;
+    bulk->pattern.start = NEW_ARRAY(int32_t, n + 1, &err);
+    bulk->pattern.index = NEW_ARRAY(int32_t, 3 * n, &err);
+    bulk->stiffness = NEW_ARRAY(double, 3 * n, &err);
+    bulk->damping = NEW_ARRAY(double, 3 * n, &err);
+    bulk->mass = NEW_ARRAY(double, n, &err);
+    bulk->load = NEW_ARRAY(double, n, &err);
+    int32_t entry = 0;
+    for (int32_t dof = 0; dof < n; dof++) {
+        int32_t node = dof / 2;
+        bool along = dof % 2 == 0, end = node == 0 || node == LAYERS;
+        bulk->mass[dof] = density * h * (end ? 0.5 : 1);
+        for (int32_t other = node - 1; other <= node + 1; other++) {
+            if (other < 0 || other > LAYERS || (!along && other != node)) continue;
+            double factor = other == node ? (end ? 1 : 2) : -1;
+            bulk->pattern.index[entry] = 2 * other + dof % 2;
+            bulk->stiffness[entry] = along ? factor * shear / h : 1;
+            bulk->damping[entry++] = along ? factor * eta / h : 1;
+        }
+        bulk->pattern.start[dof + 1] = entry;
+    }
+    Interface *interface = &test->interface;
+    *interface = (Interface){.contact_count = 1, .rod_count = 1, .count = 3, .pad_count = 1};
+    interface->dofs = NEW_ARRAY(int32_t, 3, &err);
+    interface->x = NEW_ARRAY(double, 1, &err);
+    interface->weight = NEW_ARRAY(double, 1, &err);
+    interface->dofs[1] = 1;
+    interface->dofs[2] = 2 * LAYERS;
+    double *position = hand_matrix(n, 1);
+    assert_true(bulk_operator_create(bulk, position, interface->dofs, 3, &test->system, &err));
+    free(position);
+    case_open(test, growth_def(4 * height, sqrt(shear / density), 200));
+}
+
+// (G + eta s) q coth(q H) - s w, q = sqrt(rho s^2 / (G + eta s)): zero at a growth rate s.
+static Complex column_equation(Complex s, double shear, double eta, double density, double height,
+                               double weakening)
+{
+    Complex modulus = shear + eta * s, q = csqrt(density * s * s / modulus);
+    return modulus * q / ctanh(q * height) - s * weakening;
+}
+
+// The foot slips under ever more weakening: it rests, swings, and runs away, at the exact rates.
+static void test_shear_column(void **unused)
+{
+    (void)unused;
+    Error err = {0};
+    double poisson = 0.34, shear = 1 / (2 * (1 + poisson)), eta = 0.5, density = 1, height = 0.5;
+    Case test = {.law = {FRICTION_LINEAR_WEAKENING, 0.38, 0.1, 3.4e-4}};
+    dense_use_one_thread();
+    column_build(&test, shear, eta, density, height);
+    double slope = 0.28 / 3.4e-4, swings = NAN, runs = NAN, overload = NAN;
+    for (double weakening = 0.8; weakening < 3; weakening += 0.02) {
+        GrowthRates rates;
+        slip(&test.state, 0, CONTACT_SLIP_FORWARD, 1e-6, weakening / slope);
+        assert_true(growth_rates(test.growth, &test.state, &rates, &err));
+        GrowthScan scan = growth_scan(test.growth, &test.state);
+        Complex s = rates.rate[0].re + rates.rate[0].im * I;
+        if (creal(s) > 0 && isnan(swings)) swings = weakening;
+        if (rates.real.re > 0 && isnan(runs)) runs = weakening;
+        if (scan.load >= 1 && isnan(overload)) overload = weakening;
+        if (creal(s) <= 0) continue;
+        // The residual over the derivative: how far the exact rate lies.
+        Complex step = 1e-6 * s, f = column_equation(s, shear, eta, density, height, weakening);
+        Complex slope_f = (column_equation(s + step, shear, eta, density, height, weakening) - f) /
+                          step;
+        if (fabs(weakening - runs) > 0.05)   // next to a double root nothing is sharp
+            assert_near("off the exact rate", cabs(f / slope_f), 0, 2e-4 * cabs(s));
+    }
+    // The thresholds of REFERENCES 4, leading order: eta/H and eta/H + 2 sqrt(rho G/3).
+    assert_near("swings from eta/H", swings, eta / height, 0.06);
+    assert_near("runs away from", runs, eta / height + 2 * sqrt(density * shear / 3), 0.06);
+    assert_near("without pressure to couple the scan finds the same", overload, runs, 0.021);
+    case_close(&test);
+}
+
+// --- the certificate, memory --------------------------------------------------------------------
+
+// The scan's load is the factor by which all weakening can be raised until a real rate exists when
+// mu P_n is left out; here mu is small, so the exact problem agrees.
+static void test_scan(void **unused)
+{
+    (void)unused;
+    Error err = {0};
+    Case test = {.law = {FRICTION_LINEAR_WEAKENING, 1e-7, 0, 1e-4}};
+    BlockDef def = {ELEMENT_Q4, .nx = 8, .nz = 4, .length = 1, .height = 0.5};
+    case_build_block(&test, &def, &SOFT);
+    case_open(&test, growth_def(1, 1.06, test.interface.contact_count));
+    GrowthRates rates;
+    set_state(&test, 1000, 5);
+    GrowthScan scan = growth_scan(test.growth, &test.state);
+    assert_true(scan.load > 0.1 && scan.rate > 0.1);
+    for (int32_t beyond = 0; beyond < 2; beyond++) {
+        double pressure = 1000 / scan.load * (beyond ? 1.004 : 0.996);
+        set_state(&test, pressure, 5);
+        assert_near("the load is proportional", growth_scan(test.growth, &test.state).load,
+                    beyond ? 1.004 : 0.996, 1e-9);
+        assert_true(growth_rates(test.growth, &test.state, &rates, &err));
+        assert_int_equal(rates.real.re > 0, beyond);
+    }
+    assert_near("born there", rates.real.re, scan.rate, 0.25 * scan.rate);
+    case_close(&test);
+}
+
+static void test_memory(void **unused)
+{
+    (void)unused;
+    Error err = {0};
+    Case test = {.law = LAW};
+    BlockDef def = {ELEMENT_Q4, .nx = 3, .nz = 2, .length = 1, .height = 0.5};
+    case_build_block(&test, &def, &SOFT);
+    case_open(&test, growth_def(1, 1.06, 4));
+    Block block = {.system = &test.system, .interface = &test.interface, .law = &test.law};
+    GrowthDef how = growth_def(1, 1.06, 4);
+    int64_t live = memory_counters().live;
+    bool done = false;
+    for (int64_t k = 0; !done; k++) {
+        error_clear(&err);
+        memory_fail_after(k);
+        Growth *growth = growth_create(&block, &how, &err);
+        memory_fail_after(-1);
+        done = growth != NULL;
+        if (!done) assert_int_equal(err.code, ERROR_MEMORY);
+        growth_destroy(growth);
+        assert_int_equal(memory_counters().live, live);
+    }
+    set_state(&test, 3e-3, 3);
+    GrowthRates rates;
+    assert_true(growth_rates(test.growth, &test.state, &rates, &err));
+    int64_t allocations = memory_counters().allocations;
+    assert_true(growth_rates(test.growth, &test.state, &rates, &err));
+    growth_scan(test.growth, &test.state);
+    assert_int_equal(memory_counters().allocations, allocations);
+    growth_destroy(NULL);
+    case_close(&test);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_against_dense)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_against_dense),
+                                       cmocka_unit_test(test_rigid_block),
+                                       cmocka_unit_test(test_shear_column),
+                                       cmocka_unit_test(test_scan), cmocka_unit_test(test_memory)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
