@@ -141,9 +141,11 @@ bool amontons_static(const Scene *scene, const char *folder, bool overwrite, Sta
                      Error *err);
 
 // --- stability ----------------------------------------------------------------------------------
-// One position of the quasi-static front, and how small disturbances of that state grow.
+// One state of the quasi-static path, and how small disturbances of it grow.
 typedef struct StabilityPoint {
     double front;                  // l, length
+    int32_t slipping;              // contact nodes that slip: more than front says where slip has
+                                   // begun in several places
     double U, mu;                  // displacement of the rod, length; F_T / F_N
     double rate_re, rate_im;       // the rightmost lambda of exp(lambda t), 1/time
     double real_rate;              // the largest real one above 0, 1/time; 0: none

@@ -148,12 +148,12 @@ static void show_point(const StabilityPoint *point, void *context)
     if (table->quiet) return;
     if (!table->begun) {
         progress_end(&table->progress);
-        printf("%10s %12s %9s %12s %12s %12s %9s  %s\n", "l", "U", "mu", "Re lambda", "Im lambda",
-               "real rate", "load", "certified");
+        printf("%10s %9s %12s %9s %12s %12s %12s %9s  %s\n", "l", "slipping", "U", "mu",
+               "Re lambda", "Im lambda", "real rate", "load", "certified");
         table->begun = true;
     }
-    printf("%10.5g %12.6g %9.5f %12.4g %12.4g ", point->front, point->U, point->mu, point->rate_re,
-           point->rate_im);
+    printf("%10.5g %9d %12.6g %9.5f %12.4g %12.4g ", point->front, point->slipping, point->U,
+           point->mu, point->rate_re, point->rate_im);
     if (point->real_rate > 0)
         printf("%12.4g", point->real_rate);
     else

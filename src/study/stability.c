@@ -116,6 +116,13 @@ static void keep_slip(const Interface *interface, const double *mode, double *sl
     for (int32_t i = 0; i < interface->contact_count; i++) slip[i] = mode[interface_tangent(i)];
 }
 
+static int32_t count_slipping(const State *state)
+{
+    int32_t count = 0;
+    for (int32_t i = 0; i < state->contact_count; i++) count += state->status[i] != CONTACT_STICK;
+    return count;
+}
+
 // The growth rates of `last`, as it was seen.
 static bool add_point(StabilityPath *path, const Observation *seen, Error *err)
 {
@@ -126,6 +133,7 @@ static bool add_point(StabilityPath *path, const Observation *seen, Error *err)
     TRY(growth_rates(path->growth, &path->last, &rates, err));
     *point =
         (StabilityPoint){.front = seen->front,
+                         .slipping = count_slipping(&path->last),
                          .U = path->U_start + seen->U,
                          .mu = seen->mu,
                          .rate_re = rates.count > 0 ? rates.rate[0].re : NAN,
@@ -153,14 +161,16 @@ static bool follow_path(StabilityPath *path, Error *err)
 {
     const Interface *interface = &path->simulation->interface;
     double end = interface->x[interface->contact_count - 1];
-    Observation before = {.front = INFINITY};
+    Observation before = {0};
+    int32_t most = 0;   // nodes that slipped at a time, so far
     for (int32_t step = 0; step < PATH_STEPS_MAX; step++) {
         if (stop_wanted(path, err)) goto cleanup;
         state_copy(&path->control.now, &path->last);
         TRY(step_control_advance(&path->control, INFINITY, err));
         Observation seen = observe(&path->control, &path->simulation->scales);
-        bool farther = path->count == 0 || before.front > path->points[path->count - 1].front;
-        if (seen.front > before.front && farther) TRY(add_point(path, &before, err));
+        int32_t slipping = count_slipping(&path->control.now);
+        if (step > 0 && slipping > most) TRY(add_point(path, &before, err));
+        if (slipping > most) most = slipping;
         before = seen;
         bool beyond = path->critical >= 0 && path->count > path->critical + POINTS_BEYOND;
         if (beyond && !path->options->whole) break;
@@ -178,8 +188,20 @@ cleanup:
 // --- where something is lost --------------------------------------------------------------------
 
 // A measure of a point that is below 0 where it holds and reaches 0 where it is lost. Between two
-// points it is taken as linear in l.
+// points of which the second has one more slipping node, it is taken as linear in l.
 typedef double (*Margin)(const StabilityPath *path, int32_t k);
+
+// Point k slips at one node more than the one before, and that is the next one along the front
+// (where two slipping parts meet, the front jumps).
+static bool is_next(const StabilityPath *path, int32_t k)
+{
+    const StabilityPoint *point = &path->points[k];
+    const Interface *interface = &path->simulation->interface;
+    int32_t passed = 0;
+    for (int32_t i = 0; i < interface->contact_count; i++)
+        passed += interface->x[i] > point[-1].front && interface->x[i] <= point->front;
+    return point->slipping == point[-1].slipping + 1 && passed == 1;
+}
 
 static double certificate_margin(const StabilityPath *path, int32_t k)
 {
@@ -203,7 +225,9 @@ static double frequency_square(const StabilityPath *path, int32_t k)
     const StabilityPoint *point = &path->points[k];
     if (!(point->rate_re > 0)) return -INFINITY;
     if (point->rate_im > 0) return -point->rate_im * point->rate_im;
-    if (k < 2 || !(point[-1].rate_im > 0) || !(point[-2].rate_re > 0)) return 0;
+    if (k < 2 || !(point[-1].rate_im > 0) || !(point[-2].rate_re > 0) || !is_next(path, k) ||
+        !is_next(path, k - 1))
+        return 0;
     double square = point[-1].rate_im * point[-1].rate_im;
     double fall = (point[-2].rate_im * point[-2].rate_im - square) /
                   (point[-1].front - point[-2].front);
@@ -228,7 +252,7 @@ static StabilityPoint first_loss(const StabilityPath *path, Margin margin)
         double after = margin(path, k), before = k > 0 ? margin(path, k - 1) : 0;
         if (!(after >= 0)) continue;
         lost = path->points[k];
-        if (k == 0 || !isfinite(before) || before >= 0) break;
+        if (k == 0 || !isfinite(before) || before >= 0 || !is_next(path, k)) break;
         const StabilityPoint *last = &path->points[k - 1];
         double part = isfinite(after) ? before / (before - after) : 1;
         lost.front = last->front + part * (lost.front - last->front);

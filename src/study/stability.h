@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Where does slow slip lose its stability? The block is led along its quasi-static path: steps so
 // long that the implicit, L-stable scheme damps whatever would grow, the certificate switched off,
-// the rod so slow that the velocity drops out (V -> 0). At each position of the slip front the last
-// state before the front moves on is asked for its growth rates (stepping/growth).
+// the rod so slow that the velocity drops out (V -> 0). Whenever a further node begins to slip, the
+// state just before is asked for its growth rates (stepping/growth).
 // amontons_stability, in amontons.h, is the entry; this is what its files share.
 #ifndef AMONTONS_STUDY_STABILITY_H
 #define AMONTONS_STUDY_STABILITY_H

@@ -34,6 +34,7 @@ static void write_points(JsonWriter *json, const StabilityPath *path)
         const StabilityPoint *point = &path->points[k];
         json_begin_object(json, NULL);
         json_number(json, "l_over_L", point->front / length);
+        json_integer(json, "slipping", point->slipping);
         json_number(json, "U", point->U);
         json_number(json, "mu", point->mu);
         json_number(json, "rate_re", point->rate_re);
