@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""`amontons stability` as its users call it: table, files, options, refusals."""
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy
+
+SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
+PROGRAM = Path(os.environ.get("AMONTONS_BIN", SOURCE / "build" / "bin")) / "amontons"
+FIG1 = SOURCE / "validation" / "paper" / "fig1.yaml"
+COARSE = ["--set", "mesh.set.nx=20", "mesh.set.nz=20", "load.pressure=0.006"]
+
+
+def stability(*words, scene=FIG1):
+    return subprocess.run([PROGRAM, "stability", *map(str, words), scene, *COARSE],
+                          capture_output=True, text=True, timeout=120)
+
+
+def rows(text):
+    """The numbers of the table's lines, "-" as 0 and the certificate as 0 or 1."""
+    table = []
+    for line in text.splitlines()[1:]:
+        words = line.split()
+        if not words:
+            break
+        table.append([{"-": 0, "yes": 1, "no": 0}.get(word, word) for word in words])
+    return numpy.array(table, dtype=float)
+
+
+class InFolder(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="amontons-stability-"))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+
+class Answers(InFolder):
+    @classmethod
+    def setUpClass(cls):
+        cls.kept = Path(tempfile.mkdtemp(prefix="amontons-stability-"))
+        cls.addClassCleanup(shutil.rmtree, cls.kept)
+        cls.done = stability("-o", cls.kept)
+        cls.report = json.loads((cls.kept / "stability.json").read_text())
+
+    def test_table_is_the_report(self):
+        self.assertEqual(self.done.returncode, 0, self.done.stderr)
+        self.assertEqual(self.done.stdout.split()[:4], ["l", "slipping", "U", "mu"])
+        table, points = rows(self.done.stdout), self.report["points"]
+        self.assertEqual(len(table), len(points))
+        names = ["l_over_L", "slipping", "U", "mu", "rate_re", "rate_im", "real_rate", "load",
+                 "certified"]
+        for name, column in zip(names, table.T):
+            numpy.testing.assert_allclose(column, [point[name] for point in points], rtol=1e-3,
+                                          atol=1e-4)
+        found = self.report["results"]
+        self.assertIn(f"l_c/L                  {found['l_c_over_L']:.4f}", self.done.stdout)
+        self.assertIn(f"mu_M at V              {found['mu_M']:.4f}", self.done.stdout)
+
+    def test_answers_follow_from_the_points(self):
+        points, found = self.report["points"], self.report["results"]
+        element = found["element_over_L"]
+        self.assertAlmostEqual(element, 1 / 20)
+
+        def first(lost):
+            return next(point["l_over_L"] for point in points if lost(point))
+
+        for value, lost in ((found["l_sc_over_L"], lambda point: point["rate_re"] > 0),
+                            (found["l_c_over_L"], lambda point: point["real_rate"] > 0),
+                            (found["l_c_scan_over_L"], lambda point: point["load"] >= 1)):
+            self.assertLessEqual(value, first(lost) + 1e-9)
+            self.assertGreaterEqual(value, first(lost) - element - 1e-9)
+        self.assertAlmostEqual(found["l_sc_certificate_over_L"],
+                               first(lambda point: not point["certified"]))
+        self.assertLessEqual(abs(found["l_sc_certificate_over_L"] - found["l_sc_over_L"]), element)
+        self.assertEqual(self.report["status"], "done")
+        self.assertEqual(self.report["slidings_before"], 2)
+        self.assertEqual(self.report["scene"]["load"]["pressure"], 0.006)
+
+    def test_modes(self):
+        points, found = self.report["points"], self.report["results"]
+        with h5py.File(self.kept / "stability.h5") as file:
+            x, critical = file["nodes/x"][:], file["critical/slip"][:]
+            modes, rate = file["modes/slip"][:], file["points/rate"][:]
+            for name in ("nodes/x", "critical/slip", "modes/slip", "points/front", "points/rate"):
+                self.assertTrue(file[name].attrs["description"])
+        numpy.testing.assert_allclose(x, numpy.linspace(0, 1, 21), atol=1e-12)
+        numpy.testing.assert_allclose(rate[:, 0], [point["rate_re"] for point in points])
+        shape = modes.reshape(len(points), 2, 21)
+        size = numpy.hypot(shape[:, 0], shape[:, 1])
+        slips = numpy.array([point["slipping"] for point in points])
+        numpy.testing.assert_allclose(size.max(axis=1)[slips > 0], 1, atol=1e-6)
+        for point, slip in zip(points, size):   # only what slips takes part
+            self.assertEqual(numpy.count_nonzero(slip), point["slipping"])
+        self.assertAlmostEqual(critical.max(), 1)
+        self.assertTrue(numpy.all(critical >= 0))
+        self.assertTrue(numpy.all(critical[x > found["l_c_over_L"] + found["element_over_L"]] == 0))
+        # The paper's cos(pi x / 2 l): largest at the trailing edge or near it, falling to the front.
+        peak = critical.argmax()
+        self.assertTrue(numpy.all(numpy.diff(critical[peak:]) <= 1e-12))
+
+    def test_start_and_whole(self):
+        start = stability("--from", "start", "--whole")
+        self.assertEqual(start.returncode, 0, start.stderr)
+        self.assertEqual(start.stderr, "")   # nothing was stepped before
+        table = rows(start.stdout)
+        self.assertAlmostEqual(table[-1, 0], 1)
+        self.assertGreater(table[-1, 3], 0.35)
+        self.assertLess(rows(self.done.stdout)[0, 3], 0.2)   # at rest after sliding: about mu_K
+
+    def test_quiet(self):
+        done = stability("--quiet", "--slidings", "1", "-o", self.folder / "deep" / "er")
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+        report = json.loads((self.folder / "deep/er/stability.json").read_text())
+        self.assertEqual(report["slidings_before"], 1)
+        again = stability("--quiet", "-o", self.folder / "deep/er")
+        self.assertEqual(again.returncode, 2)
+        self.assertIn("holds an earlier result (stability.json)", again.stderr)
+        over = stability("--quiet", "-o", self.folder / "deep/er", "--overwrite")
+        self.assertEqual(over.returncode, 0, over.stderr)
+
+
+class Refusals(InFolder):
+    def assert_refused(self, words, *parts, scene=FIG1):
+        done = stability(*words, scene=scene)
+        self.assertEqual((done.returncode, done.stdout), (2, ""), words)
+        for part in parts:
+            self.assertIn(part, done.stderr)
+
+    def test_words(self):
+        self.assert_refused(["--from", "peak"], "--from peak: allowed are sliding and start")
+        for count in ("0", "x", "2.5", "1e9", ""):
+            self.assert_refused(["--slidings", count], "a whole number from 1 to 1000")
+        self.assert_refused(["--slidings", "2", "--from", "start"], "no meaning with --from start")
+        self.assert_refused(["-o", ""], "the folder has no name")
+        self.assert_refused(["other.yaml"], "takes one scene")
+        alone = subprocess.run([PROGRAM, "stability"], capture_output=True, text=True)
+        self.assertEqual(alone.returncode, 2)
+        self.assertIn("stability needs a scene", alone.stderr)
+
+    def test_scenes(self):
+        self.assert_refused([], "none.yaml", scene=self.folder / "none.yaml")
+        self.assert_refused(["--set", "time.until={U: 1e-3}"], "0 of 2 slidings", "--from start")
+        self.assert_refused(["--set", "time.scheme=explicit"], "time.scheme=sdirk2")
+        folder = self.folder / "kept"
+        self.assert_refused(["-o", folder, "--set", "time.scheme=explicit"])
+        self.assertFalse(folder.exists())
+
+    def test_help(self):
+        shown = subprocess.run([PROGRAM, "stability", "--help"], capture_output=True, text=True)
+        text = re.sub(r"\s+", " ", shown.stdout)
+        self.assertEqual(shown.returncode, 0)
+        for word in ("SCENE", "--from", "--slidings", "--whole", "--set", "l_c", "Example",
+                     "amontons stability validation/paper/fig1.yaml"):
+            self.assertIn(word, text)
+        self.assertLessEqual(max(map(len, shown.stdout.splitlines())), 80)
+
+    def test_interrupt(self):
+        words = [PROGRAM, "stability", FIG1, "--set", "rod.velocity=1e-8", "mesh.set.nx=20",
+                 "mesh.set.nz=20", "-o", self.folder / "result"]
+        run = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        time.sleep(1.5)
+        run.send_signal(signal.SIGINT)
+        _, said = run.communicate(timeout=20)
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("stopped", said)
+        self.assertFalse((self.folder / "result" / "stability.json").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
