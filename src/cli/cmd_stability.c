@@ -206,6 +206,7 @@ int command_stability(int argc, char **argv)
     Table table = {.progress = progress_begin(words.quiet), .quiet = words.quiet};
     struct sigaction action = {.sa_handler = want_stop, .sa_flags = (int)SA_RESETHAND};
     sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
     options.folder = words.folder;
     options.overwrite = words.overwrite;
     options.whole = words.whole;
