@@ -65,7 +65,7 @@ static void test_against_dynamics(void **state)
     assert_near("l_c at V against the dynamics", found.l_c_rod, run.critical_length, 1. / 20);
     // An element is worth 0.014 of mu here.
     assert_near("mu_M against the dynamics", found.mu_rod, run.mu_M, 0.014);
-    // The certificate neglects how pressure couples: it is lost within an element of the exact l_sc.
+    // The certificate neglects how pressure couples: lost within an element of the exact l_sc.
     assert_near("certificate", found.l_sc_certificate, found.l_sc, 1. / 20);
     assert_true(found.l_sc < found.l_c_rod && found.l_c_rod <= found.l_c);
     assert_near("scan", found.l_c_scan, found.l_c, 1.5 / 20);
