@@ -12,6 +12,8 @@
 #include <math.h>
 #include <string.h>
 
+static const double SAME_RATE = 1e-6;   // two shifts saw one rate, relative
+
 // A moving unknown of the interface.
 typedef struct Moving {
     int32_t unknown;
@@ -353,7 +355,7 @@ static int32_t keep_rate(GrowthRates *rates, GrowthRate found)
     int32_t place = 0;
     double size = hypot(found.re, found.im);
     for (int32_t k = 0; k < rates->count; k++) {
-        if (hypot(rates->rate[k].re - found.re, rates->rate[k].im - found.im) <= 1e-6 * size)
+        if (hypot(rates->rate[k].re - found.re, rates->rate[k].im - found.im) <= SAME_RATE * size)
             return -1;
         if (rates->rate[k].re >= found.re) place = k + 1;
     }
@@ -376,7 +378,7 @@ static void take_pair(Growth *growth, int32_t count, GrowthRate found, const dou
         for (int32_t m = 0; m < growth->interface->count; m++) growth->mode_im[m] *= -1;
         scale_mode(growth, growth->mode_re, growth->mode_im);
     }
-    if (found.im == 0 && found.re > rates->real.re) {
+    if (found.im == 0 && found.re > rates->real.re * (1 + SAME_RATE)) {
         rates->real = found;
         lift_mode(growth, count, re, growth->real_mode);
         scale_mode(growth, growth->real_mode, NULL);
