@@ -30,7 +30,7 @@ void hash_bytes(Hash *hash, const void *bytes, size_t size)
         hash_word(hash, word);
     }
     uint64_t tail = 0;
-    memcpy(&tail, at, left);
+    if (left > 0) memcpy(&tail, at, left);   // nothing may be a null pointer
     hash_word(hash, tail);
     hash_word(hash, (uint64_t)size);
 }
