@@ -129,7 +129,7 @@ static const SceneKey keys[] = {
      .sentence = "Longest step; 0: from the block's size and wave speeds."},
     {"time.step_min", KEY_NUMBER, offsetof(Scene, time.step_min), "time", RANGE_NOT_NEGATIVE, "0",
      .sentence = "Shortest step; 0: from the block's size and wave speeds."},
-    {"time.wave_step", KEY_NUMBER, offsetof(Scene, time.wave_step), "1", RANGE_PART, "0.1",
+    {"time.wave_step", KEY_NUMBER, offsetof(Scene, time.wave_step), "1", RANGE_PART, "0.2",
      .sentence = "Longest step while slip is not certified to be stable, in wave crossings of the "
                  "block, L / c_L."},
     {"time.certificate", KEY_FLAG, offsetof(Scene, time.certificate), "1", RANGE_ANY, "true",
