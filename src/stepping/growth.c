@@ -50,7 +50,7 @@ GrowthDef growth_def(double length, double speed, int32_t contact_count)
     return (GrowthDef){.slowest = speed / (4 * length),
                        .fastest = speed * contact_count / length,
                        .stride = 3,
-                       .vectors = 60,
+                       .vectors = 40,
                        .tolerance = 1e-8};
 }
 
