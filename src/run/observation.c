@@ -45,7 +45,8 @@ Observation observe(const StepControl *control, const ObservationScales *scales)
                         .step_size = control->counters.accepted > 0 ? control->last_step : 0,
                         .rod_force = rod_force(interface, state->reaction),
                         .front = slip_front(interface, state),
-                        .certified = control->certified};
+                        .certified = control->certified,
+                        .grows = control->grows};
     seen.mu = seen.rod_force / scales->load;
     for (int32_t i = 0; i < interface->contact_count; i++) {
         seen.normal_force += state->reaction[interface_normal(i)];

@@ -9,7 +9,7 @@
 
 typedef struct Observation {
     const State *state;   // not owned
-    const BulkOperator *system;     // not owned: where the interface stands in the state
+    const BulkOperator *system;   // not owned: where the interface stands in the state
     const Interface *interface;   // not owned
     double t, U;   // time, length
     double step_size;   // of the step that ended here; 0 at the start
@@ -19,6 +19,7 @@ typedef struct Observation {
     double front;   // x to which slip reaches without a gap from the trailing edge
     double max_slip_rate;   // velocity
     bool certified;
+    bool grows;   // slip runs away, as step_control saw it
     double energy_imbalance;   // energy/width, since the start
     double energy_error;   // the same, relative to the energy turned over
     double moment_error;   // of all forces and inertia about the origin, relative to F_N L

@@ -7,7 +7,8 @@
 
 enum { FIRST_ROOM = 16, PERIODIC_PEAKS = 3 };
 
-static const Peak NOTHING_SEEN = {.mu = -INFINITY, .front = NAN, .front_uncertified = NAN};
+static const Peak NOTHING_SEEN = {
+    .mu = -INFINITY, .front = NAN, .front_uncertified = NAN, .front_growth = NAN};
 
 bool peaks_create(const Events *events, double tolerance, Peaks *peaks, Error *err)
 {
@@ -48,6 +49,8 @@ bool peaks_record(void *self, const Observation *seen, Error *err)
     bool sliding = events->rapid >= 0 && events->list[events->rapid].kind == EVENT_LEADING;
     if (events->crossed) {
         peaks->rising.front = events->list[events->rapid].front_start;
+        if (seen->grows && isnan(peaks->rising.front_growth))
+            peaks->rising.front_growth = seen->front;
         TRY(push_peak(peaks, err));
     }
     if (sliding || (events->ended && events->list[events->count - 1].kind == EVENT_LEADING)) {
@@ -60,6 +63,7 @@ bool peaks_record(void *self, const Observation *seen, Error *err)
     }
     if (!seen->certified && isnan(peaks->rising.front_uncertified))
         peaks->rising.front_uncertified = seen->front;
+    if (seen->grows && isnan(peaks->rising.front_growth)) peaks->rising.front_growth = seen->front;
 cleanup:
     return error_is_clean(err);
 }

@@ -12,6 +12,7 @@ typedef struct Peak {
     double front;   // l when the leading event began: l_c from the dynamics, length
     double
         front_uncertified;   // l when the certificate was first lost since the last sliding: l_sc
+    double front_growth;   // l when real growth was first seen since then: l_c from the rates; NaN
     bool counts;   // belongs to the periodic regime
 } Peak;
 
@@ -25,12 +26,12 @@ typedef struct Peaks {
 } Peaks;
 
 typedef struct PeaksSummary {
-    int32_t counted;             // peaks in the mean
-    int32_t period;              // 1: the last peaks agree; 2: every second one does; 0: neither
-    double mu_M;                 // NaN: no peak
-    double spread;               // largest minus smallest of them; NaN with fewer than two
-    double low, high;            // of all peaks but the first (of the first where it is alone)
-    double critical_length;      // mean l_c of those counted, length
+    int32_t counted;   // peaks in the mean
+    int32_t period;   // 1: the last peaks agree; 2: every second one does; 0: neither
+    double mu_M;   // NaN: no peak
+    double spread;   // largest minus smallest of them; NaN with fewer than two
+    double low, high;   // of all peaks but the first (of the first where it is alone)
+    double critical_length;   // mean l_c of those counted, length
     double subcritical_length;   // mean l_sc of those counted that have one, length; NaN: none
 } PeaksSummary;
 

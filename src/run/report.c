@@ -108,6 +108,7 @@ static void write_results(JsonWriter *json, const RunReport *report)
         json_boolean(json, "counts", peak->counts);
         json_number(json, "l_sc_over_L", peak->front_uncertified / length);
         json_number(json, "l_c_over_L", peak->front / length);
+        json_number(json, "l_c_growth_over_L", peak->front_growth / length);
         json_end(json);
     }
     json_end(json);

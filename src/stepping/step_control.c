@@ -119,6 +119,27 @@ bool step_control_fits(const StepControl *control, double remaining)
     return remaining > 0;
 }
 
+// Looks for real growth in `now` on the rungs that are built: some small factorisations, so only
+// when the slip set is larger than all that were looked at since the last certified state.
+static void scan_growth(StepControl *control)
+{
+    int32_t slipping = 0;
+    for (int32_t i = 0; i < control->now.contact_count; i++)
+        slipping += control->now.status[i] != CONTACT_STICK;
+    if (control->certified) {
+        control->grows = false;
+        control->scanned = 0;
+    }
+    if (control->certified || slipping <= control->scanned) return;
+    control->scanned = slipping;
+    control->grows = false;
+    for (int32_t k = 0; k < control->ladder.rung_count && !control->grows; k++) {
+        const InterfaceOperator *rung = control->ladder.rung[k];
+        control->grows = rung &&
+                         !certificate_step_resolves(&control->certificate, &control->now, rung);
+    }
+}
+
 static void accept_step(StepControl *control, int32_t k, const StepOutcome *outcome)
 {
     State accepted = control->next;
@@ -150,6 +171,7 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
             control->certified = certified;
             if (certified) control->hold = control->hold_end = 0;
             accept_step(control, k, &outcome);
+            scan_growth(control);
             if (!shortened || retried)
                 control->rung = next_rung(control, k, outcome.error, retried);
             break;

@@ -36,9 +36,12 @@ typedef struct StepControl {
     StepOutcome outcome;   // of the last accepted step
     double last_step;   // its length, time
     bool certified;   // `now` is dissipative
+    bool grows;   // slip runs away in `now`: real growth rates stand on both sides of some rung's
+        // 1/(gamma dt); looked at when more nodes slip than ever since it was certified
+    int32_t scanned;   // nodes that slipped then
     int32_t rung;   // to try next
-    int64_t hold;               // steps for which no longer one is tried, after growth was met
-    int64_t hold_end;           // accepted steps when that is over
+    int64_t hold;   // steps for which no longer one is tried, after growth was met
+    int64_t hold_end;   // accepted steps when that is over
     StepCounters counters;
 } StepControl;
 

@@ -106,6 +106,18 @@ class Answers(InFolder):
         peak = critical.argmax()
         self.assertTrue(numpy.all(numpy.diff(critical[peak:]) <= 1e-12))
 
+    def test_run_sees_the_growth_too(self):
+        words = ["time.until={U: 0.01}", "output.figures=[]", "output.fields=none"]
+        done = subprocess.run([PROGRAM, "run", FIG1, "-q", "-o", self.folder / "run", *COARSE,
+                               *words], capture_output=True, text=True, timeout=120)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        run, found = json.loads((self.folder / "run/run.json").read_text()), self.report["results"]
+        peak = run["results"]["peaks"][2]   # the one after the two slidings
+        for key, wanted in (("l_c_growth_over_L", found["l_c_over_L"]),
+                            ("l_c_over_L", found["l_c_at_V_over_L"]),
+                            ("l_sc_over_L", found["l_sc_certificate_over_L"])):
+            self.assertLessEqual(abs(peak[key] - wanted), found["element_over_L"], key)
+
     def test_start_and_whole(self):
         start = stability("--from", "start", "--whole")
         self.assertEqual(start.returncode, 0, start.stderr)
