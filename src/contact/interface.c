@@ -5,6 +5,7 @@
 #include "bulk/assembly.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -27,7 +28,12 @@ static bool build_contact(const Mesh *mesh, const InterfaceDef *def, Interface *
     interface->x = NEW_ARRAY(double, count, err);
     interface->weight = NEW_ARRAY(double, count, err);
     interface->pad = NEW_ARRAY(int32_t, count, err);
-    if (!interface->node || !interface->x || !interface->weight || !interface->pad) goto cleanup;
+    interface->pad_name = memory_array(contact.curve_count, sizeof *interface->pad_name, err);
+    if (!interface->node || !interface->x || !interface->weight || !interface->pad ||
+        !interface->pad_name)
+        goto cleanup;
+    for (int32_t c = 0; c < contact.curve_count; c++)
+        snprintf(interface->pad_name[c], GROUP_NAME_SIZE, "%s", contact.curves[c].name);
     for (int32_t i = 0; i < count; i++) {
         int32_t node = contact.nodes[i];
         interface->node[i] = node;
@@ -108,6 +114,7 @@ void interface_destroy(Interface *interface)
     memory_free(interface->x);
     memory_free(interface->weight);
     memory_free(interface->pad);
+    memory_free(interface->pad_name);
     memory_free(interface->rod_node);
     memory_free(interface->rod_z);
     memory_free(interface->dofs);

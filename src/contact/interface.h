@@ -17,6 +17,7 @@ typedef struct Interface {
     double *weight;   // [contact_count] integral of the shape function, length; owned
     int32_t *pad;   // [contact_count] which contact curve, from 0; owned
     int32_t pad_count;
+    char (*pad_name)[GROUP_NAME_SIZE];   // [pad_count] of the contact curves; owned
     int32_t rod_count;
     int32_t *rod_node;   // [rod_count] mesh node, ascending z; owned
     double *rod_z;   // [rod_count] height, length; owned

@@ -13,32 +13,32 @@
 typedef struct ResultRow {
     const char *name;   // in the file, with its folder
     ArrayType type;   // as stored; attributes are always doubles
-    bool per_node;   // a column a contact node, else one value a row
+    ResultColumns columns;
     const char *unit;   // a dimension in words, "1" for none
     const char *description;
 } ResultRow;
 
 static const ResultRow series_rows[] = {
-#define X(symbol, name, type, per_node, unit, description)                                         \
-    {name, type, per_node, unit, description},
+#define X(symbol, name, type, columns, unit, description)                                          \
+    {name, type, COLUMNS_##columns, unit, description},
     RESULT_SERIES(X)
 #undef X
 };
 
 static const ResultRow nodes_rows[] = {
-#define X(symbol, name, type, unit, description) {name, type, true, unit, description},
+#define X(symbol, name, type, unit, description) {name, type, COLUMNS_NODES, unit, description},
     RESULT_NODES(X)
 #undef X
 };
 
 static const ResultRow table_rows[] = {
-#define X(symbol, name, unit, description) {name, ARRAY_FLOAT64, false, unit, description},
+#define X(symbol, name, unit, description) {name, ARRAY_FLOAT64, COLUMNS_ONE, unit, description},
     RESULT_TABLES(X)
 #undef X
 };
 
 static const ResultRow number_rows[] = {
-#define X(symbol, name, unit, description) {name, ARRAY_FLOAT64, false, unit, description},
+#define X(symbol, name, unit, description) {name, ARRAY_FLOAT64, COLUMNS_ONE, unit, description},
     RESULT_NUMBERS(X)
 #undef X
 };
@@ -63,9 +63,14 @@ const char *result_number_name(ResultNumber number)
     return number_rows[number].name;
 }
 
+ResultColumns result_series_columns(ResultSeries series)
+{
+    return series_rows[series].columns;
+}
+
 bool result_series_is_per_node(ResultSeries series)
 {
-    return series_rows[series].per_node;
+    return series_rows[series].columns == COLUMNS_NODES;
 }
 
 static bool history_path(const char *folder, char path[PATH_MAX], Error *err)
@@ -96,11 +101,27 @@ static bool write_attributes(ArrayFile *file, const ResultHead *head, Error *err
     TRY(array_file_set_text(file, "title", head->title, err));
     TRY(array_file_set_text(file, "units", head->units, err));
     TRY(array_file_set_text(file, "version", head->version, err));
+    if (head->pads) TRY(array_file_set_text(file, "pads", head->pads, err));
     for (int32_t k = 0; k < RESULT_NUMBERS_COUNT; k++)
         if (!isnan(head->numbers[k]))
             TRY(array_file_set_number(file, number_rows[k].name, head->numbers[k], err));
 cleanup:
     return error_is_clean(err);
+}
+
+static int32_t series_width(const ResultHead *head, ResultSeries series)
+{
+    double last = 0;   // pads are numbered from 0
+    switch (series_rows[series].columns) {
+    case COLUMNS_NODES:
+        return head->contact_count;
+    case COLUMNS_PADS:
+        for (int32_t i = 0; i < head->contact_count; i++)
+            if (head->nodes[NODES_PAD][i] > last) last = head->nodes[NODES_PAD][i];
+        return (int32_t)last + 1;
+    default:
+        return 1;
+    }
 }
 
 ArrayFile *result_file_create(const char *folder, const ResultHead *head, Error *err)
@@ -118,7 +139,7 @@ ArrayFile *result_file_create(const char *folder, const ResultHead *head, Error 
         TRY(array_file_append(file, nodes_rows[k].name, head->nodes[k], head->contact_count, err));
     }
     for (int32_t k = 0; k < RESULT_SERIES_COUNT; k++)
-        TRY(add_row(file, &series_rows[k], series_rows[k].per_node ? head->contact_count : 1, err));
+        TRY(add_row(file, &series_rows[k], series_width(head, (ResultSeries)k), err));
     TRY(array_file_flush(file, err));   // from now on a killed run leaves a readable history
     return file;
 cleanup:
@@ -233,12 +254,11 @@ static void put_last_cell(FILE *out, const char *text)
 
 static void describe_rows(FILE *out, const ResultRow *rows, int32_t count, const char *shape)
 {
+    static const char *const shapes[] = {
+        [COLUMNS_ONE] = "steps", [COLUMNS_NODES] = "steps, nodes", [COLUMNS_PADS] = "steps, pads"};
     for (int32_t k = 0; k < count; k++) {
         fprintf(out, "| `%s` | %s | %s | %s | ", rows[k].name,
-                shape              ? shape
-                : rows[k].per_node ? "steps, nodes"
-                                   : "steps",
-                type_name(rows[k].type), rows[k].unit);
+                shape ? shape : shapes[rows[k].columns], type_name(rows[k].type), rows[k].unit);
         put_last_cell(out, rows[k].description);
     }
 }
@@ -253,7 +273,9 @@ void result_file_describe(FILE *out)
                       strncmp(table_rows[k].name, "peaks/", 6) == 0 ? "peaks" : "events");
     fputs("\n| attribute of the file | unit | what it holds |\n|---|---|---|\n", out);
     fputs("| `title` | text | of the scene |\n| `units` | text | normalised or si |\n"
-          "| `version` | text | of amontons |\n",
+          "| `version` | text | of amontons |\n"
+          "| `pads` | text | names of the contact curves by their numbers in `nodes/pad`, a line "
+          "each |\n",
           out);
     for (int32_t k = 0; k < RESULT_NUMBERS_COUNT; k++) {
         fprintf(out, "| `%s` | %s | ", number_rows[k].name, number_rows[k].unit);

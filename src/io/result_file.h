@@ -13,33 +13,48 @@
 
 #include <stdio.h>
 
+typedef enum ResultColumns {
+    COLUMNS_ONE,
+    COLUMNS_NODES,   // one a contact node, by x
+    COLUMNS_PADS   // one a contact curve: nodes/pad numbers them
+} ResultColumns;
+
 // Rows are accepted steps; the state stored is the one at the END of the step, row 0 the start.
-// X(symbol, name, stored type, 1: a column a contact node, unit, description)
+// X(symbol, name, stored type, columns, unit, description)
 #define RESULT_SERIES(X)                                                                           \
-    X(SERIES_TIME, "series/time", ARRAY_FLOAT64, 0, "time", "t, 0 when the rod starts")            \
-    X(SERIES_ROD, "series/rod_displacement", ARRAY_FLOAT64, 0, "length", "U = V t")                \
-    X(SERIES_MU, "series/mu", ARRAY_FLOAT64, 0, "1", "F_T / F_N, rod force over applied load")     \
-    X(SERIES_ROD_FORCE, "series/rod_force", ARRAY_FLOAT64, 0, "force/width",                       \
+    X(SERIES_TIME, "series/time", ARRAY_FLOAT64, ONE, "time", "t, 0 when the rod starts")          \
+    X(SERIES_ROD, "series/rod_displacement", ARRAY_FLOAT64, ONE, "length", "U = V t")              \
+    X(SERIES_MU, "series/mu", ARRAY_FLOAT64, ONE, "1", "F_T / F_N, rod force over applied load")   \
+    X(SERIES_ROD_FORCE, "series/rod_force", ARRAY_FLOAT64, ONE, "force/width",                     \
       "F_T, force of the rod on the block along x")                                                \
-    X(SERIES_NORMAL_FORCE, "series/normal_force", ARRAY_FLOAT64, 0, "force/width",                 \
+    X(SERIES_NORMAL_FORCE, "series/normal_force", ARRAY_FLOAT64, ONE, "force/width",               \
       "resultant of the contact pressure")                                                         \
-    X(SERIES_STEP, "series/step_size", ARRAY_FLOAT64, 0, "time", "dt of the step that ended here") \
-    X(SERIES_FRONT, "series/front", ARRAY_FLOAT64, 0, "length",                                    \
+    X(SERIES_STEP, "series/step_size", ARRAY_FLOAT64, ONE, "time",                                 \
+      "dt of the step that ended here")                                                            \
+    X(SERIES_FRONT, "series/front", ARRAY_FLOAT64, ONE, "length",                                  \
       "l: the slip region grown from the trailing edge ends at this x")                            \
-    X(SERIES_MAX_SLIP_RATE, "series/max_slip_rate", ARRAY_FLOAT64, 0, "velocity",                  \
+    X(SERIES_MAX_SLIP_RATE, "series/max_slip_rate", ARRAY_FLOAT64, ONE, "velocity",                \
       "largest |slip rate| on the interface")                                                      \
-    X(SERIES_CERTIFIED, "series/certified", ARRAY_UINT8, 0, "1",                                   \
+    X(SERIES_CERTIFIED, "series/certified", ARRAY_UINT8, ONE, "1",                                 \
       "1: the slip set is certified dissipative, 0: waves are resolved")                           \
-    X(SERIES_ENERGY_ERROR, "series/energy_error", ARRAY_FLOAT64, 0, "energy/width",                \
+    X(SERIES_ENERGY_ERROR, "series/energy_error", ARRAY_FLOAT64, ONE, "energy/width",              \
       "work done minus energy stored and dissipated, since the start")                             \
-    X(SERIES_SLIP_RATE, "interface/slip_rate", ARRAY_FLOAT32, 1, "velocity",                       \
+    X(SERIES_SLIP_RATE, "interface/slip_rate", ARRAY_FLOAT32, NODES, "velocity",                   \
       "d u_x / dt at the contact nodes")                                                           \
-    X(SERIES_SLIP, "interface/slip", ARRAY_FLOAT32, 1, "length", "u_x since the rod's start")      \
-    X(SERIES_PRESSURE, "interface/pressure", ARRAY_FLOAT32, 1, "stress", "p >= 0, pressing")       \
-    X(SERIES_SHEAR, "interface/shear", ARRAY_FLOAT32, 1, "stress",                                 \
+    X(SERIES_SLIP, "interface/slip", ARRAY_FLOAT32, NODES, "length", "u_x since the rod's start")  \
+    X(SERIES_PRESSURE, "interface/pressure", ARRAY_FLOAT32, NODES, "stress", "p >= 0, pressing")   \
+    X(SERIES_SHEAR, "interface/shear", ARRAY_FLOAT32, NODES, "stress",                             \
       "tau: friction stress on the block, positive against the drive (towards -x)")                \
-    X(SERIES_STATUS, "interface/status", ARRAY_UINT8, 1, "1",                                      \
-      "0 open, 1 stick, 2 slip where friction weakens, 3 slip at mu_kinetic")
+    X(SERIES_STATUS, "interface/status", ARRAY_UINT8, NODES, "1",                                  \
+      "0 open, 1 stick, 2 slip where friction weakens, 3 slip at mu_kinetic")                      \
+    X(SERIES_PAD_NORMAL, "pads/normal_force", ARRAY_FLOAT64, PADS, "force/width",                  \
+      "load of each pad")                                                                          \
+    X(SERIES_PAD_SHEAR, "pads/shear", ARRAY_FLOAT64, PADS, "force/width",                          \
+      "friction on each pad, positive against the drive")                                          \
+    X(SERIES_PAD_SLIP, "pads/slip", ARRAY_FLOAT64, PADS, "length",                                 \
+      "interface/slip, mean over each pad")                                                        \
+    X(SERIES_PAD_SLIPPING, "pads/slipping", ARRAY_FLOAT64, PADS, "length",                         \
+      "how much of each pad slips")
 
 // Fixed arrays over contact nodes, ordered by x. X(symbol, name, stored type, unit, description)
 #define RESULT_NODES(X)                                                                            \
@@ -61,7 +76,8 @@
     X(EVENTS_PEAK_RATE, "events/peak_slip_rate", "velocity", "largest slip rate")                  \
     X(EVENTS_FRONT_SPEED, "events/front_speed", "velocity", "mean speed of the front; nan: none")
 
-// Attributes of the file's root. Texts: title, units ("normalised" or "si"), version.
+// Attributes of the file's root. Texts: title, units ("normalised" or "si"), version, pads (the
+// contact curves' names, by number, a line each).
 // X(symbol, name, unit, description)
 #define RESULT_NUMBERS(X)                                                                          \
     X(NUMBER_LENGTH, "length", "length", "L, extent of the block along x")                         \
@@ -78,7 +94,7 @@
     X(NUMBER_L_C, "critical_length", "length", "l_c from the dynamics; absent until known")
 
 typedef enum ResultSeries {
-#define X(symbol, name, type, per_node, unit, description) symbol,
+#define X(symbol, name, type, columns, unit, description) symbol,
     RESULT_SERIES(X) RESULT_SERIES_COUNT
 #undef X
 } ResultSeries;
@@ -105,13 +121,15 @@ const char *result_series_name(ResultSeries series);
 const char *result_nodes_name(ResultNodes nodes);
 const char *result_table_name(ResultTable table);
 const char *result_number_name(ResultNumber number);
+ResultColumns result_series_columns(ResultSeries series);
 bool result_series_is_per_node(ResultSeries series);
 void result_file_describe(FILE *out);   // all of the above as Markdown, for the README
 
 // Writing: creates RESULT/history.h5(.part) with every series of the table, empty, and the fixed
-// arrays. `nodes[k]`: [contact_count] for each ResultNodes.
+// arrays. `nodes[k]`: [contact_count] for each ResultNodes; nodes[NODES_PAD] says how many pads.
 typedef struct ResultHead {
     const char *title, *units, *version;
+    const char *pads;   // NULL: without names
     double numbers[RESULT_NUMBERS_COUNT];   // NaN: not known yet, not written
     int32_t contact_count;
     const double *nodes[RESULT_NODES_COUNT];

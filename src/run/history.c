@@ -13,12 +13,18 @@ bool history_create(const char *folder, ResultHead *head, const Interface *inter
                     const FrictionLaw *law, History *history, Error *err)
 {
     int32_t count = interface->contact_count;
-    *history = (History){.law = law, .flushed_at = clock_seconds()};
+    *history =
+        (History){.law = law, .flushed_at = clock_seconds(), .pad_count = interface->pad_count};
     history->row = NEW_ARRAY(double, count, err);
     history->pad = NEW_ARRAY(double, count, err);
     history->slip_origin = NEW_ARRAY(double, count, err);
+    history->pad_row = NEW_ARRAY(double, interface->pad_count, err);
+    history->pad_length = NEW_ARRAY(double, interface->pad_count, err);
     if (!error_is_clean(err)) return false;
-    for (int32_t i = 0; i < count; i++) history->pad[i] = interface->pad[i];
+    for (int32_t i = 0; i < count; i++) {
+        history->pad[i] = interface->pad[i];
+        history->pad_length[interface->pad[i]] += interface->weight[i];
+    }
     head->contact_count = count;
     head->nodes[NODES_X] = interface->x;
     head->nodes[NODES_WEIGHT] = interface->weight;
@@ -31,6 +37,8 @@ void history_destroy(History *history)
 {
     memory_free(history->row);
     memory_free(history->pad);
+    memory_free(history->pad_row);
+    memory_free(history->pad_length);
     memory_free(history->slip_origin);
     array_file_abandon(history->file);
     *history = (History){0};
@@ -93,6 +101,51 @@ static double node_value(const History *history, const Observation *seen, Result
     }
 }
 
+// Sums over the nodes of each pad, into pad_row.
+static void sum_pads(History *history, const Observation *seen, ResultSeries series)
+{
+    const Interface *interface = seen->interface;
+    double *row = history->pad_row;
+    for (int32_t p = 0; p < history->pad_count; p++) row[p] = 0;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        int32_t p = interface->pad[i];
+        double weight = interface->weight[i];
+        switch (series) {
+        case SERIES_PAD_NORMAL:
+            row[p] += weight * node_value(history, seen, SERIES_PRESSURE, i);
+            break;
+        case SERIES_PAD_SHEAR:
+            row[p] += weight * node_value(history, seen, SERIES_SHEAR, i);
+            break;
+        case SERIES_PAD_SLIP:
+            row[p] += weight / history->pad_length[p] * node_value(history, seen, SERIES_SLIP, i);
+            break;
+        default:
+            if (status_slips(seen->state->status[i])) row[p] += weight;
+        }
+    }
+}
+
+// One series of one step.
+static bool append(History *history, const Observation *seen, ResultSeries series, Error *err)
+{
+    const double *row = history->row;
+    switch (result_series_columns(series)) {
+    case COLUMNS_ONE:
+        history->row[0] = series_value(seen, series);
+        break;
+    case COLUMNS_NODES:
+        for (int32_t i = 0; i < seen->interface->contact_count; i++)
+            history->row[i] = node_value(history, seen, series, i);
+        break;
+    case COLUMNS_PADS:
+        sum_pads(history, seen, series);
+        row = history->pad_row;
+        break;
+    }
+    return array_file_append(history->file, result_series_name(series), row, 1, err);
+}
+
 bool history_record(void *self, const Observation *seen, Error *err)
 {
     History *history = self;
@@ -103,13 +156,8 @@ bool history_record(void *self, const Observation *seen, Error *err)
             history->slip_origin[i] =
                 seen->state->displacement[seen->system->interface_dofs[interface_tangent(i)]];
     }
-    for (ResultSeries series = 0; series < RESULT_SERIES_COUNT; series++) {
-        bool per_node = result_series_is_per_node(series);
-        for (int32_t i = 0; i < (per_node ? count : 1); i++)
-            history->row[i] = per_node ? node_value(history, seen, series, i)
-                                       : series_value(seen, series);
-        TRY(array_file_append(history->file, result_series_name(series), history->row, 1, err));
-    }
+    for (ResultSeries series = 0; series < RESULT_SERIES_COUNT; series++)
+        TRY(append(history, seen, series, err));
     history->rows++;
     double now = clock_seconds();
     history->seconds += now - started;

@@ -11,10 +11,13 @@
 typedef struct History {
     ArrayFile *file;   // NULL: no history is kept; owned
     int64_t rows;   // steps recorded
-    double seconds;             // wall time spent
+    double seconds;   // wall time spent
     double flushed_at;   // wall time of the last flush, s
     double *row;   // [contact_count] work; owned
     double *pad;   // [contact_count] the nodes' pads as stored; owned
+    int32_t pad_count;
+    double *pad_row;   // [pad_count] work; owned
+    double *pad_length;   // [pad_count] sum of the nodes' weights, length; owned
     double *slip_origin;   // [contact_count] u_x when the rod started, length; owned
     const FrictionLaw *law;   // not owned
 } History;

@@ -2,8 +2,21 @@
 #include "run/output.h"
 
 #include "base/clock.h"
+#include "base/memory.h"
 
 #include <math.h>
+#include <stdio.h>
+
+// A name a line; freed by the caller. NULL: without names, or memory is short.
+static char *join_pad_names(const Interface *interface, Error *err)
+{
+    if (!interface->pad_name) return NULL;
+    char *text = memory_array((int64_t)interface->pad_count * GROUP_NAME_SIZE + 1, 1, err);
+    for (int32_t p = 0, used = 0; text && p < interface->pad_count; p++)
+        used += snprintf(text + used, GROUP_NAME_SIZE + 1, "%s%s", p > 0 ? "\n" : "",
+                         interface->pad_name[p]);
+    return text;
+}
 
 bool output_open_history(Simulation *simulation, Error *err)
 {
@@ -24,10 +37,14 @@ bool output_open_history(Simulation *simulation, Error *err)
                                    [NUMBER_C_RAYLEIGH] = speeds.rayleigh,
                                    [NUMBER_MU_M] = NAN,
                                    [NUMBER_L_C] = NAN}};
+    char *pads = join_pad_names(&simulation->interface, err);
+    head.pads = pads;
+    TRY(error_is_clean(err));
     TRY(history_create(simulation->folder, &head, &simulation->interface, &simulation->law,
                        &simulation->history, err));
     recorders_add(&simulation->recorders, &simulation->history, history_record);
 cleanup:
+    memory_free(pads);
     return error_is_clean(err);
 }
 

@@ -112,6 +112,7 @@ static void write_results(JsonWriter *json, const RunReport *report)
         json_end(json);
     }
     json_end(json);
+    pads_write_json(report->pads, json);
     write_events(json, report->events);
     json_end(json);
 }

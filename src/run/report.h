@@ -5,6 +5,7 @@
 #define AMONTONS_RUN_REPORT_H
 
 #include "amontons.h"
+#include "run/pads.h"
 #include "run/peaks.h"
 #include "run/scene.h"
 
@@ -36,9 +37,10 @@ typedef struct RunReport {
     const RunModel *model;
     const RunErrors *errors;
     const Peaks *peaks;
+    const Pads *pads;
     const PeaksSummary *summary;
     const Events *events;
-    const char *cache_note;         // empty: nothing to say
+    const char *cache_note;   // empty: nothing to say
 } RunReport;
 
 bool report_write(const char *folder, const RunReport *report, Error *err);

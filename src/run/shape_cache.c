@@ -15,7 +15,7 @@
 enum { MESH_BYTES_MAX = 1 << 28, PATH_SIZE = PATH_MAX + 64, COUNTS = 8 };
 
 // Stands in every key: a new meaning of the arrays below needs a new number.
-static const char FORMAT[] = "shape 2 " AMONTONS_VERSION;
+static const char FORMAT[] = "shape 3 " AMONTONS_VERSION;
 
 void shape_destroy(Shape *shape)
 {
@@ -141,6 +141,21 @@ static bool read_numbers(const CacheFile *file, const char *name, int64_t count,
     return *out != NULL;
 }
 
+// Names travel as the bytes of doubles, filled up with zeros.
+enum { NAME_NUMBERS = GROUP_NAME_SIZE / sizeof(double) };
+
+static bool read_names(const CacheFile *file, Interface *interface, Error *err)
+{
+    int64_t count = interface->pad_count;
+    const double *values = cache_file_array(file, "pad_name", count * NAME_NUMBERS);
+    if (!values) return false;
+    interface->pad_name = memory_array(count, GROUP_NAME_SIZE, err);
+    if (!interface->pad_name) return false;
+    memcpy(interface->pad_name, values, (size_t)count * GROUP_NAME_SIZE);
+    for (int64_t k = 0; k < count; k++) interface->pad_name[k][GROUP_NAME_SIZE - 1] = 0;
+    return true;
+}
+
 // false without an error: an array is missing or of another length.
 static bool read_shape(const CacheFile *file, Shape *shape, Error *err)
 {
@@ -165,6 +180,7 @@ static bool read_shape(const CacheFile *file, Shape *shape, Error *err)
            read_numbers(file, "x", interface->contact_count, &interface->x, err) &&
            read_numbers(file, "weight", interface->contact_count, &interface->weight, err) &&
            read_indices(file, "pad", interface->contact_count, &interface->pad, err) &&
+           read_names(file, interface, err) &&
            read_indices(file, "rod_node", interface->rod_count, &interface->rod_node, err) &&
            read_numbers(file, "rod_z", interface->rod_count, &interface->rod_z, err) &&
            read_indices(file, "dofs", interface->count, &interface->dofs, err) &&
@@ -229,6 +245,17 @@ static bool list_indices(Listing *listing, const char *name, const int32_t *valu
     return true;
 }
 
+static bool list_names(Listing *listing, const Interface *interface, Error *err)
+{
+    int64_t count = (int64_t)interface->pad_count * NAME_NUMBERS;
+    double *copy = NEW_ARRAY(double, count, err);
+    if (!copy) return false;
+    if (interface->pad_name) memcpy(copy, interface->pad_name, (size_t)count * sizeof(double));
+    listing->owned[listing->count] = copy;
+    list_numbers(listing, "pad_name", copy, count);
+    return true;
+}
+
 static bool store_shape(const char *key, const Shape *shape, Error *err)
 {
     char path[PATH_SIZE];
@@ -245,6 +272,7 @@ static bool store_shape(const char *key, const Shape *shape, Error *err)
     list_numbers(&listing, "x", interface->x, interface->contact_count);
     list_numbers(&listing, "weight", interface->weight, interface->contact_count);
     TRY(list_indices(&listing, "pad", interface->pad, interface->contact_count, err));
+    TRY(list_names(&listing, interface, err));
     TRY(list_indices(&listing, "rod_node", interface->rod_node, interface->rod_count, err));
     list_numbers(&listing, "rod_z", interface->rod_z, interface->rod_count);
     TRY(list_indices(&listing, "dofs", interface->dofs, interface->count, err));

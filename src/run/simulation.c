@@ -54,6 +54,8 @@ static bool open_recorders(Simulation *simulation, Error *err)
     recorders_add(&simulation->recorders, &simulation->events, events_record);
     TRY(peaks_create(&simulation->events, scene->time.periodic_tolerance, &simulation->peaks, err));
     recorders_add(&simulation->recorders, &simulation->peaks, peaks_record);
+    TRY(pads_create(&simulation->interface, &simulation->events, &simulation->pads, err));
+    recorders_add(&simulation->recorders, &simulation->pads, pads_record);
     if (writes_results(simulation) && scene->output.history)
         TRY(output_open_history(simulation, err));
     if (writes_results(simulation) && scene->output.fields)
@@ -194,6 +196,7 @@ static bool finish_run(Simulation *simulation, const Error *failure, RunSummary 
                             .model = &simulation->model,
                             .errors = &simulation->errors,
                             .peaks = &simulation->peaks,
+                            .pads = &simulation->pads,
                             .summary = &peaks,
                             .events = &simulation->events,
                             .cache_note = simulation->cache_note};
@@ -214,6 +217,7 @@ void amontons_simulation_destroy(Simulation *simulation)
     if (!simulation) return;
     fields_destroy(&simulation->fields);
     history_destroy(&simulation->history);
+    pads_destroy(&simulation->pads);
     peaks_destroy(&simulation->peaks);
     events_destroy(&simulation->events);
     explicit_reference_destroy(&simulation->explicit_reference);

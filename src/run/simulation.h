@@ -7,6 +7,7 @@
 #include "amontons.h"
 #include "run/fields.h"
 #include "run/history.h"
+#include "run/pads.h"
 #include "run/recorder.h"
 #include "run/report.h"
 #include "run/scene.h"
@@ -23,7 +24,7 @@ struct Simulation {
     Bulk bulk;
     Interface interface;
     char cache_note[SHAPE_NOTE_SIZE];   // why a cached basis was not used or kept; empty: nothing
-    ReducedBulk reduced;           // count 0: the full mesh is stepped
+    ReducedBulk reduced;   // count 0: the full mesh is stepped
     BulkOperator system;
     Rod rod;
     StepControl control;
@@ -33,6 +34,7 @@ struct Simulation {
     Observation seen;   // the last accepted step
     Events events;
     Peaks peaks;
+    Pads pads;
     History history;
     Fields fields;
     Recorders recorders;

@@ -125,6 +125,8 @@ static void test_pads(void **state)
         assert_near("weight", interface.weight[i], 0.125, 1e-15);
         assert_int_equal(interface.pad[i], i / 2);
     }
+    assert_string_equal(interface.pad_name[0], "contact_front");
+    assert_string_equal(interface.pad_name[1], "contact_1");
     interface_destroy(&interface);
     const char names[][GROUP_NAME_SIZE] = {"contact_1"};   // asked by name: one of them
     def.contact_names = names;

@@ -31,6 +31,23 @@ static void show(int32_t k)
     hand.seen.energy_imbalance = 1e-9 * k;
 }
 
+// Sums of what `wanted` says of the nodes: pad 0 is nodes 0 to 2, pad 1 nodes 3 and 4.
+static double wanted(ResultSeries series, int32_t k, int32_t i);
+static double wanted_of_pad(ResultSeries series, int32_t k, int32_t p)
+{
+    int32_t from = p == 0 ? 0 : 3, to = p == 0 ? 3 : SEEN_NODES;
+    double sum = 0, length = 0;
+    for (int32_t i = from; i < to; i++) {
+        double weight = hand.weight[i];
+        length += weight;
+        if (series == SERIES_PAD_NORMAL) sum += weight * wanted(SERIES_PRESSURE, k, i);
+        if (series == SERIES_PAD_SHEAR) sum += weight * wanted(SERIES_SHEAR, k, i);
+        if (series == SERIES_PAD_SLIP) sum += weight * wanted(SERIES_SLIP, k, i);
+        if (series == SERIES_PAD_SLIPPING && wanted(SERIES_STATUS, k, i) >= 2) sum += weight;
+    }
+    return series == SERIES_PAD_SLIP ? sum / length : sum;
+}
+
 static double wanted(ResultSeries series, int32_t k, int32_t i)
 {
     double rate = 0.1 * k - 0.25 * i;
@@ -71,6 +88,12 @@ static double wanted(ResultSeries series, int32_t k, int32_t i)
     }
 }
 
+static void two_pads(void)
+{
+    hand.pad[3] = hand.pad[4] = 1;
+    hand.interface.pad_count = 2;
+}
+
 static ResultHead head_of(const char *title)
 {
     ResultHead head = {.title = title, .units = "normalised", .version = "test"};
@@ -88,13 +111,14 @@ static void check_series(ArrayFile *file)
         int32_t width = 0;
         assert_true(result_file_read_series(file, series, &values, &rows, &width, &err));
         assert_int_equal(rows, STEPS);
-        assert_int_equal(width, result_series_is_per_node(series) ? SEEN_NODES : 1);
+        bool of_pads = result_series_columns(series) == COLUMNS_PADS;
+        assert_int_equal(width, of_pads ? 2 : result_series_is_per_node(series) ? SEEN_NODES : 1);
         for (int32_t k = 0; k < STEPS; k++) {
             show(k);
             for (int32_t i = 0; i < width; i++) {
-                double value = wanted(series, k, i);
+                double value = of_pads ? wanted_of_pad(series, k, i) : wanted(series, k, i);
                 assert_near(result_series_name(series), values[k * width + i], value,
-                            1e-6 * fabs(value));
+                            1e-6 * fabs(value) + 1e-12);
             }
         }
         memory_free(values);
@@ -125,8 +149,9 @@ static void test_written_and_read_back(void **state)
     place_make(place);
     int64_t live = memory_counters().live;
     hand_seen_init(&hand);
-    hand.pad[3] = hand.pad[4] = 1;
+    two_pads();
     ResultHead head = head_of("made up");
+    head.pads = "left\nright";
     History history;
     assert_true(history_create(place, &head, &hand.interface, &LAW, &history, &err));
     for (int32_t k = 0; k < STEPS; k++) {
@@ -180,6 +205,8 @@ static void test_written_and_read_back(void **state)
     char title[64];
     assert_true(result_file_text(file, "title", title, sizeof title, &err));
     assert_string_equal(title, "made up");
+    assert_true(result_file_text(file, "pads", title, sizeof title, &err));
+    assert_string_equal(title, "left\nright");
     assert_true(array_file_close(file, &err));
     place_remove(place);
 }
@@ -192,6 +219,7 @@ static void test_abandoned(void **state)
     char place[PLACE_SIZE];
     place_make(place);
     hand_seen_init(&hand);
+    two_pads();
     ResultHead head = head_of("given up");
     History history;
     assert_true(history_create(place, &head, &hand.interface, &LAW, &history, &err));
@@ -215,6 +243,7 @@ static void test_memory_faults(void **state)
     char place[PLACE_SIZE];
     place_make(place);
     hand_seen_init(&hand);
+    two_pads();
     show(1);
     int64_t live = memory_counters().live;
     bool done = false;
