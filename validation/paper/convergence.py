@@ -20,15 +20,20 @@ QUIET = ["output.figures=[]", "output.fields=none", "output.history=false"]
 
 
 def mesh(cells, **more):
-    return [f"mesh.set.{name}={value}" for name, value in dict(nx=cells, nz=cells, **more).items()]
+    settings = {"nx": cells, "nz": cells} | more
+    return [f"mesh.set.{name}={value}" for name, value in settings.items()]
 
 
 CASES = [(f"Q4 {n}x{n}, tolerance {tolerance}", mesh(n) + [f"time.tolerance={tolerance}"])
          for n in (20, 40, 80) for tolerance in ("1e-2", "1e-3", "1e-4")]
-CASES += [("T6 20x20 (41 contact nodes)", mesh(20, shape="triangle", order=2)),
-          ("T6 40x40 (81 contact nodes)", mesh(40, shape="triangle", order=2)),
-          ("Q4 40x40, full path", mesh(40) + ["reduction.use=never"]),
-          ("Q4 80x80, full path", mesh(80) + ["reduction.use=never"])]
+CASES += [(f"Q4 80x40, graded to the contact, tolerance {tolerance}",
+           mesh(80, nz=40, grade_z=4) + [f"time.tolerance={tolerance}"])
+          for tolerance in ("1e-3", "1e-4")]
+CASES += [(f"{name} {n}x{n} ({2 * n + 1} contact nodes), tolerance {tolerance}",
+           mesh(n, shape=shape, order=2) + [f"time.tolerance={tolerance}"])
+          for name, shape in (("T6", "triangle"), ("Q9", "quad")) for n in (20, 40)
+          for tolerance in ("1e-3", "1e-4")]
+CASES += [(f"Q4 {n}x{n}, full path", mesh(n) + ["reduction.use=never"]) for n in (40, 80)]
 
 
 def run(program, settings, until):
@@ -48,7 +53,7 @@ def run(program, settings, until):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", nargs="?", default=ROOT / "build/bin/amontons")
-    parser.add_argument("--until", default="0.0125", help="rod displacement U to run to")
+    parser.add_argument("--until", default="0.015", help="rod displacement U to run to")
     given = parser.parse_args()
     print("| case | mu_M | of peaks | spread | all peaks | steps | solve, s | total, s | MB | energy |")
     print("|---|---|---|---|---|---|---|---|---|---|")
