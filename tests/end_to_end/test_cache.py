@@ -1,0 +1,220 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The shape on disk: a second run gives the same bits without a mesh or a factorisation, and whatever
+stands in the cache, a run never fails for it."""
+import json
+import os
+import shutil
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
+BIN = Path(os.environ.get("AMONTONS_BIN", SOURCE / "build" / "bin"))
+MODULES = Path(os.environ.get("AMONTONS_MODULES", BIN))
+SCENE = SOURCE / "validation" / "paper" / "fig1.yaml"
+SHORT = ["mesh.set.nx=8", "mesh.set.nz=8", "time.until.U=0.0034", "output.figures=[]"]
+PLAIN = ["output.fields=none"]
+FIELDS = ["output.fields={every_U: 1e-3}"]
+
+
+class Cached(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="amontons-cached-"))
+        self.addCleanup(shutil.rmtree, self.folder)
+        self.cache = self.folder / "cache"
+        self.runs = 0
+
+    def run_scene(self, *more, scene=SCENE, cache=None, modules=MODULES, settings=SHORT):
+        """The folder of a run that went well, and its run.json."""
+        self.runs += 1
+        folder = self.folder / f"run-{self.runs}"
+        environment = dict(os.environ, AMONTONS_CACHE=str(self.cache if cache is None else cache),
+                           AMONTONS_MODULES=str(modules))
+        done = subprocess.run([BIN / "amontons", "run", scene, "-o", folder, "--quiet", "--set",
+                               *settings, *more], env=environment, capture_output=True, text=True,
+                              timeout=60)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        report = json.loads((folder / "run.json").read_text())
+        self.assertEqual(report["status"], "done")
+        return folder, report
+
+    def model(self, *settings, **where):
+        return self.run_scene(*settings, **where)[1]["model"]
+
+    def files(self):
+        return sorted(self.cache.glob("*")) if self.cache.is_dir() else []
+
+    def assert_same_history(self, one, other):
+        arrays = []
+        with h5py.File(one / "history.h5") as left, h5py.File(other / "history.h5") as right:
+            left.visititems(lambda name, item: arrays.append(name)
+                            if isinstance(item, h5py.Dataset) else None)
+            self.assertGreater(len(arrays), 10)
+            for name in arrays:
+                a, b = left[name][()], right[name][()]
+                self.assertEqual(np.asarray(a).tobytes(), np.asarray(b).tobytes(), name)
+
+    def assert_same_fields(self, one, other):
+        names = sorted(path.name for path in one.rglob("*.vt[up]"))
+        self.assertGreater(len(names), 4)
+        self.assertEqual(names, sorted(path.name for path in other.rglob("*.vt[up]")))
+        for path in one.rglob("*.vt[up]"):
+            self.assertEqual(path.read_bytes(), (other / path.relative_to(one)).read_bytes(), path)
+
+
+class SameBits(Cached):
+    def test_second_run(self):
+        none, uncached = self.run_scene(*PLAIN, cache="")
+        self.assertFalse(self.cache.exists())
+        first, made = self.run_scene(*PLAIN)
+        self.assertEqual([path.suffix for path in self.files()], [".modes", ".shape"])
+        second, read = self.run_scene(*PLAIN)
+        self.assertEqual([run["model"]["from_cache"] for run in (uncached, made, read)],
+                         [False, False, True])
+        self.assert_same_history(none, first)
+        self.assert_same_history(none, second)
+        for key in ("results", "errors", "rungs", "scene"):
+            self.assertEqual(read[key], made[key], key)
+        for key in made["model"].keys() - {"from_cache"}:
+            self.assertEqual(read["model"][key], made["model"][key], key)
+        self.assertEqual(read["timing_s"]["mesh"], 0)
+        self.assertTrue(all(run["model"]["cache_note"] is None for run in (uncached, made, read)))
+
+    def test_fields(self):
+        without, _ = self.run_scene(*FIELDS, cache="")
+        self.run_scene(*PLAIN)
+        cached, report = self.run_scene(*FIELDS)
+        self.assertTrue(report["model"]["from_cache"])
+        self.assert_same_fields(without, cached)
+        self.assert_same_history(without, cached)
+
+    def test_no_gmsh_and_no_other_module(self):
+        """Without the modules' files a shape that is new fails, and one in the cache does not."""
+        bare = self.folder / "modules"
+        bare.mkdir()
+        done = subprocess.run([BIN / "amontons", "run", SCENE, "-o", self.folder / "fails", "--set",
+                               *SHORT, *PLAIN], capture_output=True, text=True, timeout=60,
+                              env=dict(os.environ, AMONTONS_CACHE=str(self.cache),
+                                       AMONTONS_MODULES=str(bare)))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("amontons_gmsh", done.stderr)
+        self.run_scene(*PLAIN)
+        self.assertTrue(self.model(*PLAIN, modules=bare)["from_cache"])
+
+    def test_one_shape_for_many_scenes(self):
+        self.run_scene(*PLAIN)
+        for setting in ("load.pressure=0.004", "rod.velocity=2e-5", "friction.mu_static=0.4",
+                        "friction.law=exponential-weakening", "start.friction=off",
+                        "rod.kind=bonded", "material.density=1.2"):
+            self.assertTrue(self.model(*PLAIN, setting)["from_cache"], setting)
+        self.assertEqual(len(self.files()), 2)
+        self.assertFalse(self.model(*PLAIN, "mesh.set.nz=12")["from_cache"])
+        self.assertFalse(self.model(*PLAIN, "reduction.tolerance=1e-3")["from_cache"])
+        self.assertEqual(len(self.files()), 6)
+
+    def test_what_has_no_shape(self):
+        for setting in ("reduction.cache=false", "reduction.use=never", "start.velocity_x=1e-9"):
+            self.assertFalse(self.model(*PLAIN, setting)["from_cache"], setting)
+            self.assertEqual(self.files(), [], setting)
+
+    def test_msh_and_include(self):
+        """A mesh by its content, text or not; a .geo that draws on others not at all."""
+        text = SCENE.read_text()
+        scene = self.folder / "msh.yaml"
+        scene.write_text(text.replace(text[text.index("  file:"):text.index("material:")],
+                                      "  file: block.msh\n"))
+        for binary in ([], ["-bin"]):
+            subprocess.run(["gmsh", "-2", SOURCE / "meshes" / "block.geo", "-setnumber", "nx", "8",
+                            "-setnumber", "nz", "8", *binary, "-o", self.folder / "block.msh"],
+                           check=True, capture_output=True)
+            for again in (False, True):
+                model = self.model(*PLAIN, scene=scene, settings=SHORT[2:])
+                self.assertEqual((model["from_cache"], model["elements"]), (again, 64))
+        (self.folder / "all.geo").write_text(f'Include "{SOURCE}/meshes/block.geo";\n')
+        scene = self.folder / "include.yaml"
+        scene.write_text(SCENE.read_text().replace("../../meshes/block.geo", "all.geo"))
+        count = len(self.files())
+        for _ in range(2):
+            self.assertFalse(self.model(*PLAIN, scene=scene)["from_cache"])
+        self.assertEqual(len(self.files()), count)
+
+
+class NotTrusted(Cached):
+    def spoil(self, ending, change):
+        path, = self.cache.glob("*" + ending)
+        path.write_bytes(change(path.read_bytes()))
+
+    def assert_rebuilt(self, reason, *settings):
+        first = self.folder / "run-1"
+        folder, report = self.run_scene(*settings)
+        self.assertFalse(report["model"]["from_cache"])
+        self.assertIn(reason, report["model"]["cache_note"])
+        self.assert_same_history(first, folder)
+        again = self.model(*settings)   # and put right
+        self.assertTrue(again["from_cache"])
+        self.assertIsNone(again["cache_note"])
+
+    def test_spoilt_files(self):
+        self.run_scene(*PLAIN)
+        half = lambda data: data[:len(data) // 2]
+        flip = lambda data: data[:5000] + bytes([data[5000] ^ 1]) + data[5001:]
+        older = lambda data: data.replace(b"amontons-cache 1", b"amontons-cache 0", 1)
+        for change, reason in ((half, "cut off"), (flip, "checksum"), (older, "version"),
+                               (lambda data: b"", "version"), (lambda data: data + b"x", "checksum")):
+            self.spoil(".shape", change)
+            self.assert_rebuilt(reason, *PLAIN)
+
+    def test_spoilt_modes(self):
+        self.run_scene(*FIELDS)
+        self.spoil(".modes", lambda data: data[:-1])
+        self.assertTrue(self.model(*PLAIN)["from_cache"])   # not asked for
+        self.assert_rebuilt("checksum", *FIELDS)
+        path, = self.cache.glob("*.modes")
+        path.unlink()
+        folder, report = self.run_scene(*FIELDS)
+        self.assertFalse(report["model"]["from_cache"])
+        self.assert_same_fields(self.folder / "run-1", folder)
+
+    def test_nowhere_to_write(self):
+        (self.folder / "file").write_text("")
+        model = self.model(*PLAIN, cache=self.folder / "file" / "cache")
+        self.assertFalse(model["from_cache"])
+        self.assertIn("is not kept for the next run", model["cache_note"])
+        if os.path.isdir("/proc/self"):   # a folder in which not even root makes files
+            self.assertIn("is not kept", self.model(*PLAIN, cache="/proc/self")["cache_note"])
+
+    def test_full_disk(self):
+        """A limit on file sizes stands in for a disk that is full: results fit, the basis does not."""
+        folder = self.folder / "small"
+        done = subprocess.run(
+            ["bash", "-c", "trap '' XFSZ; ulimit -f 100; exec \"$@\"", "-", BIN / "amontons", "run",
+             SCENE, "-o", folder, "--quiet", "--set", *SHORT, *PLAIN, "output.history=false"],
+            env=dict(os.environ, AMONTONS_CACHE=str(self.cache)), capture_output=True, text=True,
+            timeout=60)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        note = json.loads((folder / "run.json").read_text())["model"]["cache_note"]
+        self.assertIn("is not kept for the next run", note)
+        self.assertIn("File too large", note)
+        self.assertEqual(self.files(), [])
+
+    def test_side_by_side(self):
+        """Four first runs at once: all go well, one shape is left."""
+        environment = dict(os.environ, AMONTONS_CACHE=str(self.cache))
+        runs = [subprocess.Popen([BIN / "amontons", "run", SCENE, "-o", self.folder / f"side-{k}",
+                                  "--quiet", "--set", *SHORT, *PLAIN], env=environment)
+                for k in range(4)]
+        self.assertEqual([run.wait(60) for run in runs], [0] * 4)
+        self.assertEqual([path.suffix for path in self.files()], [".modes", ".shape"])
+        self.assertTrue(self.model(*PLAIN)["from_cache"])
+        for k in range(1, 4):
+            self.assert_same_history(self.folder / "side-0", self.folder / f"side-{k}")
+            report = json.loads((self.folder / f"side-{k}" / "run.json").read_text())
+            self.assertIsNone(report["model"]["cache_note"])
+
+
+if __name__ == "__main__":
+    unittest.main()
