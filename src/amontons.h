@@ -200,4 +200,6 @@ bool amontons_info(const char *path, FILE *out, Error *err);
 // The index of the one of `names` that a mistyped `word` probably means; -1: none is near.
 int32_t amontons_nearest_name(const char *word, const char *const *names, int32_t count);
 
+#include "amontons_model1d.h"   // the paper's 1D effective model
+
 #endif

@@ -128,23 +128,33 @@ bool dense_eigen_general(double *a, int32_t n, double *re, double *im, double *v
     return info == 0;
 }
 
+// What is left of c where BLAS would have to add nothing: it takes no matrix without rows.
+static void scale_by(double keep, int64_t count, double *c)
+{
+    for (int64_t k = 0; k < count; k++) c[k] = keep == 0 ? 0 : keep * c[k];
+}
+
 void dense_multiply_transposed(DenseView a, DenseView b, double factor, double keep, double *c)
 {
     if (a.columns == 0 || b.columns == 0) return;
+    if (a.rows == 0) {
+        scale_by(keep, (int64_t)a.columns * b.columns, c);
+        return;
+    }
     cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, a.columns, b.columns, a.rows, factor,
                 a.values, a.rows, b.values, b.rows, keep, c, a.columns);
 }
 
 void dense_multiply(DenseView a, DenseView b, double factor, double keep, double *c)
 {
-    if (a.columns == 0 || b.columns == 0) return;
+    if (a.columns == 0 || b.columns == 0 || a.rows == 0) return;
     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, a.rows, b.columns, a.columns, factor,
                 a.values, a.rows, b.values, b.rows, keep, c, a.rows);
 }
 
 void dense_apply(DenseView a, const double *x, double factor, double keep, double *y)
 {
-    if (a.columns == 0) return;
+    if (a.columns == 0 || a.rows == 0) return;
     cblas_dgemv(CblasColMajor, CblasNoTrans, a.rows, a.columns, factor, a.values, a.rows, x, 1,
                 keep, y, 1);
 }
@@ -152,6 +162,10 @@ void dense_apply(DenseView a, const double *x, double factor, double keep, doubl
 void dense_apply_transposed(DenseView a, const double *x, double factor, double keep, double *y)
 {
     if (a.columns == 0) return;
+    if (a.rows == 0) {
+        scale_by(keep, a.columns, y);
+        return;
+    }
     cblas_dgemv(CblasColMajor, CblasTrans, a.rows, a.columns, factor, a.values, a.rows, x, 1, keep,
                 y, 1);
 }

@@ -16,7 +16,8 @@ static const char *const OWN_FILES[] = {
     "run.json",       "run.json.part",       "history.h5",   "history.h5.part",
     "fields.pvd",     "fields.pvd.part",     "static.json",  "static.json.part",
     "static.h5",      "static.h5.part",      "static.vtu",   "static.vtu.part",
-    "stability.json", "stability.json.part", "stability.h5", "stability.h5.part"};
+    "stability.json", "stability.json.part", "stability.h5", "stability.h5.part",
+    "model1d.json",   "model1d.json.part",   "model1d.h5",   "model1d.h5.part"};
 static const char *const OWN_FOLDERS[] = {"fields", "figures"};
 static const char *const OWN_ENDINGS[] = {".vtu", ".vtp", ".png", ".part"};
 

@@ -23,7 +23,7 @@ def allowed(folder, include):
     if include in ("amontons.h", "run/scene.h", "render/render.h") and folder in LAYERS[:5]:
         return False
     if folder == "":
-        return include.startswith("base/")
+        return include.startswith(("base/", "amontons"))   # the public header and its parts
     if folder == "render":
         return include.startswith(("base/", "render/")) or include == "io/result_file.h"
     if folder == "cli":

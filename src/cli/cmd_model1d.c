@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cli/commands.h"
+#include "cli/progress.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    OVERRIDES_MAX = 200,
+    OPTION_OVERWRITE = 1000,
+    OPTION_SET,
+    OPTION_ALPHA,
+    OPTION_POINTS,
+    OPTION_THEORY
+};
+
+typedef struct Model1dWords {
+    const char *scene, *folder, *alpha, *points;
+    const char *overrides[OVERRIDES_MAX];
+    int32_t override_count;
+    bool overwrite, quiet, theory_only, too_many_scenes, too_many_overrides;
+} Model1dWords;
+
+// The table goes to standard output, the progress of the simulation to standard error.
+typedef struct Table {
+    Progress progress;
+    bool quiet, begun;
+} Table;
+
+static volatile sig_atomic_t stop_wanted = 0;   // a signal can reach nothing else
+
+static void want_stop(int signal_number)
+{
+    (void)signal_number;
+    stop_wanted = 1;
+}
+
+static error_t take_setting(char *word, Model1dWords *words)
+{
+    if (words->override_count == OVERRIDES_MAX)
+        words->too_many_overrides = true;
+    else
+        words->overrides[words->override_count++] = word;
+    return 0;
+}
+
+static error_t take_option(int key, char *word, struct argp_state *state)
+{
+    Model1dWords *words = state->input;
+    switch (key) {
+    case 'o':
+        words->folder = word;
+        return 0;
+    case 'q':
+        words->quiet = true;
+        return 0;
+    case OPTION_OVERWRITE:
+        words->overwrite = true;
+        return 0;
+    case OPTION_ALPHA:
+        words->alpha = word;
+        return 0;
+    case OPTION_POINTS:
+        words->points = word;
+        return 0;
+    case OPTION_THEORY:
+        words->theory_only = true;
+        return 0;
+    case OPTION_SET:
+        return take_setting(word, words);
+    case ARGP_KEY_ARG:
+        if (words->override_count && strchr(word, '=')) return take_setting(word, words);
+        if (words->scene) words->too_many_scenes = true;
+        words->scene = word;
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static void read_options(int argc, char **argv, Model1dWords *words)
+{
+    static const struct argp_option known[] = {
+        {"output", 'o', "DIR", 0,
+         "Leave model1d.json, model1d.h5 and the simulation's history.h5 in DIR (default: no "
+         "files)",
+         0},
+        {"set", OPTION_SET, "KEY=VALUE", 0,
+         "Use this value in the place of the scene's; may be given several times", 0},
+        {"theory-only", OPTION_THEORY, NULL, 0, "Formulas only, no simulation", 0},
+        {"alpha", OPTION_ALPHA, "NUMBER", 0,
+         "The part of H over which the shear stress varies (default: the paper's 0.2)", 0},
+        {"points", OPTION_POINTS, "N", 0, "Nodes of the simulated line (default: 81)", 0},
+        {"overwrite", OPTION_OVERWRITE, NULL, 0, "Replace an earlier result in DIR", 0},
+        {"quiet", 'q', NULL, 0, "Print nothing but errors", 0},
+        {0}};
+    static const struct argp argp = {
+        .options = known,
+        .parser = take_option,
+        .args_doc = "SCENE",
+        .doc =
+            "The paper's effective model in one dimension, with block, material, friction and rod "
+            "of the scene file SCENE: a line whose pressure grows as 2 P x/L. Prints, for each "
+            "position l of the quasi-static front, the adiabatic solution and how disturbances of "
+            "it grow, beside what a simulation of the line shows when its rod has gone as far."
+            "\vThe simulation starts where sliding has just stopped (U = 0) and ends with the "
+            "scene's time.until. Its steps are those of `amontons run`, and `amontons render` "
+            "draws them. Example:\n\n"
+            "  amontons model1d validation/paper/fig1.yaml --set load.pressure=0.03 -o line"};
+    options_parse(&argp, argc, argv, "amontons model1d", words);
+}
+
+static int check_words(const Model1dWords *words, Model1dOptions *options)
+{
+    char *end = NULL;
+    if (!words->scene)
+        return report_misuse("model1d needs a scene, as in `amontons model1d "
+                             "validation/paper/fig1.yaml`");
+    if (words->too_many_scenes) return report_misuse("model1d takes one scene");
+    if (words->too_many_overrides) return report_misuse("more than 200 settings by --set");
+    if (words->folder && !*words->folder) return report_misuse("-o: the folder has no name");
+    if (words->alpha) {
+        options->alpha = strtod(words->alpha, &end);
+        if (*words->alpha == 0 || *end || !(options->alpha > 0 && options->alpha <= 10))
+            return report_misuse("--alpha %s: a number above 0 up to 10 is allowed", words->alpha);
+    }
+    if (words->points) {
+        long count = strtol(words->points, &end, 10);
+        if (*words->points == 0 || *end || count < 3 || count > 2000)
+            return report_misuse("--points %s: a whole number from 3 to 2000 is allowed",
+                                 words->points);
+        if (words->theory_only) return report_misuse("--points has no meaning with --theory-only");
+        options->nodes = (int32_t)count;
+    }
+    return 0;
+}
+
+static void show_step(const StepView *view, void *context)
+{
+    Table *table = context;
+    progress_step(view, &table->progress);
+}
+
+static void print_number(double value, int width, int digits)
+{
+    if (isnan(value))
+        printf(" %*s", width, "-");
+    else
+        printf(" %*.*g", width, digits, value);
+}
+
+static void show_point(const Model1dPoint *point, void *context)
+{
+    Table *table = context;
+    if (table->quiet) return;
+    if (!table->begun) {
+        progress_end(&table->progress);
+        printf("%10s %12s %9s %9s %11s %11s %11s %11s %8s %9s %9s\n", "l", "U", "mu", "mu line",
+               "Re omega_0", "Im omega_0", "Re lambda", "Im lambda", "growing", "l seen",
+               "mu seen");
+        table->begun = true;
+    }
+    printf("%10.5g %12.6g %9.5f %9.5f %11.4g %11.4g %11.4g %11.4g %8d", point->front, point->U,
+           point->mu, point->mu_line, point->omega_re, point->omega_im, point->rate_re,
+           point->rate_im, point->growing);
+    print_number(point->front_seen, 9, 5);
+    print_number(point->mu_seen, 9, 5);
+    printf("\n");
+}
+
+static void print_answer(const char *name, double value, const char *sentence)
+{
+    if (isnan(value))
+        printf("  %-24s %-9s %s\n", name, "none", sentence);
+    else
+        printf("  %-24s %-9.4f %s\n", name, value, sentence);
+}
+
+static void print_theory(const Model1dSummary *summary)
+{
+    printf("\nTheory, as in the paper (off-diagonal terms neglected)\n");
+    print_answer("l_sc/L", summary->l_sc, "Re omega_0 > 0: oscillations grow");
+    print_answer("l_c/L", summary->l_c,
+                 summary->l_c > 1 ? "omega_0 real and > 0: not on this line, slow slip crosses it"
+                                  : "omega_0 real and > 0: slow slip turns into sliding");
+    print_answer("l_c/L, l << L", summary->l_c_small, "the law (L P)^(-1/3)");
+    print_answer("mu_M", summary->mu_c, "mu_K + (mu_S - mu_K) l_c/L");
+    printf("Theory, all terms kept\n");
+    print_answer("l_sc/L", summary->l_sc_full, "oscillations grow");
+    print_answer("l_c/L", summary->l_c_full, "slow slip runs away, however slow the rod");
+    print_answer("l_c/L at V", summary->l_rod_full,
+                 "slip at V grows to v_c within half an oscillation");
+    print_answer("mu_M, V -> 0", summary->mu_c_full, "mu at l_c; mu_S where there is none");
+    print_answer("mu_M at V", summary->mu_rod_full, "mu at l_c at V");
+}
+
+static void print_steps(const Model1dSummary *summary)
+{
+    printf("Simulation\n");
+    print_answer("first l_sc/L", summary->first_l_sc, "the certificate is lost");
+    print_answer("first l_c/L", summary->first_l_c, "sliding begins; from tau = mu_K p, as theory");
+    print_answer("first mu_M", summary->first_mu, "its peak");
+    print_answer("periodic l_c/L", summary->l_c_seen, "later peaks start from what sliding left");
+    print_answer("periodic mu_M", summary->mu_M, "");
+    print_answer("spread of mu_M", summary->mu_M_spread, "largest less smallest that counts");
+    printf("  %-24s %d, of which %d count, period %d; %d bounded rapid events\n", "peaks",
+           summary->peaks, summary->peaks_counted, summary->period, summary->bounded);
+    printf("  %-24s %-9.1e before anything was rapid\n", "mu against theory",
+           summary->quasi_static_error);
+    printf("  %-24s %-9.1e complementarity %.1e\n", "energy ledger", summary->energy_error,
+           summary->contact_error);
+    printf("  %-24s %lld accepted, %lld rejected\n", "steps", (long long)summary->accepted,
+           (long long)summary->rejected);
+}
+
+static void print_answers(const Model1dSummary *summary)
+{
+    print_theory(summary);
+    if (summary->simulated) print_steps(summary);
+    printf("  %-24s %.1f s\n", "time taken", summary->seconds);
+    if (*summary->folder)
+        printf("Results in %s: model1d.json, model1d.h5%s\n", summary->folder,
+               summary->simulated ? " and the steps in history.h5" : "");
+}
+
+int command_model1d(int argc, char **argv)
+{
+    Model1dWords words = {0};
+    Model1dOptions options = amontons_model1d_options();
+    Model1dSummary summary;
+    Error err = {0};
+    Scene *scene = NULL;
+    read_options(argc, argv, &words);
+    int status = check_words(&words, &options);
+    if (status != 0) return status;
+    if (!amontons_scene_read(words.scene, words.overrides, words.override_count, &scene, &err))
+        return report_error(&err);
+    Table table = {.progress = progress_begin(words.quiet), .quiet = words.quiet};
+    struct sigaction action = {.sa_handler = want_stop, .sa_flags = (int)SA_RESETHAND};
+    sigaction(SIGINT, &action, NULL);
+    options.folder = words.folder;
+    options.overwrite = words.overwrite;
+    options.theory_only = words.theory_only;
+    options.on_step = show_step;
+    options.on_point = show_point;
+    options.context = &table;
+    options.stop = &stop_wanted;
+    bool done = amontons_model1d(scene, &options, &summary, &err);
+    progress_end(&table.progress);
+    if (!done)
+        status = report_error(&err);
+    else if (!words.quiet)
+        print_answers(&summary);
+    amontons_scene_destroy(scene);
+    return status;
+}

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The 1D equation in time: from u_0, where tau = mu_K p everywhere and the rod stands at U = 0, as
+// the theory has it, to the scene's end. Steps, events and peaks are those of a block.
+#include "study/model1d.h"
+
+#include "run/recorder.h"
+
+#include <math.h>
+
+// As run/model has them for a block: the local error of u in a step over the slip that the drop of
+// friction drives, (mu_S - mu_K) P H/E; the rod's way in the longest step, over the same.
+static const double TOLERANCES[] = {
+    [ACCURACY_DRAFT] = 1e-2, [ACCURACY_STANDARD] = 1e-3, [ACCURACY_FINE] = 1e-4};
+static const double STEP_MAX_SLIP = 0.2, STEPS_AT_LEAST = 50, STEP_RANGE = 1e-10;
+
+static double friction_slip(const Model1d *model)
+{
+    return (model->law.mu_static - model->law.mu_kinetic) * model->pressure * model->height /
+           model->young;
+}
+
+static StepControlDef step_def(const Model1dSimulation *simulation)
+{
+    const Scene *scene = simulation->scene;
+    const Model1d *model = &simulation->model;
+    double slip = friction_slip(model);
+    double tolerance = scene->time.tolerance > 0 ? scene->time.tolerance
+                                                 : TOLERANCES[scene->time.accuracy];
+    StepControlDef def = {.tolerance = tolerance * slip,
+                          .step_max = fmin(simulation->t_end / STEPS_AT_LEAST,
+                                           STEP_MAX_SLIP * slip / model->velocity),
+                          .wave_step = scene->time.wave_step * model->length / model->speed,
+                          .growth_max = 2,
+                          .use_certificate = scene->time.certificate};
+    if (scene->time.step_max > 0) def.step_max = scene->time.step_max;
+    def.step_min = scene->time.step_min > 0 ? scene->time.step_min : STEP_RANGE * def.step_max;
+    return def;
+}
+
+static bool open_history(Model1dSimulation *simulation, Error *err)
+{
+    const Model1d *model = &simulation->model;
+    ResultHead head = {.title = simulation->scene->title,
+                       .units = simulation->scene->units == UNITS_SI ? "si" : "normalised",
+                       .version = AMONTONS_VERSION,
+                       .numbers = {[NUMBER_LENGTH] = model->length,
+                                   [NUMBER_PRESSURE] = model->pressure,
+                                   [NUMBER_LOAD] = simulation->scales.load,
+                                   [NUMBER_ROD_VELOCITY] = model->velocity,
+                                   [NUMBER_CRITICAL_VELOCITY] = model->law.critical_velocity,
+                                   [NUMBER_MU_STATIC] = model->law.mu_static,
+                                   [NUMBER_MU_KINETIC] = model->law.mu_kinetic,
+                                   [NUMBER_C_LONGITUDINAL] = model->speed,
+                                   [NUMBER_C_SHEAR] = NAN,
+                                   [NUMBER_C_RAYLEIGH] = NAN,
+                                   [NUMBER_MU_M] = NAN,
+                                   [NUMBER_L_C] = NAN}};
+    return history_create(simulation->options->folder, &head, &simulation->chain.interface,
+                          &simulation->chain.law, &simulation->history, err);
+}
+
+static bool open_simulation(Model1dSimulation *simulation, Error *err)
+{
+    const Scene *scene = simulation->scene;
+    const Model1d *model = &simulation->model;
+    simulation->scales = (ObservationScales){.load = model->pressure * model->length,
+                                             .length = model->length,
+                                             .time = model->length / model->speed,
+                                             .slip_velocity = model->velocity};
+    simulation->t_end = scene->time.until_t;
+    if (scene->time.until_U > 0) {
+        double t_end = scene->time.until_U / model->velocity;
+        if (!(simulation->t_end > 0 && simulation->t_end < t_end)) simulation->t_end = t_end;
+    }
+    StepControlDef def = step_def(simulation);
+    TRY(chain_build(model, simulation->options->nodes, &simulation->chain, err));
+    TRY(step_control_create(&simulation->chain.block, &def, &simulation->control, err));
+    chain_rest(model, &simulation->chain, &simulation->control.now);
+    step_control_restart(&simulation->control);
+    TRY(events_create(&simulation->chain.interface, model->velocity, &simulation->events, err));
+    TRY(peaks_create(&simulation->events, scene->time.periodic_tolerance, &simulation->peaks, err));
+    if (simulation->options->folder) TRY(open_history(simulation, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// l for a rod at U, by halving; U is at most what leads the front through the line.
+static double theory_front(const Model1d *model, double U)
+{
+    double low = 0, high = model->length;
+    while (high - low > 1e-12 * model->length) {
+        double middle = 0.5 * (low + high);
+        *(model1d_rod(model, middle) < U ? &low : &high) = middle;
+    }
+    return high;
+}
+
+// As long as nothing was rapid: what the theory's points look like here, and how far off mu is.
+static void compare_step(Model1dSimulation *simulation, const Observation *seen)
+{
+    const Model1d *model = &simulation->model;
+    bool rapid = simulation->events.kinds[EVENT_BOUNDED] + simulation->events.kinds[EVENT_LEADING];
+    if (rapid || seen->U > model1d_rod(model, model->length)) {
+        simulation->next_point = simulation->point_count;
+        return;
+    }
+    double mu = model1d_mu(model, theory_front(model, seen->U));
+    simulation->quasi_static_error = fmax(simulation->quasi_static_error, fabs(seen->mu - mu));
+    const Observation *last = &simulation->last;
+    while (simulation->next_point < simulation->point_count) {
+        Model1dPoint *point = &simulation->points[simulation->next_point];
+        if (seen->U < point->U) break;
+        double part = seen->U > last->U ? (point->U - last->U) / (seen->U - last->U) : 1;
+        point->mu_seen = last->mu + part * (seen->mu - last->mu);
+        point->front_seen = seen->front;
+        simulation->next_point++;
+    }
+}
+
+static void report_step(const Model1dSimulation *simulation, const Observation *seen)
+{
+    const Model1dOptions *options = simulation->options;
+    const int32_t *kinds = simulation->events.kinds;
+    StepView view = {.t = seen->t,
+                     .U = seen->U,
+                     .mu = seen->mu,
+                     .step_size = seen->step_size,
+                     .front = seen->front,
+                     .max_slip_rate = seen->max_slip_rate,
+                     .fraction = fmin(seen->t / simulation->t_end, 1),
+                     .certified = seen->certified,
+                     .events = kinds[EVENT_BOUNDED] + kinds[EVENT_LEADING],
+                     .slidings = kinds[EVENT_LEADING]};
+    if (options->on_step) options->on_step(&view, options->context);
+}
+
+static bool record_step(Model1dSimulation *simulation, Error *err)
+{
+    Observation seen = observe(&simulation->control, &simulation->scales);
+    TRY(events_record(&simulation->events, &seen, err));
+    TRY(peaks_record(&simulation->peaks, &seen, err));
+    if (simulation->history.file) TRY(history_record(&simulation->history, &seen, err));
+    compare_step(simulation, &seen);
+    report_step(simulation, &seen);
+    simulation->last = seen;
+    simulation->energy_error = fmax(simulation->energy_error, seen.energy_error);
+    simulation->contact_error = fmax(simulation->contact_error, seen.contact_error);
+    if (seen.energy_error > simulation->scene->time.energy_tolerance)
+        FAIL(err, ERROR_COMPUTE,
+             "at t = %g the energy ledger does not close: %.3g of the energy turned over is "
+             "missing, time.energy_tolerance allows %g; lower time.tolerance",
+             seen.t, seen.energy_error, simulation->scene->time.energy_tolerance);
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool is_finished(Model1dSimulation *simulation)
+{
+    double remaining = simulation->t_end - simulation->control.now.time;
+    if (remaining <= 1e-9 * simulation->t_end) return true;
+    if (!step_control_fits(&simulation->control, remaining)) return true;
+    return simulation->scene->time.until_periodic && simulation->events.crossed &&
+           peaks_summarise(&simulation->peaks).period > 0;
+}
+
+bool model1d_simulate(Model1dSimulation *simulation, Error *err)
+{
+    const Model1dOptions *options = simulation->options;
+    TRY(open_simulation(simulation, err));
+    TRY(record_step(simulation, err));
+    do {
+        double remaining = simulation->t_end - simulation->control.now.time;
+        TRY(step_control_advance(&simulation->control, remaining, err));
+        TRY(record_step(simulation, err));
+        if (options->stop && *options->stop)
+            FAIL(err, ERROR_INTERRUPT, "stopped at U = %g (t = %g)", simulation->last.U,
+                 simulation->last.t);
+    } while (!is_finished(simulation));
+    events_close(&simulation->events, &simulation->last);
+    PeaksSummary peaks = peaks_summarise(&simulation->peaks);
+    if (simulation->history.file)
+        TRY(history_finish(&simulation->history, &simulation->peaks, &simulation->events, &peaks,
+                           err));
+cleanup:
+    if (!error_is_clean(err)) error_context(err, "in the 1D model");
+    return error_is_clean(err);
+}
