@@ -191,6 +191,43 @@ typedef struct StabilityOptions {
 bool amontons_stability(const Scene *scene, const StabilityOptions *options,
                         StabilitySummary *summary, Error *err);
 
+// --- sweeps -------------------------------------------------------------------------------------
+// One point that ended, or was found finished.
+typedef struct SweepView {
+    const char *words;             // "load.pressure=0.003 ...": what tells it from the others
+    const char *message;           // why it failed; NULL: it did not
+    double mu_M;                   // NaN: none
+    double seconds;                // of this point
+    double seconds_left;           // for the whole sweep, estimated; NaN: not yet
+    int32_t finished, failed, points;   // so far, among them, and in all
+    bool reused;                   // from an earlier sweep
+} SweepView;
+typedef void (*SweepCallback)(const SweepView *view, void *context);
+
+typedef struct SweepOptions {
+    const char *folder;            // for sweep.csv, sweep.h5 and points/; created
+    const char *const *overrides;  // "key=value", for every point
+    int32_t override_count;
+    int32_t jobs;                  // processes at a time; 0: as many as there are cores
+    bool retry;                    // compute failed points again
+    bool fresh;                    // compute all points again
+    SweepCallback on_point;        // NULL: none
+    void *context;
+    const volatile sig_atomic_t *stop;   // non-zero: stop the points under way; they count as not
+                                         // begun when the sweep is taken up again
+} SweepOptions;
+
+typedef struct SweepSummary {
+    int32_t points, computed, reused, failed, pending;
+    double seconds;
+} SweepSummary;
+
+// Computes the points of the study file `path`, each in a process of its own, and writes the table.
+// What is finished in the folder is not computed again. Failed points are no error: they are
+// counted, and stand in the table with their reason. ERROR_INTERRUPT: stopped, table written.
+bool amontons_sweep(const char *path, const SweepOptions *options, SweepSummary *summary,
+                    Error *err);
+
 // --- results ------------------------------------------------------------------------------------
 // Draws `figures` ([figure_count] names; 0: all) of the result in `folder` into folder/figures.
 bool amontons_render_result(const char *folder, const char *const *figures, int32_t figure_count,

@@ -12,6 +12,7 @@ int command_run(int argc, char **argv);
 int command_static(int argc, char **argv);
 int command_stability(int argc, char **argv);
 int command_model1d(int argc, char **argv);
+int command_sweep(int argc, char **argv);
 int command_render(int argc, char **argv);
 int command_info(int argc, char **argv);
 

@@ -17,6 +17,7 @@ static const Command commands[] = {
     {"static", command_static, "SCENE", "finds the equilibrium under a given load"},
     {"stability", command_stability, "SCENE", "finds where slow slip loses stability: l_c, mu_M"},
     {"model1d", command_model1d, "SCENE", "the paper's effective 1D model: theory and simulation"},
+    {"sweep", command_sweep, "STUDY", "computes many runs over varied keys, one table out"},
     {"render", command_render, "RESULT", "draws the pictures of a stored result again"},
     {"info", command_info, "FILE", "says what a mesh, a scene or a result holds"},
 };

@@ -97,10 +97,32 @@ cleanup:
     return error_is_clean(err);
 }
 
-// One `--set`: "key=value"; `mesh.set.NAME` sets a single parameter.
-static bool gather_override(Reader *reader, const char *text, Error *err)
+// A value given for `name` from outside of the file; `mesh.set.NAME` sets a single parameter.
+static bool gather_outside(Reader *reader, const char *name, const SceneValue *value, Error *err)
 {
     static const char parameter[] = "mesh.set.";
+    Setting setting = {.key = -1, .value = *value};
+    if (strlen(name) >= KEY_NAME_SIZE)
+        FAIL(err, ERROR_INPUT, "%.80s...: unknown key (`amontons info keys` lists them all)", name);
+    if (strncmp(name, parameter, strlen(parameter)) == 0) {
+        setting.key = scene_key_index("mesh.set");
+        setting.value.part = name + strlen(parameter);
+        snprintf(setting.group, sizeof setting.group, "%s", setting.value.part);
+        TRY(add_setting(reader, &setting, err));
+        goto cleanup;
+    }
+    if (scene_key_is_group(name) && scene_key_index(name) < 0) {
+        snprintf(setting.group, sizeof setting.group, "%s", name);
+        TRY(add_setting(reader, &setting, err));
+    }
+    TRY(gather(reader, name, value, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// One `--set`: "key=value".
+static bool gather_override(Reader *reader, const char *text, Error *err)
+{
     char name[KEY_NAME_SIZE] = "", shown[KEY_NAME_SIZE + 8];
     const char *equals = strchr(text, '=');
     if (!equals || equals == text || equals - text >= KEY_NAME_SIZE)
@@ -110,19 +132,8 @@ static bool gather_override(Reader *reader, const char *text, Error *err)
     YamlDocument **document = &reader->overrides[reader->override_count];
     TRY(yaml_parse(shown, text, (int32_t)(equals - text) + 1, document, err));
     reader->override_count++;
-    Setting setting = {.key = -1, .value = {.document = *document, .node = YAML_ROOT}};
-    if (strncmp(name, parameter, strlen(parameter)) == 0) {
-        setting.key = scene_key_index("mesh.set");
-        setting.value.part = text + strlen(parameter);
-        snprintf(setting.group, sizeof setting.group, "%s", name + strlen(parameter));
-        TRY(add_setting(reader, &setting, err));
-        goto cleanup;
-    }
-    if (scene_key_is_group(name) && scene_key_index(name) < 0) {
-        memcpy(setting.group, name, sizeof name);
-        TRY(add_setting(reader, &setting, err));
-    }
-    TRY(gather(reader, name, &setting.value, err));
+    SceneValue value = {.document = *document, .node = YAML_ROOT};
+    TRY(gather_outside(reader, name, &value, err));
 cleanup:
     return error_is_clean(err);
 }
@@ -237,18 +248,22 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The rest of reading, when reader->file stands.
-static bool read_scene(Reader *reader, const char *path, const char *const *overrides,
-                       int32_t override_count, Scene *scene, Error *err)
+// What the file gives, when reader->file stands.
+static bool begin_reading(Reader *reader, const char *path, Scene *scene, Error *err)
 {
     if (strlen(path) >= SCENE_TEXT_SIZE)
         FAIL(err, ERROR_INPUT, "%.80s...: a path of more than 511 bytes", path);
     memcpy(scene->path, path, strlen(path) + 1);
     TRY((reader->settings = NEW_ARRAY(Setting, SETTINGS_MAX, err)));
-    TRY((reader->overrides = NEW_ARRAY(YamlDocument *, override_count, err)));
     TRY(read_defaults(reader, err));
     TRY(gather_file(reader, err));
-    for (int32_t i = 0; i < override_count; i++) TRY(gather_override(reader, overrides[i], err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// When everything is gathered.
+static bool finish_reading(Reader *reader, const char *path, Scene *scene, Error *err)
+{
     TRY(store_settings(reader, scene, err));
     TRY(scene_check(scene, reader->sources, reader->file, err));
     if (scene->friction.law == LAW_COULOMB) scene->friction.mu_kinetic = scene->friction.mu_static;
@@ -273,7 +288,28 @@ bool scene_read(const char *path, const char *const *overrides, int32_t override
     Reader reader = {0};
     reader.keys = scene_keys(&reader.key_count);
     TRY(yaml_read(path, &reader.file, err));
-    TRY(read_scene(&reader, path, overrides, override_count, scene, err));
+    TRY(begin_reading(&reader, path, scene, err));
+    TRY((reader.overrides = NEW_ARRAY(YamlDocument *, override_count, err)));
+    for (int32_t i = 0; i < override_count; i++) TRY(gather_override(&reader, overrides[i], err));
+    TRY(finish_reading(&reader, path, scene, err));
+cleanup:
+    destroy_reader(&reader);
+    return error_is_clean(err);
+}
+
+bool scene_read_settings(const char *path, const SceneSetting *settings, int32_t setting_count,
+                         Scene *scene, Error *err)
+{
+    *scene = (Scene){0};
+    Reader reader = {0};
+    reader.keys = scene_keys(&reader.key_count);
+    TRY(yaml_read(path, &reader.file, err));
+    TRY(begin_reading(&reader, path, scene, err));
+    for (int32_t i = 0; i < setting_count; i++) {
+        SceneValue value = {.document = settings[i].document, .node = settings[i].node};
+        TRY(gather_outside(&reader, settings[i].key, &value, err));
+    }
+    TRY(finish_reading(&reader, path, scene, err));
 cleanup:
     destroy_reader(&reader);
     return error_is_clean(err);
@@ -285,7 +321,8 @@ bool scene_read_text(const char *path, const char *text, Scene *scene, Error *er
     Reader reader = {0};
     reader.keys = scene_keys(&reader.key_count);
     TRY(yaml_parse(path, text, 0, &reader.file, err));
-    TRY(read_scene(&reader, path, NULL, 0, scene, err));
+    TRY(begin_reading(&reader, path, scene, err));
+    TRY(finish_reading(&reader, path, scene, err));
 cleanup:
     destroy_reader(&reader);
     return error_is_clean(err);

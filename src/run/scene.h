@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "io/mesh_file.h"
+#include "io/yaml_document.h"
 
 enum {
     SCENE_TEXT_SIZE = 512,
@@ -91,15 +92,15 @@ typedef struct Scene {
         SceneAccuracy accuracy;
         double tolerance;   // of a step, relative; 0: by accuracy
         double step_max, step_min;   // 0: chosen from the block's size and speeds
-        double wave_step;              // longest step while not certified, in L / c_L
+        double wave_step;   // longest step while not certified, in L / c_L
         bool certificate;   // limit the step by the certificate (off only to study it)
         double energy_tolerance;   // of the ledger, relative to the work done
         double periodic_tolerance;   // peaks agree within this, relative
     } time;
     struct {
         SceneReduce use;
-        double tolerance;              // of the interior basis, relative
-        bool cache;                    // keep the basis on disk for the next run of the shape
+        double tolerance;   // of the interior basis, relative
+        bool cache;   // keep the basis on disk for the next run of the shape
     } reduction;
     struct {
         bool history;
@@ -118,6 +119,16 @@ typedef struct Scene {
 // is allowed; an unknown key comes with the nearest known one.
 bool scene_read(const char *path, const char *const *overrides, int32_t override_count,
                 Scene *scene, Error *err);
+
+// The same with settings that stand in other documents (a study's, study/study): `key` as after
+// --set, the value a node. Errors show the place in those documents.
+typedef struct SceneSetting {
+    const char *key;
+    const YamlDocument *document;   // not owned
+    YamlNode node;
+} SceneSetting;
+bool scene_read_settings(const char *path, const SceneSetting *settings, int32_t setting_count,
+                         Scene *scene, Error *err);
 
 // The same from a text, with `path` (of a file that need not exist) for errors and mesh.file.
 bool scene_read_text(const char *path, const char *text, Scene *scene, Error *err);

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cli/commands.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { OVERRIDES_MAX = 180, FAILURES_SHOWN = 10, OPTION_SET = 1000, OPTION_RETRY, OPTION_FRESH };
+
+typedef struct SweepWords {
+    const char *study, *folder, *jobs;
+    const char *overrides[OVERRIDES_MAX];
+    int32_t override_count;
+    bool retry, fresh, quiet, too_many_studies, too_many_overrides;
+} SweepWords;
+
+typedef struct SweepDisplay {
+    bool quiet, bar;   // a terminal: the last line is written over
+    int32_t failures;
+    char failed[FAILURES_SHOWN][500];
+} SweepDisplay;
+
+// A signal can reach nothing but a variable of the file.
+static volatile sig_atomic_t stop_wanted = 0;
+
+static void want_stop(int signal_number)
+{
+    (void)signal_number;
+    stop_wanted = 1;
+}
+
+static error_t take_option(int key, char *word, struct argp_state *state)
+{
+    SweepWords *words = state->input;
+    switch (key) {
+    case 'o':
+        words->folder = word;
+        return 0;
+    case 'j':
+        words->jobs = word;
+        return 0;
+    case 'q':
+        words->quiet = true;
+        return 0;
+    case OPTION_RETRY:
+        words->retry = true;
+        return 0;
+    case OPTION_FRESH:
+        words->fresh = true;
+        return 0;
+    case OPTION_SET:
+        if (words->override_count == OVERRIDES_MAX)
+            words->too_many_overrides = true;
+        else
+            words->overrides[words->override_count++] = word;
+        return 0;
+    case ARGP_KEY_ARG:
+        if (words->override_count && strchr(word, '='))   // --set a=1 b=2
+            return take_option(OPTION_SET, word, state);
+        if (words->study) words->too_many_studies = true;
+        words->study = word;
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static void read_options(int argc, char **argv, SweepWords *words)
+{
+    static const struct argp_option known[] = {
+        {"output", 'o', "DIR", 0,
+         "Folder for the table and the points (default: the study's name with -sweep, here)", 0},
+        {"jobs", 'j', "N", 0, "Points computed at a time (default: as many as there are cores)", 0},
+        {"set", OPTION_SET, "KEY=VALUE", 0,
+         "Use this value for every point; may be given several times", 0},
+        {"retry", OPTION_RETRY, NULL, 0, "Compute points again that failed before", 0},
+        {"fresh", OPTION_FRESH, NULL, 0, "Compute all points again", 0},
+        {"quiet", 'q', NULL, 0, "Print nothing but errors", 0},
+        {0}};
+    static const struct argp argp = {
+        .options = known,
+        .parser = take_option,
+        .args_doc = "STUDY",
+        .doc =
+            "Computes all points of the study file STUDY, each a run in a process of its own, and "
+            "leaves one table, DIR/sweep.csv and DIR/sweep.h5. A study names a base scene and what "
+            "is varied:\n\n"
+            "  scene: fig1.yaml\n"
+            "  set: {mesh.set.nx: 40, mesh.set.height: = 0.5 * mesh.set.length}\n"
+            "  vary:\n"
+            "    mesh.set.length: [0.25, 1, 4]\n"
+            "    load.pressure: {log: [1e-4, 1e-2], points: 7}\n"
+            "  record: [mu_M, period, results.mu_max]\n"
+            "\vFinished points are kept in DIR/points, one by one: the same command goes on where "
+            "an interrupted one stopped, and computes only what is new when the study has "
+            "changed. Each point ends when its peaks are periodic; no history is kept and no "
+            "pictures are drawn, unless the study sets output.history: true and the like. "
+            "`cases:` is a list of maps of keys, each taken with all that is varied; a value "
+            "beginning with `=` is a formula over the scene's numbers. What `record` may name, "
+            "beside paths in run.json: mu_M, spread, period, low, high, peaks, l_c, l_sc, steps, "
+            "unsolved, solve_s, total_s, energy_error, contact_error, moment_error, "
+            "reduction_error, mu_max, first_mu, contact_nodes, reduced_dofs.\n\n"
+            "Exit status: 0 all points done, 1 some failed (listed; the others are in the table), "
+            "2 the study is wrong. Example:\n\n"
+            "  amontons sweep validation/paper/fig2a.yaml -j 2 -o fig2a"};
+    options_parse(&argp, argc, argv, "amontons sweep", words);
+}
+
+static int check_options(const SweepWords *words, SweepOptions *options)
+{
+    if (!words->study)
+        return report_misuse("sweep needs a study, as in `amontons sweep "
+                             "validation/paper/fig2a.yaml`");
+    if (words->too_many_studies) return report_misuse("sweep takes one study");
+    if (words->too_many_overrides) return report_misuse("more than 180 settings by --set");
+    if (words->folder && !*words->folder) return report_misuse("-o: the folder has no name");
+    if (words->jobs) {
+        char *end = NULL;
+        long count = strtol(words->jobs, &end, 10);
+        if (!*words->jobs || *end || count < 1 || count > 1024)
+            return report_misuse("-j %s: a whole number from 1 to 1024 is allowed", words->jobs);
+        options->jobs = (int32_t)count;
+    }
+    return 0;
+}
+
+// "validation/paper/fig2a.yaml" gives "fig2a-sweep".
+static void default_folder(const char *study, char *folder, size_t size)
+{
+    const char *slash = strrchr(study, '/'), *name = slash ? slash + 1 : study;
+    const char *dot = strrchr(name, '.');
+    size_t length = dot && dot != name ? (size_t)(dot - name) : strlen(name);
+    snprintf(folder, size, "%.*s-sweep", (int)(length < 200 ? length : 200), name);
+}
+
+static void format_left(double seconds, char *text, size_t size)
+{
+    if (isnan(seconds)) {
+        snprintf(text, size, "-:--");
+        return;
+    }
+    long whole = seconds < 3.6e6 ? (long)(seconds + 0.5) : 3600000;
+    if (whole >= 3600)
+        snprintf(text, size, "%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
+    else
+        snprintf(text, size, "%ld:%02ld", whole / 60, whole % 60);
+}
+
+// A line a point; on a terminal a last line that says how far everything is.
+static void show_point(const SweepView *view, void *context)
+{
+    SweepDisplay *display = context;
+    char left[32], what[64];
+    if (view->message && display->failures < FAILURES_SHOWN)
+        snprintf(display->failed[display->failures++], sizeof display->failed[0], "%.190s: %.290s",
+                 view->words, view->message);
+    if (display->quiet) return;
+    format_left(view->seconds_left, left, sizeof left);
+    if (display->bar) fprintf(stderr, "\r\033[K");
+    if (view->message)
+        snprintf(what, sizeof what, "FAILED");
+    else
+        snprintf(what, sizeof what, "mu_M %.4f", view->mu_M);
+    if (!view->reused)
+        fprintf(stderr, "%*d/%d  %s  %s  %.1f s  (%s left)\n", view->points < 100 ? 2 : 4,
+                view->finished, view->points, view->words, what, view->seconds, left);
+    if (display->bar) {
+        fprintf(stderr, "%d of %d points, %d failed, %s left", view->finished, view->points,
+                view->failed, left);
+        fflush(stderr);
+    }
+}
+
+static int close_sweep(const SweepDisplay *display, const char *folder, const SweepSummary *summary)
+{
+    if (!display->quiet) {
+        printf("%d points: %d computed in %.1f s", summary->points, summary->computed,
+               summary->seconds);
+        if (summary->reused) printf(", %d known before", summary->reused);
+        if (summary->failed) printf(", %d failed", summary->failed);
+        printf("\nTable in %s: sweep.csv and sweep.h5; each point's run.json in points/\n", folder);
+    }
+    if (summary->failed == 0) return 0;
+    fflush(stdout);
+    fprintf(stderr, "amontons: %d of %d points failed (--retry computes them again):\n",
+            summary->failed, summary->points);
+    for (int32_t k = 0; k < display->failures; k++) fprintf(stderr, "  %s\n", display->failed[k]);
+    if (summary->failed > display->failures)
+        fprintf(stderr, "  ... and more, in %s/sweep.csv\n", folder);
+    return error_exit_status(ERROR_COMPUTE);
+}
+
+int command_sweep(int argc, char **argv)
+{
+    SweepWords words = {0};
+    SweepOptions options = {.stop = &stop_wanted, .on_point = show_point};
+    SweepSummary summary;
+    Error err = {0};
+    char folder[256];
+    read_options(argc, argv, &words);
+    int status = check_options(&words, &options);
+    if (status != 0) return status;
+    default_folder(words.study, folder, sizeof folder);
+    options.folder = words.folder ? words.folder : folder;
+    options.overrides = words.overrides;
+    options.override_count = words.override_count;
+    options.retry = words.retry;
+    options.fresh = words.fresh;
+    SweepDisplay display = {.quiet = words.quiet, .bar = isatty(STDERR_FILENO)};
+    options.context = &display;
+    struct sigaction action = {.sa_handler = want_stop, .sa_flags = (int)SA_RESETHAND};
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+    bool done = amontons_sweep(words.study, &options, &summary, &err);
+    if (display.bar && !display.quiet) fprintf(stderr, "\r\033[K");
+    if (!done) return report_error(&err);
+    return close_sweep(&display, options.folder, &summary);
+}

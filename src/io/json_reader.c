@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A scanner over the text (RFC 8259): it steps over whole values until it stands at the one wanted.
+#include "io/json_reader.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { DEPTH_MAX = 64 };
+
+static const char *skip_space(const char *at)
+{
+    return at + strspn(at, " \t\r\n");
+}
+
+// Behind the string that begins at `at`; NULL: there is none.
+static const char *skip_string(const char *at)
+{
+    if (*at != '"') return NULL;
+    for (at++; *at && *at != '"'; at++)
+        if (*at == '\\' && at[1]) at++;
+    return *at == '"' ? at + 1 : NULL;
+}
+
+static const char *skip_value(const char *at);
+
+// At the value of the next item of an object; *key: its key, in quotes, [*length] with them.
+static const char *enter_item(const char *at, const char **key, int32_t *length)
+{
+    *key = skip_space(at);
+    const char *end = skip_string(*key);
+    if (!end) return NULL;
+    *length = (int32_t)(end - *key);
+    end = skip_space(end);
+    return *end == ':' ? skip_space(end + 1) : NULL;
+}
+
+// Behind a scalar, or behind the brackets of an object or list, whose strings are stepped over.
+static const char *skip_value(const char *at)
+{
+    int32_t depth = 0;
+    do {
+        at = skip_space(at);
+        if (*at == '"') {
+            at = skip_string(at);
+            if (!at) return NULL;
+        } else if (*at == '{' || *at == '[') {
+            if (++depth > DEPTH_MAX) return NULL;
+            at++;
+        } else if (*at == '}' || *at == ']') {
+            if (--depth < 0) return NULL;
+            at++;
+        } else if ((*at == ',' || *at == ':') && depth > 0) {
+            at++;
+        } else {
+            size_t length = strcspn(at, ",:]} \t\r\n\"[{");
+            if (length == 0) return NULL;
+            at += length;
+        }
+    } while (depth > 0);
+    return at;
+}
+
+// At the child of the object or list at `at` that the first `length` bytes of `name` call for.
+static const char *enter_child(const char *at, const char *name, size_t length)
+{
+    char end = *at == '{' ? '}' : ']';
+    bool is_object = *at == '{';
+    if (!is_object && *at != '[') return NULL;
+    char *rest = NULL;
+    long wanted = is_object ? -1 : strtol(name, &rest, 10);
+    if (!is_object && (!isdigit((unsigned char)*name) || rest != name + length)) return NULL;
+    at = skip_space(at + 1);
+    for (long k = 0; at && *at && *at != end; k++) {
+        const char *key = NULL;
+        int32_t size = 0;
+        if (is_object) at = enter_item(at, &key, &size);
+        if (!at) return NULL;
+        bool found = is_object ? (size_t)size == length + 2 && strncmp(key + 1, name, length) == 0
+                               : k == wanted;
+        if (found) return at;
+        at = skip_value(at);
+        if (!at) return NULL;
+        at = skip_space(at);
+        if (*at == ',') at = skip_space(at + 1);
+    }
+    return NULL;
+}
+
+static const char *find(const char *text, const char *path)
+{
+    const char *at = skip_space(text);
+    while (at && *path) {
+        size_t length = strcspn(path, ".");
+        at = enter_child(at, path, length);
+        path += length;
+        if (*path == '.') path++;
+    }
+    return at;
+}
+
+bool json_find_number(const char *text, const char *path, double *value)
+{
+    const char *at = find(text, path);
+    if (!at) return false;
+    if (strncmp(at, "true", 4) == 0 || strncmp(at, "false", 5) == 0) {
+        *value = *at == 't';
+        return true;
+    }
+    if (strncmp(at, "null", 4) == 0) {
+        *value = NAN;
+        return true;
+    }
+    if (*at != '-' && !isdigit((unsigned char)*at)) return false;
+    *value = strtod(at, NULL);
+    return true;
+}
+
+// What stands for the escape behind a backslash; *used: its characters.
+static char unescape(const char *at, int32_t *used)
+{
+    static const char from[] = "nrtbf", to[] = "\n\r\t\b\f";
+    const char *known = strchr(from, *at);
+    *used = 1;
+    if (*at && known) return to[known - from];
+    if (*at != 'u') return *at;
+    char digits[5] = {0};
+    strncpy(digits, at + 1, 4);
+    long code = strtol(digits, NULL, 16);
+    *used = 1 + (int32_t)strlen(digits);
+    return code > 0 && code < 0x80 ? (char)code : '?';
+}
+
+bool json_find_text(const char *text, const char *path, char *value, int32_t size)
+{
+    const char *at = find(text, path);
+    if (!at || *at != '"' || !skip_string(at) || size < 1) return false;
+    int32_t length = 0;
+    for (at++; *at != '"' && length + 1 < size; at++) {
+        int32_t used = 0;
+        value[length++] = *at == '\\' ? unescape(at + 1, &used) : *at;
+        at += used;
+    }
+    value[length] = 0;
+    return true;
+}

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Looks single values up in a JSON text of our own (io/json_writer): nothing is kept, what is not
+// asked for is skipped. Called by study/sweep for run.json, which may hold thousands of events.
+#ifndef AMONTONS_IO_JSON_READER_H
+#define AMONTONS_IO_JSON_READER_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+// `path`: keys and list indices with dots between, as in "results.peaks.0.mu". All return false
+// when there is no such value, or the text is not JSON as far as it was read.
+
+// A number, or a boolean as 1 or 0, or null as NaN.
+bool json_find_number(const char *text, const char *path, double *value);
+// A text, cut to `size` bytes; \u escapes beyond ASCII become `?`.
+bool json_find_text(const char *text, const char *path, char *value, int32_t size);
+
+#endif

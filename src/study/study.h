@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A study: one base scene and how it is varied. Read from a YAML file; the points it stands for are
+// scenes, each made on demand. Called by study/sweep.
+//
+//     title: mu_M against pressure
+//     scene: fig1.yaml                          # relative to the study's folder
+//     set: {mesh.set.nx: 40, mesh.set.height: = 0.5 * mesh.set.length}
+//     cases: [{rod.kind: push}, {rod.kind: bonded}]
+//     vary:                                     # the full product, the last key fastest
+//       mesh.set.length: [0.25, 1, 4]
+//       load.pressure: {log: [1e-4, 1e-2], points: 7}
+//     record: [mu_M, period, results.mu_max]
+//
+// A value that begins with `=` is a formula (study/formula) over the numbers of the scene; formulas
+// are worked out last, in the order of the file. Later ones win: the base scene, what every sweep
+// sets (STUDY_STANDARD), `set`, --set, `cases`, `vary`, formulas.
+#ifndef AMONTONS_STUDY_STUDY_H
+#define AMONTONS_STUDY_STUDY_H
+
+#include "io/yaml_document.h"
+#include "run/scene.h"
+
+enum {
+    STUDY_NAME_SIZE = 96,
+    STUDY_AXES_MAX = 16,
+    STUDY_COLUMNS_MAX = 64,
+    STUDY_RECORDS_MAX = 64,
+    STUDY_SETTINGS_MAX = 200,   // for a point
+    STUDY_FORMULAS_MAX = 32,
+    STUDY_RANGE_MAX = 10000,   // points of a range
+    STUDY_POINTS_MAX = 100000,
+};
+
+// A sweep wants numbers: nothing is kept of a point but run.json, and it ends when it is periodic.
+#define STUDY_STANDARD                                                                             \
+    "{time.until.periodic: true, output.history: false, output.fields: none, output.figures: []}"
+
+// X(name in `record`, path in run.json, recorded where the study does not say, meaning)
+#define STUDY_RECORDS(X)                                                                           \
+    X("mu_M", "results.mu_M", true, "macroscopic static friction coefficient")                     \
+    X("spread", "results.mu_M_spread", true, "largest minus smallest of the peaks in mu_M")        \
+    X("period", "results.period", true, "1, 2: periodic after so many slidings; 0: not")           \
+    X("low", "results.mu_peaks_low", true, "lowest peak, the first left out")                      \
+    X("high", "results.mu_peaks_high", true, "highest peak, the first left out")                   \
+    X("peaks", "results.mu_M_peaks", true, "peaks in mu_M")                                        \
+    X("l_c", "results.l_c_over_L", true, "critical length over L, from the dynamics")              \
+    X("l_sc", "results.l_sc_over_L", true, "front over L where the certificate is lost")           \
+    X("steps", "steps.accepted", true, "steps accepted")                                           \
+    X("unsolved", "steps.unsolved_retries", true, "steps undone, the contact without solution")    \
+    X("solve_s", "timing_s.solve", true, "time in the loop of steps, s")                           \
+    X("total_s", "timing_s.total", true, "wall time of the point, s")                              \
+    X("energy_error", "errors.energy", true, "energy ledger, relative")                            \
+    X("contact_error", "errors.complementarity", true, "contact conditions, relative")             \
+    X("moment_error", "errors.moment", true, "balance of moments, relative")                       \
+    X("reduction_error", "errors.reduction", true, "reduced bulk against the full one")            \
+    X("mu_max", "results.mu_max", false, "largest mu of the whole run")                            \
+    X("first_mu", "results.peaks.0.mu", false, "first peak, from the start state")                 \
+    X("contact_nodes", "model.contact_nodes", false, "nodes on the interface")                     \
+    X("reduced_dofs", "model.reduced_dofs", false, "unknowns stepped; 0: the full mesh")
+
+typedef struct StudyRecord {
+    char name[STUDY_NAME_SIZE];   // of the column
+    char path[STUDY_NAME_SIZE];   // in run.json
+} StudyRecord;
+
+typedef struct StudyAxis {
+    char key[STUDY_NAME_SIZE];
+    const YamlDocument *document;   // not owned: the study's, or a range's in `made`
+    YamlNode list;
+    int32_t count;
+} StudyAxis;
+
+typedef struct Study {
+    char path[SCENE_TEXT_SIZE], title[SCENE_TEXT_SIZE];
+    char scene[SCENE_TEXT_SIZE];   // path of the base scene
+    YamlDocument *file;   // owned, like the next
+    YamlDocument *made[STUDY_SETTINGS_MAX];   // of ranges, --set and STUDY_STANDARD
+    int32_t made_count;
+    YamlDocument *standard;   // one of `made`
+    SceneSetting overrides[STUDY_SETTINGS_MAX];   // --set; documents in `made`
+    char override_keys[STUDY_SETTINGS_MAX][STUDY_NAME_SIZE];
+    int32_t override_count;
+    YamlNode set, cases;   // YAML_NO_NODE: none
+    int32_t case_count;   // at least 1
+    int32_t axis_count;
+    StudyAxis axes[STUDY_AXES_MAX];
+    int32_t column_count;   // scene keys that vary, in the order of the file
+    char columns[STUDY_COLUMNS_MAX][STUDY_NAME_SIZE];
+    int32_t record_count;
+    StudyRecord records[STUDY_RECORDS_MAX];
+    int32_t point_count;
+} Study;
+
+// overrides: "key=value" as after --set, for every point; a key that is varied is refused.
+// ERROR_INPUT: file:line:column, the key, what was found and what is allowed.
+bool study_read(const char *path, const char *const *overrides, int32_t override_count,
+                Study *study, Error *err);
+void study_destroy(Study *study);
+
+// The scene of `point`, 0 to point_count - 1: cases outermost, then the keys of `vary` in order.
+bool study_point_scene(const Study *study, int32_t point, Scene *scene, Error *err);
+
+// The value of a column's key in a scene, as text; *number is NaN where it is no number.
+void study_scene_value(const Scene *scene, const char *key, char *words, int32_t size,
+                       double *number);
+
+#endif

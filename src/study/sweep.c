@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// study read -> every scene checked and hashed -> finished points found -> the rest computed ->
+// table.
+#include "study/sweep.h"
+
+#include "base/clock.h"
+#include "base/dense.h"
+#include "base/memory.h"
+#include "io/json_reader.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static bool make_folders(const char *path, Error *err)
+{
+    char folder[POINT_PATH_SIZE];
+    snprintf(folder, sizeof folder, "%s/points", path);
+    for (char *slash = folder + 1; *slash; slash++) {
+        if (*slash != '/') continue;
+        *slash = 0;
+        mkdir(folder, 0777);   // a failure shows when the last one is made
+        *slash = '/';
+    }
+    if (mkdir(folder, 0777) != 0 && errno != EEXIST)
+        FAIL(err, ERROR_FILE, "cannot make the folder %s: %s", folder, strerror(errno));
+cleanup:
+    return error_is_clean(err);
+}
+
+// The lock goes with the process, however that ends.
+static bool take_folder(Sweep *sweep, Error *err)
+{
+    char path[POINT_PATH_SIZE];
+    if (snprintf(sweep->folder, sizeof sweep->folder, "%s", sweep->options->folder) >=
+        (int)sizeof sweep->folder)
+        FAIL(err, ERROR_INPUT, "the path of the sweep's folder is too long");
+    TRY(make_folders(sweep->folder, err));
+    snprintf(path, sizeof path, "%s/lock", sweep->folder);
+    sweep->lock = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (sweep->lock < 0)
+        FAIL(err, ERROR_FILE, "cannot write into %s: %s", sweep->folder, strerror(errno));
+    if (flock(sweep->lock, LOCK_EX | LOCK_NB) != 0)
+        FAIL(err, ERROR_FILE,
+             "another sweep is at work in %s: wait for it, or choose another "
+             "folder (-o)",
+             sweep->folder);
+cleanup:
+    return error_is_clean(err);
+}
+
+// Scenes and hashes of all points: what is wrong with any of them shows before the first is run.
+static bool plan_points(Sweep *sweep, Error *err)
+{
+    Hash mesh = {0};
+    char mesh_path[SCENE_TEXT_SIZE] = "";
+    Scene *scene = NEW_ARRAY(Scene, 1, err);
+    TRY(scene);
+    TRY((sweep->points = NEW_ARRAY(SweepPoint, sweep->study.point_count, err)));
+    for (int32_t k = 0; k < sweep->study.point_count; k++) {
+        SweepPoint *point = &sweep->points[k];
+        TRY(study_point_scene(&sweep->study, k, scene, err));
+        TRY(point_hash(scene, &mesh, mesh_path, point->hash, err));
+        for (point->same_as = 0; point->same_as < k; point->same_as++)
+            if (strcmp(sweep->points[point->same_as].hash, point->hash) == 0) break;
+    }
+cleanup:
+    memory_free(scene);
+    return error_is_clean(err);
+}
+
+// Points finished by an earlier sweep.
+static bool find_finished(Sweep *sweep, Error *err)
+{
+    for (int32_t k = 0; k < sweep->study.point_count; k++) {
+        SweepPoint *point = &sweep->points[k];
+        if (point->same_as < k) continue;
+        char *report = point_report(sweep, k, err);
+        TRY(error_is_clean(err));
+        point->status = point_status(report);
+        if (sweep->options->fresh || (sweep->options->retry && point->status == POINT_FAILED))
+            point->status = POINT_PENDING;
+        point->reused = point->status != POINT_PENDING;
+        if (point->reused) {
+            sweep->reused++;
+            sweep_tell(sweep, k, report);
+        } else if (report) {
+            point_remove(sweep, k);
+        }
+        memory_free(report);
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// What one computation decided holds for all points of the same scene.
+static void share_results(Sweep *sweep)
+{
+    for (int32_t k = 0; k < sweep->study.point_count; k++) {
+        SweepPoint *point = &sweep->points[k];
+        const SweepPoint *first = &sweep->points[point->same_as];
+        point->status = first->status;
+        if (point->same_as < k) point->reused = first->status != POINT_PENDING;
+    }
+}
+
+void sweep_tell(Sweep *sweep, int32_t k, const char *report)
+{
+    const SweepPoint *point = &sweep->points[k];
+    char words[POINT_WORDS_SIZE] = "", message[ERROR_MESSAGE_SIZE] = "";
+    Error ignored = {0};
+    Scene *scene = NULL;
+    sweep->finished++;
+    if (point->status == POINT_FAILED) sweep->failed++;
+    if (!sweep->options->on_point) return;
+    scene = NEW_ARRAY(Scene, 1, &ignored);
+    if (scene && study_point_scene(&sweep->study, k, scene, &ignored))
+        point_words(sweep, scene, words);
+    memory_free(scene);
+    SweepView view = {.words = words,
+                      .mu_M = NAN,
+                      .seconds = point->seconds,
+                      .seconds_left = NAN,
+                      .finished = sweep->finished,
+                      .failed = sweep->failed,
+                      .points = sweep->study.point_count,
+                      .reused = point->reused};
+    if (report) json_find_number(report, "results.mu_M", &view.mu_M);
+    if (point->status == POINT_FAILED) {
+        if (report) json_find_text(report, "message", message, sizeof message);
+        view.message = message;
+    }
+    if (sweep->computed > 0)
+        view.seconds_left = (clock_seconds() - sweep->started) / sweep->computed *
+                            (sweep->study.point_count - sweep->finished);
+    sweep->options->on_point(&view, sweep->options->context);
+}
+
+static void summarise(const Sweep *sweep, SweepSummary *summary)
+{
+    *summary = (SweepSummary){.points = sweep->study.point_count,
+                              .computed = sweep->computed,
+                              .seconds = clock_seconds() - sweep->started};
+    for (int32_t k = 0; k < sweep->study.point_count; k++) {
+        const SweepPoint *point = &sweep->points[k];
+        summary->reused += point->reused;
+        summary->failed += point->status == POINT_FAILED;
+        summary->pending += point->status == POINT_PENDING;
+    }
+}
+
+bool amontons_sweep(const char *path, const SweepOptions *options, SweepSummary *summary,
+                    Error *err)
+{
+    *summary = (SweepSummary){0};
+    Error stopped = {0};
+    Sweep *sweep = NEW_ARRAY(Sweep, 1, err);
+    TRY(sweep);
+    sweep->options = options;
+    sweep->lock = -1;
+    sweep->started = clock_seconds();
+    dense_use_one_thread();   // before forking
+    TRY(study_read(path, options->overrides, options->override_count, &sweep->study, err));
+    TRY(plan_points(sweep, err));
+    TRY(take_folder(sweep, err));
+    TRY(find_finished(sweep, err));
+    bool whole = pool_run(sweep, &stopped);
+    share_results(sweep);
+    summarise(sweep, summary);
+    if (!whole && stopped.code != ERROR_INTERRUPT) {
+        *err = stopped;
+        goto cleanup;
+    }
+    TRY(table_write(sweep, err));
+    if (!whole) *err = stopped;
+cleanup:
+    if (sweep) {
+        if (sweep->lock >= 0) close(sweep->lock);
+        memory_free(sweep->points);
+        study_destroy(&sweep->study);
+    }
+    memory_free(sweep);
+    return error_is_clean(err);
+}

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The table of a sweep, a row a point in the study's order: as text in sweep.csv (RFC 4180), as
+// arrays in sweep.h5. Columns: point, the keys that vary, what is recorded, status, message, run.
+#include "study/sweep.h"
+
+#include "base/memory.h"
+#include "io/array_file.h"
+#include "io/json_reader.h"
+#include "io/part_file.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { CELL_SIZE = 2 * ERROR_MESSAGE_SIZE, WORDS_MAX = 64, WORD_SIZE = 64 };
+
+// Words in a column of keys that are no numbers; sweep.h5 stores their index.
+typedef struct WordList {
+    int32_t count;
+    char words[WORDS_MAX][WORD_SIZE];
+} WordList;
+
+typedef struct Table {
+    const Sweep *sweep;
+    PartFile csv;
+    double *keys;   // [column_count][point_count]; owned, like the next three
+    double *records;   // [record_count][point_count]
+    double *status;   // [point_count]
+    WordList *words;   // [column_count]
+    char *cell;   // [CELL_SIZE] work
+} Table;
+
+static const char *status_name(PointStatus status)
+{
+    static const char *const names[] = {"pending", "done", "failed"};
+    return names[status];
+}
+
+// --- sweep.csv ----------------------------------------------------------------------------------
+
+static bool write_text(Table *table, const char *text, Error *err)
+{
+    return part_file_write(&table->csv, text, (int64_t)strlen(text), err);
+}
+
+// Quoted where it must be.
+static bool write_cell(Table *table, const char *text, Error *err)
+{
+    if (!strpbrk(text, ",\"\n\r")) return write_text(table, text, err);
+    char quoted[CELL_SIZE];
+    size_t used = 0;
+    quoted[used++] = '"';
+    for (; *text && used + 4 < sizeof quoted; text++) {
+        if (*text == '"') quoted[used++] = '"';
+        quoted[used++] = *text;
+    }
+    quoted[used++] = '"';
+    quoted[used] = 0;
+    return write_text(table, quoted, err);
+}
+
+static bool write_number(Table *table, double value, Error *err)
+{
+    char digits[40] = "";
+    for (int precision = 6; isfinite(value) && precision <= 17; precision++) {
+        snprintf(digits, sizeof digits, "%.*g", precision, value);
+        if (strtod(digits, NULL) == value) break;
+    }
+    return write_text(table, digits, err);
+}
+
+static bool write_head(Table *table, Error *err)
+{
+    const Study *study = &table->sweep->study;
+    TRY(write_text(table, "point", err));
+    for (int32_t k = 0; k < study->column_count; k++) {
+        TRY(write_text(table, ",", err));
+        TRY(write_cell(table, study->columns[k], err));
+    }
+    for (int32_t k = 0; k < study->record_count; k++) {
+        TRY(write_text(table, ",", err));
+        TRY(write_cell(table, study->records[k].name, err));
+    }
+    TRY(write_text(table, ",status,message,run\n", err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// --- rows ---------------------------------------------------------------------------------------
+
+static double word_index(WordList *list, const char *word)
+{
+    for (int32_t k = 0; k < list->count; k++)
+        if (strcmp(list->words[k], word) == 0) return k;
+    if (list->count == WORDS_MAX) return NAN;
+    snprintf(list->words[list->count], WORD_SIZE, "%.63s", word);
+    return list->count++;
+}
+
+static bool write_keys(Table *table, int32_t point, const Scene *scene, Error *err)
+{
+    const Study *study = &table->sweep->study;
+    for (int32_t k = 0; k < study->column_count; k++) {
+        double number = NAN;
+        study_scene_value(scene, study->columns[k], table->cell, CELL_SIZE, &number);
+        TRY(write_text(table, ",", err));
+        TRY(write_cell(table, table->cell, err));
+        if (isnan(number)) number = word_index(&table->words[k], table->cell);
+        table->keys[k * study->point_count + point] = number;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool write_records(Table *table, int32_t point, const char *report, Error *err)
+{
+    const Study *study = &table->sweep->study;
+    for (int32_t k = 0; k < study->record_count; k++) {
+        const char *path = study->records[k].path;
+        double number = NAN;
+        TRY(write_text(table, ",", err));
+        if (report && json_find_number(report, path, &number))
+            TRY(write_number(table, number, err));
+        else if (report && json_find_text(report, path, table->cell, CELL_SIZE))
+            TRY(write_cell(table, table->cell, err));
+        table->records[k * study->point_count + point] = number;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool write_row(Table *table, int32_t point, Scene *scene, Error *err)
+{
+    const Sweep *sweep = table->sweep;
+    const SweepPoint *at = &sweep->points[point];
+    char digits[16], *report = NULL;
+    TRY(study_point_scene(&sweep->study, point, scene, err));
+    if (at->status != POINT_PENDING) report = point_report(sweep, point, err);
+    TRY(error_is_clean(err));
+    snprintf(digits, sizeof digits, "%d", point);
+    TRY(write_text(table, digits, err));
+    TRY(write_keys(table, point, scene, err));
+    // What a failed point came to before it failed is no result.
+    TRY(write_records(table, point, at->status == POINT_DONE ? report : NULL, err));
+    TRY(write_text(table, ",", err));
+    TRY(write_text(table, status_name(at->status), err));
+    TRY(write_text(table, ",", err));
+    if (at->status == POINT_FAILED && report &&
+        json_find_text(report, "message", table->cell, ERROR_MESSAGE_SIZE))
+        TRY(write_cell(table, table->cell, err));
+    TRY(write_text(table, ",points/", err));
+    TRY(write_text(table, at->hash, err));
+    TRY(write_text(table, "\n", err));
+    table->status[point] = at->status;
+cleanup:
+    memory_free(report);
+    return error_is_clean(err);
+}
+
+// --- sweep.h5 -----------------------------------------------------------------------------------
+
+static bool write_column(ArrayFile *file, const char *group, const char *name,
+                         const char *description, const double *values, int32_t count, Error *err)
+{
+    char path[STUDY_NAME_SIZE + 16];
+    snprintf(path, sizeof path, "%s/%s", group, name);
+    ArraySeries series = {path, ARRAY_FLOAT64, 1, "of the scene", description};
+    return array_file_add_series(file, &series, err) &&
+           array_file_append(file, path, values, count, err);
+}
+
+static bool write_words(ArrayFile *file, const char *column, const WordList *list, Error *err)
+{
+    char name[STUDY_NAME_SIZE + 16], text[WORDS_MAX * (WORD_SIZE + 2)] = "";
+    size_t used = 0;
+    if (list->count == 0) return true;
+    snprintf(name, sizeof name, "%s words", column);
+    for (int32_t k = 0; k < list->count; k++)
+        used +=
+            (size_t)snprintf(text + used, sizeof text - used, "%s%s", k ? "|" : "", list->words[k]);
+    return array_file_set_text(file, name, text, err);
+}
+
+static bool write_arrays(const Table *table, ArrayFile *file, Error *err)
+{
+    const Study *study = &table->sweep->study;
+    int32_t count = study->point_count;
+    TRY(array_file_set_text(file, "title", study->title, err));
+    for (int32_t k = 0; k < study->column_count; k++) {
+        TRY(write_column(file, "scene", study->columns[k],
+                         "key of the scene; a word is its index in the attribute `KEY words`",
+                         &table->keys[k * count], count, err));
+        TRY(write_words(file, study->columns[k], &table->words[k], err));
+    }
+    for (int32_t k = 0; k < study->record_count; k++)
+        TRY(write_column(file, "result", study->records[k].name, study->records[k].path,
+                         &table->records[k * count], count, err));
+    TRY(write_column(file, "result", "status", "0 pending, 1 done, 2 failed", table->status, count,
+                     err));
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool write_h5(const Table *table, Error *err)
+{
+    char path[POINT_PATH_SIZE];
+    snprintf(path, sizeof path, "%s/sweep.h5", table->sweep->folder);
+    ArrayFile *file = array_file_create(path, err);
+    TRY(file);
+    TRY(write_arrays(table, file, err));
+    ArrayFile *closing = file;
+    file = NULL;
+    TRY(array_file_close(closing, err));
+cleanup:
+    array_file_abandon(file);
+    return error_is_clean(err);
+}
+
+bool table_write(const Sweep *sweep, Error *err)
+{
+    const Study *study = &sweep->study;
+    int64_t count = study->point_count;
+    char path[POINT_PATH_SIZE];
+    Table table = {.sweep = sweep};
+    Scene *scene = NEW_ARRAY(Scene, 1, err);
+    TRY(scene);
+    TRY((table.keys = NEW_ARRAY(double, count * study->column_count, err)));
+    TRY((table.records = NEW_ARRAY(double, count * study->record_count, err)));
+    TRY((table.status = NEW_ARRAY(double, count, err)));
+    TRY((table.words = NEW_ARRAY(WordList, study->column_count, err)));
+    TRY((table.cell = NEW_ARRAY(char, CELL_SIZE, err)));
+    snprintf(path, sizeof path, "%s/sweep.csv", sweep->folder);
+    TRY(part_file_create(&table.csv, path, err));
+    TRY(write_head(&table, err));
+    for (int32_t k = 0; k < study->point_count; k++) TRY(write_row(&table, k, scene, err));
+    TRY(part_file_commit(&table.csv, err));
+    TRY(write_h5(&table, err));
+cleanup:
+    part_file_discard(&table.csv);
+    memory_free(table.cell);
+    memory_free(table.words);
+    memory_free(table.status);
+    memory_free(table.records);
+    memory_free(table.keys);
+    memory_free(scene);
+    return error_is_clean(err);
+}
