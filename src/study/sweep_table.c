@@ -159,14 +159,15 @@ cleanup:
 
 // --- sweep.h5 -----------------------------------------------------------------------------------
 
-static bool write_column(ArrayFile *file, const char *group, const char *name,
-                         const char *description, const double *values, int32_t count, Error *err)
+// series: name and description of the column; the rest is the same for all.
+static bool write_column(ArrayFile *file, ArraySeries series, const double *values, int32_t count,
+                         Error *err)
 {
-    char path[STUDY_NAME_SIZE + 16];
-    snprintf(path, sizeof path, "%s/%s", group, name);
-    ArraySeries series = {path, ARRAY_FLOAT64, 1, "of the scene", description};
+    series.type = ARRAY_FLOAT64;
+    series.width = 1;
+    series.unit = "of the scene";
     return array_file_add_series(file, &series, err) &&
-           array_file_append(file, path, values, count, err);
+           array_file_append(file, series.name, values, count, err);
 }
 
 static bool write_words(ArrayFile *file, const char *column, const WordList *list, Error *err)
@@ -186,17 +187,22 @@ static bool write_arrays(const Table *table, ArrayFile *file, Error *err)
     const Study *study = &table->sweep->study;
     int32_t count = study->point_count;
     TRY(array_file_set_text(file, "title", study->title, err));
+    char name[STUDY_NAME_SIZE + 16];
     for (int32_t k = 0; k < study->column_count; k++) {
-        TRY(write_column(file, "scene", study->columns[k],
-                         "key of the scene; a word is its index in the attribute `KEY words`",
-                         &table->keys[k * count], count, err));
+        ArraySeries series = {.name = name,
+                              .description = "key of the scene; a word is its index "
+                                             "in the attribute `KEY words`"};
+        snprintf(name, sizeof name, "scene/%s", study->columns[k]);
+        TRY(write_column(file, series, &table->keys[k * count], count, err));
         TRY(write_words(file, study->columns[k], &table->words[k], err));
     }
-    for (int32_t k = 0; k < study->record_count; k++)
-        TRY(write_column(file, "result", study->records[k].name, study->records[k].path,
-                         &table->records[k * count], count, err));
-    TRY(write_column(file, "result", "status", "0 pending, 1 done, 2 failed", table->status, count,
-                     err));
+    for (int32_t k = 0; k < study->record_count; k++) {
+        ArraySeries series = {.name = name, .description = study->records[k].path};
+        snprintf(name, sizeof name, "result/%s", study->records[k].name);
+        TRY(write_column(file, series, &table->records[k * count], count, err));
+    }
+    ArraySeries status = {.name = "result/status", .description = "0 pending, 1 done, 2 failed"};
+    TRY(write_column(file, status, table->status, count, err));
 cleanup:
     return error_is_clean(err);
 }
