@@ -2,7 +2,8 @@
 // Sums and products of numbers and of named quantities, so that a study can say
 // `mesh.set.height: = 0.5 * mesh.set.length`. Called by study/study.
 //
-//     sum = product {(+|-) product}     product = power {(*|/) power}     power = - power | unit [^ power]
+//     sum = product {(+|-) product}     product = power {(*|/) power}
+//     power = - power | unit [^ power]
 //     unit = number | name | sqrt(sum) | (sum)
 #ifndef AMONTONS_STUDY_FORMULA_H
 #define AMONTONS_STUDY_FORMULA_H

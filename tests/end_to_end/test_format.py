@@ -14,7 +14,7 @@ from pathlib import Path
 
 SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
 FILE_LINES, FUNCTION_LINES, ARGUMENTS, COLUMNS = 700, 90, 6, 100
-HEADER_LINES = {"amontons.h": 220}   # the public header; every other header: below 150
+HEADER_LINES = {"amontons.h": 250}   # the public header; every other header: below 150
 HEADER_LINES_MAX = 150
 CLANG_FORMAT = "14"                  # Debian 12's; another major version formats otherwise
 LICENCE = "SPDX-License-Identifier: GPL-2.0-or-later"
@@ -78,7 +78,7 @@ def faults(path):
 
 # What no file of the library does, and the one place that may.
 HABITS = [
-    ("prints or ends the program", r"src/cli/",
+    ("prints or ends the program", r"src/cli/|src/study/sweep_pool\.c",   # there: a forked child
      r"\b(printf|puts|putchar|perror|exit|_exit|abort)\(|\bfprintf\(\s*(stderr|stdout)"),
     ("allocates by itself", r"src/base/memory\.c",
      r"\b(malloc|calloc|realloc|aligned_alloc|strdup|strndup|asprintf)\("),
