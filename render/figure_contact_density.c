@@ -84,7 +84,7 @@ bool figure_contact_density(const Page *page, ResultView *view, Error *err)
     map_page_draw_field(page, view, &map);
     TRY(map_page_draw_front(page, view, &map, err));
     if (zoom.found) map.axes.color = ZOOM_DENSITY;
-    map_page_draw_frame(page, &map);
+    map_page_draw_frame(page, view, &map);
 cleanup:
     map_page_destroy(&map);
     return error_is_clean(err);

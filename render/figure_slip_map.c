@@ -42,14 +42,16 @@ static void grid_to_levels(PixelGrid *grid, const Colorbar *bar, double V)
 }
 
 // The critical length of the quasi-static precursor, as the paper's figure has it: a dashed line.
-static void critical_length_draw(const Page *page, const Axes *axes, double length)
+static void critical_length_draw(const Page *page, const MapPage *map, double length)
 {
+    const Axes *axes = &map->axes;
     Stroke stroke = {.color = INK, .width = 0.6 * page->point, .dash = 3 * page->point};
     stroke.space = 2 * page->point;
     Point from = axes_place(axes, axes->x.low, length), to = axes_place(axes, axes->x.high, length);
     TextStyle style = {.size = NUMBER_SIZE * page->point, .color = INK, .up = 0.5};
     shape_segment(page->canvas, &stroke, from, to);
-    text_draw(page->text, &style, (Point){to.x + 1.6 * page->point, to.y}, "~{l}_{c}");
+    text_draw(page->text, &style, (Point){to.x + (1.6 + map->pads_width) * page->point, to.y},
+              "~{l}_{c}");
 }
 
 // A bar above the frame, in the colour of the contact-density map's frame: what that one enlarges.
@@ -82,8 +84,8 @@ bool figure_slip_map(const Page *page, ResultView *view, Error *err)
     grid_to_levels(&map.grid, &map.bar, V);
     map_page_draw_field(page, view, &map);
     zoom_draw(page, view, &map.axes);
-    if (isfinite(length)) critical_length_draw(page, &map.axes, length);
-    map_page_draw_frame(page, &map);
+    if (isfinite(length)) critical_length_draw(page, &map, length);
+    map_page_draw_frame(page, view, &map);
 cleanup:
     map_page_destroy(&map);
     return error_is_clean(err);

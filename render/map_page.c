@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "render/colormap.h"
+#include "render/pad_marks.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -57,8 +58,9 @@ void map_page_layout(const Page *page, const ResultView *view, double U_low, dou
     axes->box.top = round(axes_top_margin(axes) * point);
     axes->box.bottom = round(canvas_height(page->canvas) - axes_bottom_margin(axes) * point);
     axes->box.left = round(axes_left_margin(page, axes) * point);
-    axes->box.right = round(canvas_width(page->canvas) -
-                            (BAR_GAP + map->mark_width + colorbar_width(page, &map->bar)) * point);
+    map->pads_width = pad_marks_width(page, view);
+    double beside = BAR_GAP + map->pads_width + map->mark_width + colorbar_width(page, &map->bar);
+    axes->box.right = round(canvas_width(page->canvas) - beside * point);
     int32_t column = (int32_t)fmax(1, round(COLUMN_WIDTH * point));   // pixels
     int32_t columns = (int32_t)(axes->box.right - axes->box.left) / column;
     axes->box.right = axes->box.left + columns * column;
@@ -135,11 +137,12 @@ cleanup:
     return error_is_clean(err);
 }
 
-void map_page_draw_frame(const Page *page, const MapPage *map)
+void map_page_draw_frame(const Page *page, const ResultView *view, const MapPage *map)
 {
     Box bar = map->axes.box;
-    bar.left = round(bar.right + (BAR_GAP + map->mark_width) * page->point);
+    bar.left = round(bar.right + (BAR_GAP + map->pads_width + map->mark_width) * page->point);
     axes_draw(page, &map->axes);
+    pad_marks_draw(page, view, &map->axes);
     colorbar_draw(page, &map->bar, &bar);
 }
 

@@ -12,7 +12,8 @@ typedef struct MapPage {
     Axes axes;
     PixelGrid grid;   // fills the frame; its columns are some pixels wide; owned
     Colorbar bar;
-    double mark_width;   // points between frame and bar kept for a mark's name
+    double mark_width;   // points between pads' names and bar kept for a mark's name
+    double pads_width;   // points between frame and mark: the pads' names
 } MapPage;
 
 // Places the frame for U from low to high and all x; map->bar and map->mark_width are given.
@@ -27,8 +28,8 @@ bool map_page_fill(const ResultView *view, const double *status, MapPage *map, E
 void map_page_draw_field(const Page *page, const ResultView *view, const MapPage *map);
 // The front l(U) as a thin line.
 bool map_page_draw_front(const Page *page, const ResultView *view, const MapPage *map, Error *err);
-// Frame, axes and bar: last.
-void map_page_draw_frame(const Page *page, const MapPage *map);
+// Frame, axes, the pads' names and bar: last.
+void map_page_draw_frame(const Page *page, const ResultView *view, const MapPage *map);
 void map_page_destroy(MapPage *map);   // zeroed is fine
 
 #endif

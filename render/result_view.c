@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { UNITS_SIZE = 32 };
+enum { UNITS_SIZE = 32, PAD_NAMES_SIZE = 1 << 16 };   // bytes
 
 // One value a row; `rows` shrinks to the shortest series: a killed run may have flushed some only.
 static bool scalar_read(ResultView *view, ResultSeries series, double **values, Error *err)
@@ -80,6 +80,17 @@ cleanup:
     return error_is_clean(err);
 }
 
+// A history of before pads had names has none: no error.
+static bool pad_names_read(ResultView *view, Error *err)
+{
+    Error absent = {0};
+    TRY(view->pad_names = NEW_ARRAY(char, PAD_NAMES_SIZE, err));
+    if (!result_file_text(view->file, "pads", view->pad_names, PAD_NAMES_SIZE, &absent))
+        view->pad_names[0] = '\0';
+cleanup:
+    return error_is_clean(err);
+}
+
 // `count` rows of the tables [table_count]: all must be equally long.
 static bool tables_read(ResultView *view, const ResultTable *tables, double **columns,
                         int32_t *count, int32_t table_count, Error *err)
@@ -141,6 +152,7 @@ bool result_view_open(const char *folder, ResultView *view, Error *err)
     TRY(scalar_read(view, SERIES_FRONT, &view->front, err));
     TRY(range_check(view, err));
     TRY(nodes_read(view, err));
+    TRY(pad_names_read(view, err));
     TRY(events_read(view, err));
     TRY(peaks_read(view, err));
     for (int32_t k = 0; k < RESULT_NUMBERS_COUNT; ++k)
@@ -172,6 +184,7 @@ void result_view_close(ResultView *view)
     memory_free(view->front);
     memory_free(view->x);
     memory_free(view->pad);
+    memory_free(view->pad_names);
     memory_free(view->slip_rate);
     memory_free(view->status);
     memory_free(view->events);

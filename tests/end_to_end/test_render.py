@@ -336,6 +336,36 @@ class Variants(unittest.TestCase):
         row, column = frame.pixel(0.98, x[pad == 2].mean())
         self.assertTrue(is_color(picture[row, column], STICK))
 
+    def test_pads_are_marked(self):
+        """A bar beside the frame along each pad, none along the gaps and for a plain block; names of
+        one's own take the room they need."""
+        gray = (115, 117, 122)
+        data, attributes = fixture.make(self.folder, nodes=90, pads=3)
+        self.draw("slip-map")
+        picture = read_picture(self.folder, "slip-map")
+        frame = Frame(picture)
+        x, pad = data["nodes/x"], data["nodes/pad"]
+        beside = slice(int(frame.right) + 3, int(frame.right) + 25)
+        for k in range(3):
+            row, _ = frame.pixel(0.5, x[pad == k].mean())
+            self.assertTrue(is_color(picture[row, beside], gray).any(), k)
+        for k in range(2):
+            row, _ = frame.pixel(0.5, (x[pad == k].max() + x[pad == k + 1].min()) / 2)
+            self.assertFalse(is_color(picture[row, beside], gray).any(), k)
+
+        def named(_, attributes):
+            attributes["pads"] = "contact_1\nthe middle foot\ncontact_3"
+        fixture.make(self.folder, nodes=90, pads=3, change=named)
+        self.draw("slip-map")
+        self.assertLess(Frame(read_picture(self.folder, "slip-map")).right, frame.right - 30)
+        fixture.make(self.folder)
+        self.draw("slip-map")
+        plain = read_picture(self.folder, "slip-map")
+        wide = Frame(plain)
+        self.assertGreater(wide.right, frame.right)
+        row, _ = wide.pixel(0.5, 0.25)
+        self.assertFalse(is_color(plain[row, int(wide.right) + 3:int(wide.right) + 25], gray).any())
+
     def test_si_units(self):
         """Lengths get a handy unit: the same picture but for its numbers and names."""
         fixture.make(self.folder, units="si", length=0.1)
