@@ -208,9 +208,11 @@ static double certificate_margin(const StabilityPath *path, int32_t k)
     return path->points[k].certified ? -INFINITY : 0;
 }
 
+// Of the pair that swings: the overdamped rates, which stay near -E/eta, say nothing about it.
 static double real_part(const StabilityPath *path, int32_t k)
 {
-    return path->points[k].rate_re;
+    const StabilityPoint *point = &path->points[k];
+    return point->rate_im > 0 || point->rate_re > 0 ? point->rate_re : -INFINITY;
 }
 
 static double overload(const StabilityPath *path, int32_t k)
