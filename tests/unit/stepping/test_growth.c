@@ -188,48 +188,58 @@ static void set_state(Case *test, double pressure, int32_t slipping)
         double pressing = pressure * interface->weight[i] * (0.3 + 1.4 * interface->x[i]);
         state->status[i] = CONTACT_STICK;
         state->reaction[2 * i + 1] = pressing;
-        if (i < slipping) slip(state, i, CONTACT_SLIP_FORWARD, 1e-5 * (1 + i % 3), pressing);
+        double rate = 0.03 * test->law.critical_velocity * (1 + i % 3);
+        if (i < slipping) slip(state, i, CONTACT_SLIP_FORWARD, rate, pressing);
     }
 }
 
-// From too little weakening to grow to so much that several real rates exist.
+// From too little weakening to grow to so much that several real rates exist. Returns how many
+// states had one.
+static int32_t check_block(FrictionLaw law, double length, double pressure, bool reduced)
+{
+    Error err = {0};
+    Case test = {.law = law};
+    BlockDef def = {ELEMENT_Q4,           .nx = 8,          .nz = 5, .length = length,
+                    .height = length / 2, .distortion = 0.1};
+    case_build_block(&test, &def, &SOFT);
+    if (reduced) {
+        double *rotation = hand_matrix(test.interface.count, 1);
+        ReductionDef how = {1e-3, {1, 2, length * length, 1}};
+        assert_true(reduction_build(&test.bulk, test.interface.dofs, test.interface.count, &how,
+                                    &test.reduced, &err));
+        assert_true(bulk_operator_reduce(&test.reduced, rotation, 1, &test.system, &err));
+        free(rotation);
+    }
+    case_open(&test, growth_def(length, 1.06, test.interface.contact_count));
+    double factors[] = {0.03, 0.3, 0.7, 1, 2, 2.6};
+    int32_t growing = 0;
+    for (size_t p = 0; p < sizeof factors / sizeof *factors; p++) {
+        for (int32_t slipping = 0; slipping < 9; slipping += 2) {
+            GrowthRates found;
+            set_state(&test, factors[p] * pressure, slipping);
+            assert_same_rates(&test, 1e-6);
+            assert_true(growth_rates(test.growth, &test.state, &found, &err));
+            growing += found.real.re > 0;
+        }
+        // A mixed state: backward slip, an open node, a rod node let go.
+        double rate = 0.06 * law.critical_velocity;
+        slip(&test.state, 3, CONTACT_SLIP_BACKWARD, rate, factors[p] * pressure * length / 8);
+        test.state.status[0] = CONTACT_OPEN;
+        test.state.rod_touches[0] = 0;
+        assert_same_rates(&test, 1e-6);
+        test.state.rod_touches[0] = 1;
+    }
+    case_close(&test);
+    return growing;
+}
+
 static void test_against_dense(void **unused)
 {
     (void)unused;
+    const FrictionLaw glass = {FRICTION_LINEAR_WEAKENING, 1.2, 0.2, 3.9e-7};   // the paper's set B
     for (int32_t reduced = 0; reduced < 2; reduced++) {
-        Error err = {0};
-        Case test = {.law = LAW};
-        BlockDef def = {ELEMENT_Q4,  .nx = 8,       .nz = 5,
-                        .length = 1, .height = 0.5, .distortion = 0.1};
-        case_build_block(&test, &def, &SOFT);
-        if (reduced) {
-            double *rotation = hand_matrix(test.interface.count, 1);
-            ReductionDef how = {1e-3, {1, 2, 1, 1}};
-            assert_true(reduction_build(&test.bulk, test.interface.dofs, test.interface.count, &how,
-                                        &test.reduced, &err));
-            assert_true(bulk_operator_reduce(&test.reduced, rotation, 1, &test.system, &err));
-            free(rotation);
-        }
-        case_open(&test, growth_def(1, 1.06, test.interface.contact_count));
-        double pressures[] = {1e-4, 1e-3, 2e-3, 3e-3, 6e-3, 8e-3};
-        int32_t growing = 0;
-        for (size_t p = 0; p < sizeof pressures / sizeof *pressures; p++) {
-            for (int32_t slipping = 0; slipping < 9; slipping += 2) {
-                set_state(&test, pressures[p], slipping);
-                assert_same_rates(&test, 1e-6);
-                GrowthRates found;
-                assert_true(growth_rates(test.growth, &test.state, &found, &err));
-                growing += found.real.re > 0;
-            }
-            // A mixed state: backward slip, an open node, a rod node let go.
-            slip(&test.state, 3, CONTACT_SLIP_BACKWARD, 2e-5, pressures[p] / 8);
-            test.state.status[0] = CONTACT_OPEN;
-            test.state.rod_touches[0] = 0;
-            assert_same_rates(&test, 1e-6);
-            test.state.rod_touches[0] = 1;
-        }
-        assert_in_range(growing, 3, 27);
-        case_close(&test);
+        assert_in_range(check_block(LAW, 1, 3e-3, reduced), 3, 27);
+        assert_in_range(check_block(glass, 0.04, 2.5e-5, reduced), 2, 27);
     }
 }
 
@@ -332,7 +342,7 @@ static void test_shear_column(void **unused)
     dense_use_one_thread();
     column_build(&test, shear, eta, density, height);
     double slope = 0.28 / 3.4e-4, swings = NAN, runs = NAN, overload = NAN;
-    for (double weakening = 0.8; weakening < 3; weakening += 0.02) {
+    for (double weakening = 0.8; weakening < 2.4; weakening += 0.03) {
         GrowthRates rates;
         slip(&test.state, 0, CONTACT_SLIP_FORWARD, 1e-6, weakening / slope);
         assert_true(growth_rates(test.growth, &test.state, &rates, &err));
@@ -352,7 +362,7 @@ static void test_shear_column(void **unused)
     // The thresholds of REFERENCES 4, leading order: eta/H and eta/H + 2 sqrt(rho G/3).
     assert_near("swings from eta/H", swings, eta / height, 0.06);
     assert_near("runs away from", runs, eta / height + 2 * sqrt(density * shear / 3), 0.06);
-    assert_near("without pressure to couple the scan finds the same", overload, runs, 0.021);
+    assert_near("without pressure to couple the scan finds the same", overload, runs, 0.031);
     case_close(&test);
 }
 
