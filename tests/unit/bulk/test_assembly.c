@@ -169,6 +169,46 @@ static void test_weights_and_tractions(void **state)
     }
 }
 
+// Unknowns that are held stay at 0: their rows and columns are cut, their load is gone, and the rest
+// moves as if they were left out.
+static void test_held(void **state)
+{
+    (void)state;
+    Error err = {0};
+    Material material = material_default();
+    BlockDef def = distorted(ELEMENT_Q4);
+    Mesh mesh;
+    Bulk bulk;
+    block_build(&def, &mesh);
+    assert_true(bulk_assemble(&mesh, &material, &bulk, &err));
+    press_on(&mesh, "top", 0.3, -1, &bulk);
+    int32_t n = bulk.dof_count;
+    double *a[2] = {hand_matrix(n, n), hand_matrix(n, n)}, *x[2];
+    for (int round = 0; round < 2; round++) {   // K + M by hand cut, then by bulk_hold
+        x[round] = hand_matrix(n, 1);
+        if (round == 1)
+            for (int32_t dof = 0; dof < n; dof += 7) bulk_hold(dof, &bulk);
+        for (int32_t j = 0; j < n; j++) {
+            for (int32_t m = bulk.pattern.start[j]; m < bulk.pattern.start[j + 1]; m++) {
+                int32_t i = bulk.pattern.index[m];
+                bool cut = round == 0 && i != j && (i % 7 == 0 || j % 7 == 0);
+                a[round][j * n + i] = cut ? 0 : bulk.stiffness[m] + (i == j ? bulk.mass[i] : 0);
+            }
+            x[round][j] = round == 0 && j % 7 == 0 ? 0 : bulk.load[j];
+            assert_int_equal(bulk.held[j], round == 1 && j % 7 == 0);
+        }
+        assert_true(hand_solve(a[round], n, x[round], 1));
+    }
+    assert_all_near("x", x[1], x[0], n, 1e-13);
+    for (int32_t dof = 0; dof < n; dof += 7) assert_true(x[1][dof] == 0);
+    for (int round = 0; round < 2; round++) {
+        free(a[round]);
+        free(x[round]);
+    }
+    bulk_destroy(&bulk);
+    mesh_destroy(&mesh);
+}
+
 static void test_memory_faults(void **state)
 {
     (void)state;
@@ -197,6 +237,7 @@ int main(void)
         cmocka_unit_test(test_patch),
         cmocka_unit_test(test_dense_assembly),
         cmocka_unit_test(test_weights_and_tractions),
+        cmocka_unit_test(test_held),
         cmocka_unit_test(test_memory_faults),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

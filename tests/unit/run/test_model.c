@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What the words of a scene become: the state at t = 0 under each of them, what steps and ends are
+// taken from it, and scenes that cannot be computed.
+#include "run/simulation.h"
+
+#include "base/memory.h"
+#include "small_scene.h"
+
+static const double PRESSURE = 0.003;
+
+static Simulation *simulation_of(const char *const *more)
+{
+    Error err = {0};
+    RunOptions options = {0};
+    Simulation *simulation = NULL;
+    Scene *scene = small_scene(more);
+    if (!amontons_simulation_create(scene, &options, &simulation, &err))
+        fail_msg("%s", err.message);
+    amontons_scene_destroy(scene);
+    return simulation;
+}
+
+static double normal_force(const Simulation *simulation)
+{
+    double sum = 0;
+    for (int32_t i = 0; i < simulation->interface.contact_count; i++)
+        sum += simulation->control.now.reaction[interface_normal(i)];
+    return sum;
+}
+
+static double shear_force(const Simulation *simulation)
+{
+    double sum = 0;
+    for (int32_t i = 0; i < simulation->interface.contact_count; i++)
+        sum += simulation->control.now.reaction[interface_tangent(i)];
+    return sum;
+}
+
+// Relaxed with friction, the bottom cannot spread as it wants; without, it does, and p is even.
+static void test_friction_while_relaxing(void **state)
+{
+    (void)state;
+    for (int on = 0; on < 2; on++) {
+        Simulation *simulation = simulation_of(
+            (const char *const[]){on ? "start.friction=on" : "start.friction=off", NULL});
+        const State *now = &simulation->control.now;
+        double largest = 0, uneven = 0;
+        for (int32_t i = 0; i < simulation->interface.contact_count; i++) {
+            double weight = simulation->interface.weight[i];
+            double p = now->reaction[interface_normal(i)] / weight;
+            largest = fmax(largest, fabs(now->reaction[interface_tangent(i)] / weight));
+            uneven = fmax(uneven, fabs(p - PRESSURE));
+        }
+        assert_near("normal", normal_force(simulation), PRESSURE, 1e-7 * PRESSURE);
+        assert_near("shear", shear_force(simulation), 0, 1e-6 * PRESSURE);
+        if (on) assert_true(largest > 0.05 * PRESSURE && uneven > 0.01 * PRESSURE);
+        if (!on) assert_true(largest < 1e-6 * PRESSURE && uneven < 1e-6 * PRESSURE);
+        assert_int_equal(simulation->law.kind, FRICTION_LINEAR_WEAKENING);   // the scene's again
+        assert_near("mu_S", simulation->law.mu_static, 0.38, 0);
+        assert_near("t", now->time, 0, 0);
+        amontons_simulation_destroy(simulation);
+    }
+}
+
+// The rod comes to the relaxed face, or stands there while the block spreads against it: then it
+// presses, and a bonded one would pull as well.
+static void test_rod_at_the_start(void **state)
+{
+    (void)state;
+    const struct {
+        const char *kind, *start;
+        RodKind found;
+        bool presses;
+    } cases[] = {{"rod.kind=push", "start.rod=away", ROD_PUSHES, false},
+                 {"rod.kind=bonded", "start.rod=away", ROD_IS_BONDED, false},
+                 {"rod.kind=push", "start.rod=held", ROD_PUSHES, true},
+                 {"rod.kind=bonded", "start.rod=held", ROD_IS_BONDED, true},
+                 {"rod.kind=none", "start.rod=away", ROD_AWAY, false}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        Simulation *simulation = simulation_of(
+            (const char *const[]){cases[k].kind, cases[k].start, "time.until={t: 10}", NULL});
+        assert_int_equal(simulation->rod.kind, cases[k].found);
+        double force = rod_force(&simulation->interface, simulation->control.now.reaction);
+        if (cases[k].presses) assert_true(force > 1e-3 * PRESSURE);
+        if (!cases[k].presses) assert_near("F_T", force, 0, 1e-6 * PRESSURE);
+        assert_near("balance", shear_force(simulation), -force, 1e-6 * PRESSURE);
+        for (int32_t j = 0; j < simulation->interface.rod_count; j++) {
+            int32_t at = interface_rod(&simulation->interface, j);
+            double u = simulation->control.now.displacement[simulation->system.interface_dofs[at]];
+            assert_near("touches", simulation->rod.origin[j], u, 1e-18);
+        }
+        if (simulation->interface.rod_count > 0)
+            assert_near("V", simulation->rod.velocity, 1e-5, 0);
+        amontons_simulation_destroy(simulation);
+    }
+}
+
+// Loads add up, whatever they are called; F_N is what presses.
+static void test_loads(void **state)
+{
+    (void)state;
+    Simulation *simulation = simulation_of((const char *const[]){
+        "load.tractions=[{group: top, x: 1e-4, z: -1e-3}, {group: leading, x: -2e-4, z: 0}]",
+        NULL});
+    assert_near("F_N", simulation->scales.load, 0.004, 1e-15);
+    assert_near("normal", normal_force(simulation), 0.004, 1e-9);
+    // 1e-4 on the top, length 1; -2e-4 on the leading face, height 0.5: friction has nothing to hold.
+    assert_near("shear", shear_force(simulation), 0, 1e-8);
+    amontons_simulation_destroy(simulation);
+}
+
+// E, nu, rho and eta reach the bulk: u_z of the top of a frictionless block is -P H (1 - nu^2)/E in
+// plane strain.
+static void test_material(void **state)
+{
+    (void)state;
+    Simulation *simulation = simulation_of((const char *const[]){
+        "material={young: 2, poisson: 0.3, density: 3, eta1: 0.5, eta2: 0.7, plane: strain}",
+        "start.friction=off", "reduction.use=never", NULL});
+    const Material *material = &simulation->material;
+    assert_true(material->young == 2 && material->poisson == 0.3 && material->plane_strain);
+    assert_true(material->density == 3 && material->eta1 == 0.5 && material->eta2 == 0.7);
+    const Mesh *mesh = &simulation->mesh;
+    for (int32_t node = 0; node < mesh->node_count; node++) {
+        if (mesh->position[2 * node + 1] < 0.5 - 1e-12) continue;
+        double wanted = -PRESSURE * 0.5 * (1 - 0.3 * 0.3) / 2;
+        assert_near("u_z", simulation->control.now.displacement[2 * node + 1], wanted, 1e-9);
+    }
+    assert_near("mass", simulation->system.mass_total, 3 * 0.5, 1e-12);
+    amontons_simulation_destroy(simulation);
+}
+
+// Whichever of U and t comes first ends the run; steps are no longer than asked.
+static void test_end_and_steps(void **state)
+{
+    (void)state;
+    const struct {
+        const char *until, *step_max;
+        double t_end, longest;
+    } cases[] = {{"time.until={U: 0.001}", "time.step_max=0", 100, 2},
+                 {"time.until={t: 40}", "time.step_max=0", 40, 0.8},
+                 {"time.until={U: 0.001, t: 40}", "time.step_max=0", 40, 0.8},
+                 {"time.until={U: 0.0001, t: 40}", "time.step_max=0", 10, 0.2},
+                 // 0.2 of the slip that the drop of friction drives, 0.28 * 0.003 * 0.5
+                 {"time.until={U: 1}", "time.step_max=0", 1e5, 0.2 * 0.28 * 0.003 * 0.5 / 1e-5},
+                 {"time.until={U: 1}", "time.step_max=0.3", 1e5, 0.3}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        Simulation *simulation =
+            simulation_of((const char *const[]){cases[k].until, cases[k].step_max, NULL});
+        assert_near("end", simulation->t_end, cases[k].t_end, 1e-9 * cases[k].t_end);
+        assert_near("longest", simulation->control.def.step_max, cases[k].longest, 1e-12);
+        amontons_simulation_destroy(simulation);
+    }
+}
+
+// A periodic regime ends the run where the scene says so.
+static void test_until_periodic(void **state)
+{
+    (void)state;
+    Error err = {0};
+    RunOptions options = {0};
+    RunSummary summary[2];
+    for (int periodic = 0; periodic < 2; periodic++) {
+        Scene *scene = small_scene((const char *const[]){
+            periodic ? "time.until={U: 0.03, periodic: true}" : "time.until={U: 0.03}",
+            "time.periodic_tolerance=0.03", NULL});
+        if (!amontons_run(scene, &options, &summary[periodic], &err)) fail_msg("%s", err.message);
+        amontons_scene_destroy(scene);
+    }
+    assert_true(summary[1].peaks < summary[0].peaks && summary[1].peaks_counted >= 3);
+    assert_near("mu_M", summary[1].mu_M, summary[0].mu_M, 0.03 * summary[0].mu_M);
+}
+
+static void test_refused(void **state)
+{
+    (void)state;
+    const struct {
+        const char *setting, *words;
+    } cases[] = {
+        {"load.tractions=[{group: top, x: 0, z: 0.01}]", "do not press the block onto the plane"},
+        {"load.tractions=[{group: topp, x: 0, z: 0}]", "did you mean 'top'?"},
+        {"groups.top=rood", "did you mean 'rod'?"},
+        {"groups.contact=leading", "z = 0"},
+        {"rod.height=0.26", "no node of group \"rod\""},
+        {"mesh.set.nx=0", "nx"},
+    };
+    int64_t live = memory_counters().live;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        Error err = {0};
+        RunOptions options = {0};
+        RunSummary summary;
+        Scene *scene = small_scene((const char *const[]){"rod.width=0.01", cases[k].setting, NULL});
+        assert_false(amontons_run(scene, &options, &summary, &err));
+        amontons_scene_destroy(scene);
+        assert_int_equal(err.code, ERROR_INPUT);
+        if (!strstr(err.message, cases[k].words))
+            fail_msg("'%s' is not in: %s", cases[k].words, err.message);
+        assert_int_equal(memory_counters().live, live);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_friction_while_relaxing),
+        cmocka_unit_test(test_rod_at_the_start),
+        cmocka_unit_test(test_loads),
+        cmocka_unit_test(test_material),
+        cmocka_unit_test(test_end_and_steps),
+        cmocka_unit_test(test_until_periodic),
+        cmocka_unit_test(test_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
