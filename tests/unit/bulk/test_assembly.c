@@ -184,7 +184,7 @@ static void test_held(void **state)
     press_on(&mesh, "top", 0.3, -1, &bulk);
     int32_t n = bulk.dof_count;
     double *a[2] = {hand_matrix(n, n), hand_matrix(n, n)}, *x[2];
-    for (int round = 0; round < 2; round++) {   // K + M by hand cut, then by bulk_hold
+    for (int round = 0; round < 2; round++) {   // K + C + M by hand cut, then by bulk_hold
         x[round] = hand_matrix(n, 1);
         if (round == 1)
             for (int32_t dof = 0; dof < n; dof += 7) bulk_hold(dof, &bulk);
@@ -192,7 +192,8 @@ static void test_held(void **state)
             for (int32_t m = bulk.pattern.start[j]; m < bulk.pattern.start[j + 1]; m++) {
                 int32_t i = bulk.pattern.index[m];
                 bool cut = round == 0 && i != j && (i % 7 == 0 || j % 7 == 0);
-                a[round][j * n + i] = cut ? 0 : bulk.stiffness[m] + (i == j ? bulk.mass[i] : 0);
+                a[round][j * n + i] =
+                    cut ? 0 : bulk.stiffness[m] + bulk.damping[m] + (i == j ? bulk.mass[i] : 0);
             }
             x[round][j] = round == 0 && j % 7 == 0 ? 0 : bulk.load[j];
             assert_int_equal(bulk.held[j], round == 1 && j % 7 == 0);
