@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """One run's fields, history and report against each other, read by VTK, h5py and json.
 
-Stresses are judged by what they must add up to: the pressure of the interface is that of the bulk's
-reaction, the mean vertical stress of every level that of the load, von Mises that of the components.
+Stresses are judged by what they must add up to: the mean vertical stress of every level is that of
+the load, von Mises that of the components.
 """
 import json
 import os
@@ -106,7 +106,8 @@ class RunFields(unittest.TestCase):
             self.assertEqual(frame["cells"], CELLS)
             self.near(frame["pressure"], self.series["interface/pressure"][row], 1e-6)
             self.near(frame["shear"] + 1e-30, self.series["interface/shear"][row] + 1e-30, 1e-6)
-            self.near(frame["slip_rate"] + 1e-9, self.series["interface/slip_rate"][row] + 1e-9, 1e-6)
+            self.near(frame["slip_rate"] + 1e-9,
+                      self.series["interface/slip_rate"][row] + 1e-9, 1e-6)
             speed = numpy.abs(frame["slip_rate"])
             touching = frame["pressure"] > 0
             self.near(frame["contact_density"][touching],

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Blocks of any element, shape, material and friction, driven any way, with steps of any size: what must
-// hold in every step that is solved, whatever happens in it.
+// Blocks of any element, shape, material and friction, driven any way, with steps of any size: what
+// must hold in every step that is solved, whatever happens in it.
 #include "block_rig.h"
 #include "contact/contact_check.h"
 

@@ -104,7 +104,7 @@ static void test_loads(void **state)
         NULL});
     assert_near("F_N", simulation->scales.load, 0.004, 1e-15);
     assert_near("normal", normal_force(simulation), 0.004, 1e-9);
-    // 1e-4 on the top, length 1; -2e-4 on the leading face, height 0.5: friction has nothing to hold.
+    // 1e-4 on the top, length 1; -2e-4 on the leading face, height 0.5: nothing for friction.
     assert_near("shear", shear_force(simulation), 0, 1e-8);
     amontons_simulation_destroy(simulation);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A block so stiff that it moves as one, where everything has a closed form: it slows down under
-// Coulomb friction and stops; under velocity weakening it runs away with the known growth rate, which
-// the certificate must see coming.
+// Coulomb friction and stops; under velocity weakening it runs away with the known growth rate,
+// which the certificate must see coming.
 #include "block_rig.h"
 
 static const double PRESSURE = 0.003, HEIGHT = 0.1;
