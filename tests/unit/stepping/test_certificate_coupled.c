@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The coupled test of a step, det J(s) > 0, against finite differences of the equations of slip written
+// down by hand: a node that slips obeys tau = -sign(v) mu(v) p, and p answers to all that moves.
+#include "stepping/certificate.h"
+
+#include "block_rig.h"
+
+enum { UNKNOWNS_MAX = 32 };
+
+typedef struct Slip {
+    const BlockRig *rig;
+    const State *seen;
+    const double *schur;
+    int32_t moving[UNKNOWNS_MAX], count;
+} Slip;
+
+static bool slips(uint8_t status)
+{
+    return status == CONTACT_SLIP_FORWARD || status == CONTACT_SLIP_BACKWARD;
+}
+
+static void list_moving(Slip *slip)
+{
+    const Interface *interface = &slip->rig->interface;
+    slip->count = 0;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        if (slip->seen->status[i] == CONTACT_STICK) continue;
+        slip->moving[slip->count++] = interface_tangent(i);
+        if (!slips(slip->seen->status[i])) slip->moving[slip->count++] = interface_normal(i);
+    }
+    for (int32_t j = 0; j < interface->rod_count; j++)
+        if (!slip->seen->rod_touches[j]) slip->moving[slip->count++] = interface_rod(interface, j);
+}
+
+// What is out of balance in row `row` when unknown `changed` moves by `step` beside what is seen: forces
+// are those seen plus S times that.
+static double out_of_balance(const Slip *slip, int32_t row, int32_t changed, double step)
+{
+    const FrictionLaw *law = &slip->rig->law;
+    const Interface *interface = &slip->rig->interface;
+    int32_t size = interface->count;
+    double tangential = slip->schur[changed * size + row] * step;
+    bool contact = row < 2 * interface->contact_count;
+    if (!contact || row % 2 == 1 || !slips(slip->seen->status[row / 2])) return tangential;
+    double v = slip->seen->slip_rate[row] + (changed == row ? step : 0), speed = fabs(v);
+    double normal = slip->seen->reaction[row + 1] + slip->schur[changed * size + row + 1] * step;
+    double part = speed < law->critical_velocity ? 1 - speed / law->critical_velocity : 0;
+    double mu = law->mu_kinetic + (law->mu_static - law->mu_kinetic) * part;
+    return tangential + (v < 0 ? -1 : 1) * mu * normal;
+}
+
+// The sign of a determinant by elimination with exchanges of rows; a is destroyed.
+static int hand_sign(double *a, int32_t n)
+{
+    int sign = 1;
+    for (int32_t k = 0; k < n; k++) {
+        int32_t pivot = k;
+        for (int32_t i = k + 1; i < n; i++)
+            if (fabs(a[k * n + i]) > fabs(a[k * n + pivot])) pivot = i;
+        if (a[k * n + pivot] == 0) return 0;
+        if (pivot != k) sign = -sign;
+        if (a[k * n + pivot] < 0) sign = -sign;
+        for (int32_t j = 0; j < n; j++) {
+            double swapped = a[j * n + k];
+            a[j * n + k] = a[j * n + pivot];
+            a[j * n + pivot] = swapped;
+        }
+        for (int32_t i = k + 1; i < n; i++)
+            for (int32_t j = n - 1; j >= k; j--)
+                a[j * n + i] -= a[k * n + i] / a[k * n + k] * a[j * n + k];
+    }
+    return sign;
+}
+
+static int sign_by_differences(const Slip *slip)
+{
+    double a[UNKNOWNS_MAX * UNKNOWNS_MAX], step = 1e-4 * slip->rig->law.critical_velocity;
+    int32_t n = slip->count;
+    for (int32_t b = 0; b < n; b++)
+        for (int32_t r = 0; r < n; r++)
+            a[b * n + r] = (out_of_balance(slip, slip->moving[r], slip->moving[b], step) -
+                            out_of_balance(slip, slip->moving[r], slip->moving[b], -step)) /
+                           (2 * step);
+    return hand_sign(a, n);
+}
+
+// S - W on what moves is definite: the first test, which clears a step by itself.
+static bool is_definite(const Slip *slip)
+{
+    double a[UNKNOWNS_MAX * UNKNOWNS_MAX], values[UNKNOWNS_MAX] = {0};
+    const FrictionLaw *law = &slip->rig->law;
+    int32_t size = slip->rig->interface.count, n = slip->count;
+    for (int32_t b = 0; b < n; b++) {
+        int32_t row = slip->moving[b];
+        for (int32_t r = 0; r < n; r++) a[b * n + r] = slip->schur[row * size + slip->moving[r]];
+        bool tangent = row < 2 * slip->rig->interface.contact_count && row % 2 == 0;
+        if (tangent && slips(slip->seen->status[row / 2]) &&
+            fabs(slip->seen->slip_rate[row]) < law->critical_velocity)
+            a[b * n + b] -= (law->mu_static - law->mu_kinetic) / law->critical_velocity *
+                            slip->seen->reaction[row + 1];
+    }
+    if (n > 0) hand_eigenvalues(a, n, values);
+    return n == 0 || values[0] > 0;
+}
+
+static void random_state(Random *random, const BlockRig *rig, double pressure, State *seen)
+{
+    const Interface *interface = &rig->interface;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        seen->status[i] = (uint8_t)random_index(random, 4);
+        bool open = seen->status[i] == CONTACT_OPEN;
+        seen->reaction[interface_normal(i)] = open ? 0 : pressure * random_between(random, 0.2, 1);
+        double speed = random_between(random, 0, 1) < 0.8 ? random_between(random, 0.01, 0.99)
+                                                          : random_between(random, 1.01, 2);
+        seen->slip_rate[interface_tangent(i)] =
+            (seen->status[i] == CONTACT_SLIP_BACKWARD ? -speed : speed) *
+            rig->law.critical_velocity;
+    }
+    for (int32_t j = 0; j < interface->rod_count; j++)
+        seen->rod_touches[j] = (uint8_t)random_index(random, 2);
+}
+
+static void test_random_states(void **state)
+{
+    (void)state;
+    Error err = {0};
+    Random random = {.state = 77};
+    RigDef def = rig_def();
+    def.law.mu_static = 1.2;   // large enough for pressure to matter
+    def.law.mu_kinetic = 0.2;
+    BlockRig rig;
+    Certificate certificate;
+    State seen;
+    Ladder ladder;
+    rig_build(&def, &rig);
+    assert_true(certificate_create(&rig.block, &certificate, &err));
+    assert_true(state_create(&rig.system, &rig.interface, &seen, &err));
+    ladder_init(&rig.system, 1, 1e-2, &ladder);
+    int32_t cleared = 0, refused = 0, definite = 0;
+    for (int32_t trial = 0; trial < 600; trial++) {
+        InterfaceOperator *rung = ladder_rung(&ladder, trial % ladder.rung_count, &err);
+        const double *schur = interface_operator_schur(rung);
+        // Weakening of the size of S's diagonal.
+        double weak = schur[0] * def.law.critical_velocity * random_between(&random, 0.2, 4);
+        random_state(&random, &rig, weak, &seen);
+        Slip slip = {.rig = &rig, .seen = &seen, .schur = schur};
+        list_moving(&slip);
+        bool resolves = certificate_step_resolves(&certificate, &seen, rung);
+        if (is_definite(&slip)) {
+            assert_true(resolves);
+            definite++;
+            continue;
+        }
+        int sign = sign_by_differences(&slip);
+        if (resolves != (sign > 0)) fail_msg("trial %d: the sign is %d", trial, sign);
+        cleared += resolves;
+        refused += !resolves;
+    }
+    print_message("%d definite, %d cleared by the coupled test, %d refused\n", definite, cleared,
+                  refused);
+    assert_true(definite > 50 && cleared > 50 && refused > 50);
+    ladder_destroy(&ladder);
+    state_destroy(&seen);
+    certificate_destroy(&certificate);
+    rig_destroy(&rig);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_random_states)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
