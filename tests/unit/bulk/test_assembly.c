@@ -169,8 +169,8 @@ static void test_weights_and_tractions(void **state)
     }
 }
 
-// Unknowns that are held stay at 0: their rows and columns are cut, their load is gone, and the rest
-// moves as if they were left out.
+// Unknowns that are held stay at 0: their rows and columns are cut, their load is gone, and the
+// rest moves as if they were left out.
 static void test_held(void **state)
 {
     (void)state;
