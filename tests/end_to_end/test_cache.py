@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The shape on disk: a second run gives the same bits without a mesh or a factorisation, and whatever
-stands in the cache, a run never fails for it."""
+"""The shape on disk: a second run gives the same bits without a mesh or a factorisation, and
+whatever stands in the cache, a run never fails for it."""
 import json
 import os
 import shutil
@@ -166,7 +166,8 @@ class NotTrusted(Cached):
         flip = lambda data: data[:5000] + bytes([data[5000] ^ 1]) + data[5001:]
         older = lambda data: data.replace(b"amontons-cache 1", b"amontons-cache 0", 1)
         for change, reason in ((half, "cut off"), (flip, "checksum"), (older, "version"),
-                               (lambda data: b"", "version"), (lambda data: data + b"x", "checksum")):
+                               (lambda data: b"", "version"),
+                               (lambda data: data + b"x", "checksum")):
             self.spoil(".shape", change)
             self.assert_rebuilt(reason, *PLAIN)
 
@@ -190,7 +191,7 @@ class NotTrusted(Cached):
             self.assertIn("is not kept", self.model(*PLAIN, cache="/proc/self")["cache_note"])
 
     def test_full_disk(self):
-        """A limit on file sizes stands in for a disk that is full: results fit, the basis does not."""
+        """A limit on file sizes stands in for a full disk: results fit, the basis does not."""
         folder = self.folder / "small"
         done = subprocess.run(
             ["bash", "-c", "trap '' XFSZ; ulimit -f 100; exec \"$@\"", "-", BIN / "amontons", "run",

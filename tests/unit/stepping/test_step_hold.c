@@ -130,6 +130,7 @@ static void check_hold(const RigDef *def, const StepControlDef *steps, double en
             episodes++;
         }
         if (control->certified) wait = until = 0;
+        assert_int_equal(control->hold, wait);
     }
     const StepCounters *counters = &control->counters;
     int64_t repeated = counters->rejected_error + counters->rejected_uncertified +
