@@ -2,7 +2,8 @@
 // The border to HDF5's faults: the driver (virtual file layer) under an HDF5 file being written,
 // and the library's own words. HDF5 1.10 does not survive a write that fails: closing afterwards
 // can crash inside it. So HDF5 never sees one: this driver keeps the first cause, drops what cannot
-// be written, and whoever wrote asks it afterwards. Called by io/array_file and io/array_series.
+// be written, and whoever wrote asks it afterwards. Called by io/array_file_module and
+// io/array_series.
 #ifndef AMONTONS_IO_ARRAY_DISK_H
 #define AMONTONS_IO_ARRAY_DISK_H
 

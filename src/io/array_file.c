@@ -1,363 +1,110 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A killed run leaves a readable file because between two flushes nothing that a reader of the file
-// would look at is changed:
-//   * the tables that say where the chunks are stay in HDF5's cache (evictions are off);
-//   * a chunk that is written again, as the last one of a series is, goes to a fresh place, for
-//     space is handed out once (array_disk) and not managed (H5F_FSPACE_STRATEGY_NONE);
-//   * H5Fflush writes all chunks first, then the tables, and the file's length last.
-// HDF5's own way for this, SWMR, would allow no new arrays or attributes while writing, and marks
-// a killed writer's file so that ordinary readers refuse it.
+// The border to the module amontons_hdf5.so, which is opened with the first file; everything else
+// is handed on to it.
 #include "io/array_file.h"
 
 #include "base/memory.h"
-#include "io/array_disk.h"
-#include "io/array_series.h"
-#include "io/part_file.h"
-
-#include <hdf5.h>
-
-#include <errno.h>
-#include <stdio.h>
-#include <string.h>
-#include <unistd.h>
-
-enum { FIRST_SERIES = 16 };   // room for series before the list grows
+#include "base/module.h"
+#include "io/array_file_module.h"
 
 struct ArrayFile {
-    char path[PATH_MAX + 8];   // what is read, or what a written file will be called
-    hid_t id;   // 0: not open
-    bool writing;   // created here: what follows is in use
-    PartFile part;
-    ArrayDisk disk;   // under HDF5, over `part`
-    hid_t driver;   // that makes HDF5 use `disk`; 0: none
-    int32_t series_count, series_capacity;
-    SeriesWriter *series;   // [series_capacity]; owned
+    const ArrayFileModule *module;   // whose file it is
+    Hdf5File *hdf5;   // owned
 };
 
-// Whether the file can be written, and all written so far has reached the disk.
-static bool check_writable(const ArrayFile *file, Error *err)
+// With the module, and without a file in it yet.
+static ArrayFile *begin(Error *err)
 {
-    if (!file->writing) FAIL(err, ERROR_LIBRARY, "%s is open for reading only", file->path);
-    TRY(array_disk_check(&file->disk, 0, "", err));
-cleanup:
-    return error_is_clean(err);
+    ArrayFileModuleFunction module =
+        (ArrayFileModuleFunction)module_function("hdf5", "amontons_array_file_module", err);
+    if (!module) return NULL;
+    ArrayFile *file = NEW_ARRAY(ArrayFile, 1, err);
+    if (file) file->module = module();
+    return file;
 }
 
-// --- opening and closing ------------------------------------------------------------------------
-
-// Turns off all that lets the metadata cache write before it is told to. The cache then grows with
-// the file, by some kilobytes a thousand chunks.
-static herr_t keep_metadata_until_flush(hid_t access)
+// The file, or NULL where the module has made none.
+static ArrayFile *whole(ArrayFile *file)
 {
-    H5AC_cache_config_t cache = {.version = H5AC__CURR_CACHE_CONFIG_VERSION};
-    if (H5Pget_mdc_config(access, &cache) < 0) return -1;
-    cache.evictions_enabled = false;
-    cache.incr_mode = H5C_incr__off;
-    cache.flash_incr_mode = H5C_flash_incr__off;
-    cache.decr_mode = H5C_decr__off;
-    return H5Pset_mdc_config(access, &cache);
-}
-
-// The empty HDF5 file over the part that is open already.
-static bool create_hdf5(ArrayFile *file, Error *err)
-{
-    char cause[HDF5_CAUSE_SIZE];
-    hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-    hid_t creation = H5Pcreate(H5P_FILE_CREATE);
-    if (!array_disk_use(&file->disk, &file->part, access, &file->driver) ||
-        keep_metadata_until_flush(access) < 0 ||
-        H5Pset_file_space_strategy(creation, H5F_FSPACE_STRATEGY_NONE, false, 1) < 0)
-        FAIL(err, ERROR_LIBRARY, "cannot prepare HDF5 for %s: %s", file->path, hdf5_cause(cause));
-    file->id = H5Fcreate(file->part.part, H5F_ACC_TRUNC, creation, access);
-    TRY(array_disk_check(&file->disk, file->id < 0 ? -1 : 0, "the header", err));
-cleanup:
-    H5Pclose(access);
-    H5Pclose(creation);
-    return error_is_clean(err);
-}
-
-// Frees everything; a .part still there is left. HDF5 is closed before its driver, and that before
-// the descriptor.
-static void destroy(ArrayFile *file)
-{
-    if (!file) return;
-    for (int32_t s = 0; s < file->series_count; s++) series_destroy(&file->series[s]);
-    if (file->id > 0) H5Fclose(file->id);
-    if (file->driver > 0) H5FDunregister(file->driver);
-    part_file_leave(&file->part);
-    memory_free(file->series);
+    if (file->hdf5) return file;
     memory_free(file);
+    return NULL;
 }
 
 ArrayFile *array_file_create(const char *path, Error *err)
 {
-    ArrayFile *file = NEW_ARRAY(ArrayFile, 1, err);
+    ArrayFile *file = begin(err);
     if (!file) return NULL;
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);   // HDF5 prints its error stack otherwise
-    file->writing = true;
-    file->series_capacity = FIRST_SERIES;
-    file->series = NEW_ARRAY(SeriesWriter, file->series_capacity, err);
-    if (!file->series) goto cleanup;
-    TRY(part_file_create(&file->part, path, err));
-    snprintf(file->path, sizeof file->path, "%s", path);
-    TRY(create_hdf5(file, err));
-    return file;
-cleanup:
-    part_file_discard(&file->part);
-    destroy(file);
-    return NULL;
-}
-
-// `path` or, where only that stands, `path`.part; into file->path.
-static bool choose_existing(ArrayFile *file, const char *path, Error *err)
-{
-    char part[PATH_MAX + 8];
-    if (!part_file_name(path, part))
-        FAIL(err, ERROR_FILE, "the name of the file to read is empty or too long: \"%s\"", path);
-    snprintf(file->path, sizeof file->path, "%s", path);
-    if (access(path, F_OK) == 0) goto cleanup;
-    int cause = errno;
-    if (access(part, F_OK) != 0)
-        FAIL(err, ERROR_FILE, "cannot read %s (nor %s.part): %s", path, path, strerror(cause));
-    snprintf(file->path, sizeof file->path, "%s", part);
-cleanup:
-    return error_is_clean(err);
+    file->hdf5 = file->module->create(path, err);
+    return whole(file);
 }
 
 ArrayFile *array_file_open(const char *path, Error *err)
 {
-    char cause[HDF5_CAUSE_SIZE];
-    hid_t properties = 0;
-    ArrayFile *file = NEW_ARRAY(ArrayFile, 1, err);
+    ArrayFile *file = begin(err);
     if (!file) return NULL;
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-    TRY(choose_existing(file, path, err));
-    if (access(file->path, R_OK) != 0)
-        FAIL(err, ERROR_FILE, "cannot read %s: %s", file->path, strerror(errno));
-    properties = H5Pcreate(H5P_FILE_ACCESS);
-    H5Pset_file_locking(properties, false, true);   // a running simulation's file may be looked at
-    file->id = H5Fopen(file->path, H5F_ACC_RDONLY, properties);
-    if (file->id < 0)
-        FAIL(err, ERROR_FILE, "cannot read %s, not a whole HDF5 file: %s", file->path,
-             hdf5_cause(cause));
-cleanup:
-    if (properties > 0) H5Pclose(properties);
-    if (error_is_clean(err)) return file;
-    destroy(file);
-    return NULL;
+    file->hdf5 = file->module->open(path, err);
+    return whole(file);
 }
 
 bool array_file_close(ArrayFile *file, Error *err)
 {
     if (!file) return true;
-    if (!file->writing) goto cleanup;
-    // Each step may fail, and then the name is not given; closing itself writes once more.
-    TRY(array_file_flush(file, err));
-    for (int32_t s = 0; s < file->series_count; s++) series_destroy(&file->series[s]);
-    herr_t status = H5Fclose(file->id);
-    file->id = 0;
-    TRY(array_disk_check(&file->disk, status, "the end", err));
-    TRY(part_file_commit(&file->part, err));
-cleanup:
-    destroy(file);
-    return error_is_clean(err);
+    bool closed = file->module->close(file->hdf5, err);
+    memory_free(file);
+    return closed;
 }
 
 void array_file_abandon(ArrayFile *file)
 {
-    Error ignored = {0};
-    if (file) array_file_flush(file, &ignored);
-    destroy(file);
-}
-
-// --- attributes ---------------------------------------------------------------------------------
-
-// The text as an attribute of `object`, in UTF-8 of variable length: h5py reads it as str.
-static herr_t write_text(hid_t object, const char *name, const char *value)
-{
-    hid_t type = H5Tcopy(H5T_C_S1);
-    H5Tset_size(type, H5T_VARIABLE);
-    H5Tset_cset(type, H5T_CSET_UTF8);
-    hid_t space = H5Screate(H5S_SCALAR);
-    if (H5Aexists(object, name) > 0) H5Adelete(object, name);
-    hid_t attribute = H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
-    herr_t status = attribute < 0 ? -1 : H5Awrite(attribute, type, &value);
-    if (attribute >= 0) H5Aclose(attribute);
-    H5Sclose(space);
-    H5Tclose(type);
-    return status;
-}
-
-// Attributes stand in the root of the file. Setting one again replaces it.
-
-bool array_file_set_number(ArrayFile *file, const char *name, double value, Error *err)
-{
-    TRY(check_writable(file, err));
-    if (H5Aexists(file->id, name) > 0) H5Adelete(file->id, name);
-    hid_t space = H5Screate(H5S_SCALAR);
-    hid_t attribute = H5Acreate2(file->id, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT);
-    herr_t status = attribute < 0 ? -1 : H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value);
-    if (attribute >= 0) H5Aclose(attribute);
-    H5Sclose(space);
-    TRY(array_disk_check(&file->disk, status, name, err));
-cleanup:
-    return error_is_clean(err);
-}
-
-bool array_file_set_text(ArrayFile *file, const char *name, const char *value, Error *err)
-{
-    TRY(check_writable(file, err));
-    TRY(array_disk_check(&file->disk, write_text(file->id, name, value), name, err));
-cleanup:
-    return error_is_clean(err);
-}
-
-bool array_file_get_number(ArrayFile *file, const char *name, double *value, Error *err)
-{
-    char cause[HDF5_CAUSE_SIZE];
-    hid_t attribute = -1;
-    if (H5Aexists(file->id, name) <= 0) FAIL(err, ERROR_FILE, "%s has no %s", file->path, name);
-    attribute = H5Aopen(file->id, name, H5P_DEFAULT);
-    hid_t space = H5Aget_space(attribute);
-    bool is_one = H5Sget_simple_extent_npoints(space) == 1;
-    H5Sclose(space);
-    if (!is_one || H5Aread(attribute, H5T_NATIVE_DOUBLE, value) < 0)
-        FAIL(err, ERROR_FILE, "%s: %s is no number: %s", file->path, name, hdf5_cause(cause));
-cleanup:
-    if (attribute >= 0) H5Aclose(attribute);
-    return error_is_clean(err);
-}
-
-// HDF5 hands out the text in memory of its own, which goes back to it.
-bool array_file_get_text(ArrayFile *file, const char *name, char *value, int32_t size, Error *err)
-{
-    hid_t attribute = -1, type = -1;
-    char *stored = NULL;
-    if (H5Aexists(file->id, name) <= 0) FAIL(err, ERROR_FILE, "%s has no %s", file->path, name);
-    attribute = H5Aopen(file->id, name, H5P_DEFAULT);
-    type = H5Aget_type(attribute);
-    if (H5Tis_variable_str(type) <= 0 || H5Aread(attribute, type, &stored) < 0 || !stored)
-        FAIL(err, ERROR_FILE, "%s: %s is no text", file->path, name);
-    snprintf(value, (size_t)size, "%s", stored);
-cleanup:
-    if (stored) H5free_memory(stored);
-    if (type >= 0) H5Tclose(type);
-    if (attribute >= 0) H5Aclose(attribute);
-    return error_is_clean(err);
-}
-
-// --- writing series -----------------------------------------------------------------------------
-
-static SeriesWriter *find_series(const ArrayFile *file, const char *name)
-{
-    for (int32_t s = 0; s < file->series_count; s++)
-        if (strcmp(file->series[s].name, name) == 0) return &file->series[s];
-    return NULL;
-}
-
-static bool grow_series_list(ArrayFile *file, Error *err)
-{
-    if (file->series_count < file->series_capacity) return true;
-    SeriesWriter *longer = memory_resize(file->series, file->series_capacity,
-                                         2 * (int64_t)file->series_capacity, sizeof(SeriesWriter),
-                                         err);
-    if (!longer) return false;
-    file->series = longer;
-    file->series_capacity *= 2;
-    return true;
+    if (!file) return;
+    file->module->abandon(file->hdf5);
+    memory_free(file);
 }
 
 bool array_file_add_series(ArrayFile *file, const ArraySeries *series, Error *err)
 {
-    SeriesWriter added = {0};
-    TRY(check_writable(file, err));
-    if (find_series(file, series->name))
-        FAIL(err, ERROR_LIBRARY, "%s holds %s already", file->path, series->name);
-    TRY(grow_series_list(file, err));
-    TRY(series_create(&added, file->id, series, err));
-    herr_t status = write_text(added.dataset, "unit", series->unit);
-    if (status >= 0) status = write_text(added.dataset, "description", series->description);
-    TRY(array_disk_check(&file->disk, status, series->name, err));
-    file->series[file->series_count++] = added;
-    added = (SeriesWriter){0};   // the list owns it now
-cleanup:
-    series_destroy(&added);
-    return error_is_clean(err);
+    return file->module->add_series(file->hdf5, series, err);
 }
 
 bool array_file_append(ArrayFile *file, const char *name, const double *values, int64_t rows,
                        Error *err)
 {
-    SeriesWriter *series = find_series(file, name);
-    TRY(check_writable(file, err));
-    if (!series) FAIL(err, ERROR_LIBRARY, "%s has no series %s to append to", file->path, name);
-    TRY(series_append(series, &file->disk, values, rows, err));
-cleanup:
-    return error_is_clean(err);
+    return file->module->append(file->hdf5, name, values, rows, err);
 }
 
 bool array_file_flush(ArrayFile *file, Error *err)
 {
-    if (!file->writing) return true;
-    TRY(check_writable(file, err));
-    for (int32_t s = 0; s < file->series_count; s++)
-        TRY(series_hand_over(&file->series[s], &file->disk, err));
-    herr_t status = H5Fflush(file->id, H5F_SCOPE_LOCAL);
-    TRY(array_disk_check(&file->disk, status, "what was appended", err));
-cleanup:
-    return error_is_clean(err);
+    return file->module->flush(file->hdf5, err);
 }
 
-// --- reading ------------------------------------------------------------------------------------
-
-bool array_file_has(ArrayFile *file, const char *name)
+bool array_file_set_number(ArrayFile *file, const char *name, double value, Error *err)
 {
-    return H5Lexists(file->id, name, H5P_DEFAULT) > 0;   // negative where a folder is missing
+    return file->module->set_number(file->hdf5, name, value, err);
 }
 
-// Rows and width of a dataset of one or two dimensions. The numbers come from a file, which may be
-// damaged: a product that would overflow is refused here, one too large by the allocator.
-static bool read_shape(const ArrayFile *file, const char *name, hid_t dataset, int64_t *rows,
-                       int32_t *width, Error *err)
+bool array_file_set_text(ArrayFile *file, const char *name, const char *value, Error *err)
 {
-    hsize_t shape[2] = {0, 1};
-    hid_t space = H5Dget_space(dataset);
-    int rank = H5Sget_simple_extent_ndims(space);
-    if (rank < 1 || rank > 2)
-        FAIL(err, ERROR_FILE, "%s: %s has %d dimensions, not 1 or 2", file->path, name, rank);
-    H5Sget_simple_extent_dims(space, shape, NULL);
-    if (shape[0] > INT64_MAX || shape[1] > INT32_MAX ||
-        (shape[1] > 0 && shape[0] > INT64_MAX / shape[1]))
-        FAIL(err, ERROR_FILE, "%s: %s is too large to be true", file->path, name);
-    *rows = (int64_t)shape[0];
-    *width = (int32_t)shape[1];
-cleanup:
-    H5Sclose(space);
-    return error_is_clean(err);
+    return file->module->set_text(file->hdf5, name, value, err);
+}
+
+bool array_file_get_number(ArrayFile *file, const char *name, double *value, Error *err)
+{
+    return file->module->get_number(file->hdf5, name, value, err);
+}
+
+bool array_file_get_text(ArrayFile *file, const char *name, char *value, int32_t size, Error *err)
+{
+    return file->module->get_text(file->hdf5, name, value, size, err);
 }
 
 bool array_file_read(ArrayFile *file, const char *name, double **values, int64_t *rows,
                      int32_t *width, Error *err)
 {
-    char cause[HDF5_CAUSE_SIZE];
-    hid_t dataset = -1;
-    *values = NULL;
-    *rows = 0;
-    *width = 0;
-    TRY(array_file_flush(file, err));   // a file being written can be read, too
-    if (!array_file_has(file, name)) FAIL(err, ERROR_FILE, "%s has no %s", file->path, name);
-    dataset = H5Dopen2(file->id, name, H5P_DEFAULT);
-    if (dataset < 0)
-        FAIL(err, ERROR_FILE, "%s: %s is no array: %s", file->path, name, hdf5_cause(cause));
-    TRY(read_shape(file, name, dataset, rows, width, err));
-    *values = NEW_ARRAY(double, *rows **width, err);
-    if (!*values) goto cleanup;
-    if (H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, *values) < 0)
-        FAIL(err, ERROR_FILE, "%s: cannot read %s: %s", file->path, name, hdf5_cause(cause));
-cleanup:
-    if (dataset >= 0) H5Dclose(dataset);
-    if (error_is_clean(err)) return true;
-    memory_free(*values);   // half read
-    *values = NULL;
-    return false;
+    return file->module->read(file->hdf5, name, values, rows, width, err);
+}
+
+bool array_file_has(ArrayFile *file, const char *name)
+{
+    return file->module->has(file->hdf5, name);
 }

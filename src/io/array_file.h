@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Named arrays in one HDF5 file: growing time series, fixed arrays, attributes. Knows nothing of
-// friction; io/result_file gives the arrays their names. Chunked, shuffled, deflate 2.
+// friction; io/result_file gives the arrays their names. Chunked, shuffled, deflate 2. HDF5 is in a
+// module (io/array_file_module), opened with the first file; ERROR_LIBRARY where it cannot be had.
 //
 // A file being written is called `path`.part; array_file_close renames it. What a killed run leaves
 // is the .part file, readable up to the last array_file_flush. A write that fails (ERROR_FILE: full

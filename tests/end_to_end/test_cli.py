@@ -22,9 +22,9 @@ COARSE = ["--set", "mesh.set.nx=10", "mesh.set.nz=10"]
 PLAIN = ["--set", "output.fields=none", "--set", "output.figures=[]"]
 
 
-def amontons(*words, cwd=None):
+def amontons(*words, cwd=None, **environment):
     return subprocess.run([PROGRAM, *map(str, words)], cwd=cwd, capture_output=True, text=True,
-                          timeout=120)
+                          timeout=120, env={**os.environ, **environment})
 
 
 class InFolder(unittest.TestCase):
@@ -198,6 +198,22 @@ class Run(InFolder):
         wrong = amontons("render", result, "--figure", "forces")
         self.assertEqual(wrong.returncode, 2)
         self.assertIn("force", wrong.stderr)
+
+    def test_a_module_not_needed_is_not_opened(self):
+        """A shape from the cache needs no gmsh, a run without history no HDF5."""
+        scene = ["run", FIG1, "-o", "result", *COARSE, *PLAIN, "--set", "time.until.U=1e-5"]
+        brief = [*scene, "--overwrite", "--set", "output.history=false"]
+        cache = {"AMONTONS_CACHE": str(self.folder / "cache")}
+        none = {**cache, "AMONTONS_MODULES": str(self.folder)}
+        done = amontons(*brief, cwd=self.folder, **none)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("amontons_gmsh.so", done.stderr)
+        self.assertEqual(amontons(*brief, cwd=self.folder, **cache).returncode, 0)
+        done = amontons(*brief, cwd=self.folder, **none)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        done = amontons(*scene, "--overwrite", cwd=self.folder, **none)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("amontons_hdf5.so", done.stderr)
 
     def test_quiet(self):
         done = amontons("run", FIG1, *COARSE, *PLAIN, "time.until.U=1e-4", "--quiet", "-o",

@@ -101,7 +101,7 @@ class Layers(unittest.TestCase):
         owners = {
             "gmshc.h": r"src/io/mesh_\w+_module\.c",
             "cholmod.h": r"src/base/sparse\w*\.c",
-            "hdf5.h": r"src/io/array_\w+\.[ch]",
+            "hdf5.h": r"src/io/array_(file_module|disk|series)\.[ch]",
             "libfyaml.h": r"src/io/yaml_\w+\.[ch]",
             "GL/osmesa.h": r"render/context\.c",
             "vtk\\w*.h": r"src/io/field_file_module\.cc",
@@ -117,16 +117,16 @@ class Modules(unittest.TestCase):
     def test_exports(self):
         modules = sorted(MODULES.glob("amontons_*.so"))
         self.assertEqual([m.stem for m in modules],
-                         ["amontons_gmsh", "amontons_render", "amontons_vtk"])
+                         ["amontons_gmsh", "amontons_hdf5", "amontons_render", "amontons_vtk"])
         for module in modules:
             foreign = [s for s in exported(module) if not s.startswith("amontons_")]
             self.assertEqual(foreign, [], module.name)
 
     def test_program_loads_no_heavy_library(self):
-        """gmsh, VTK and OSMesa come with their modules, on first use."""
+        """gmsh, HDF5, VTK and OSMesa come with their modules, on first use."""
         program = MODULES / "amontons"
         needed = subprocess.run(["ldd", program], capture_output=True, text=True, check=True).stdout
-        for library in ("libgmsh", "libvtk", "libOSMesa"):
+        for library in ("libgmsh", "libhdf5", "libcurl", "libvtk", "libOSMesa"):
             self.assertNotIn(library, needed)
         if "libubsan" not in needed:   # which is in C++ itself
             self.assertNotIn("libstdc++", needed)

@@ -506,6 +506,25 @@ static void every_path_frees_when_memory_is_short(void **state)
     assert_in_range(failures, 20, 40);
 }
 
+// The module is looked for with every file; where it is missing no file is begun.
+static void a_missing_module_is_named(void **state)
+{
+    (void)state;
+    Error err = {0};
+    int64_t live = memory_counters().live;
+    char modules[PATH_SIZE], part[PATH_SIZE];
+    snprintf(modules, sizeof modules, "%s", getenv("AMONTONS_MODULES"));
+    snprintf(part, sizeof part, "%s/alone.h5.part", folder);
+    setenv("AMONTONS_MODULES", folder, 1);
+    assert_null(array_file_create(path_of("alone.h5"), &err));
+    assert_error(&err, ERROR_LIBRARY, folder, "amontons_hdf5.so");
+    assert_false(exists(part));
+    assert_null(array_file_open(path_of("whole.h5"), &err));
+    assert_error(&err, ERROR_LIBRARY, folder, "amontons_hdf5.so");
+    assert_int_equal(memory_counters().live, live);
+    setenv("AMONTONS_MODULES", modules, 1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -520,6 +539,7 @@ int main(void)
         cmocka_unit_test(what_others_wrote_is_checked),
         cmocka_unit_test(a_cut_file_is_an_error),
         cmocka_unit_test(every_path_frees_when_memory_is_short),
+        cmocka_unit_test(a_missing_module_is_named),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
