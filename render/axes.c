@@ -14,11 +14,17 @@ static const double NUMBER_GAP = 1.6;   // points: tick to number
 static const double LABEL_GAP = 3.2;   // points: numbers to name
 static const double EDGE_GAP = 1.5;   // points: name to the picture's edge
 
+// 0 at the low end of the axis, 1 at the high one; what a logarithmic axis cannot show is NaN.
+static double axis_part(const Axis *axis, double value)
+{
+    if (!axis->is_log) return (value - axis->low) / (axis->high - axis->low);
+    return value > 0 ? log(value / axis->low) / log(axis->high / axis->low) : NAN;
+}
+
 Point axes_place(const Axes *axes, double x, double y)
 {
     const Box *box = &axes->box;
-    double across = (x - axes->x.low) / (axes->x.high - axes->x.low);
-    double up = (y - axes->y.low) / (axes->y.high - axes->y.low);
+    double across = axis_part(&axes->x, x), up = axis_part(&axes->y, y);
     return (Point){box->left + across * (box->right - box->left),
                    box->bottom - up * (box->bottom - box->top)};
 }
@@ -38,6 +44,7 @@ static double number_width(const Page *page, const Axes *axes, const Ticks *tick
 // Ticks are chosen for the numbers shown, that is, in the unit of the axis.
 static Ticks axis_ticks(const Axis *axis, int32_t wanted)
 {
+    if (axis->is_log) return ticks_choose_log(axis->low, axis->high, wanted);
     return ticks_choose(axis->low * axis->factor, axis->high * axis->factor, wanted);
 }
 
@@ -107,16 +114,22 @@ static void tick_mark(const Page *page, const Axes *axes, Point foot, bool below
     shape_segment(page->canvas, &stroke, foot, end);
 }
 
+// Minor tick k, counted from the first tick: at equal distances, or at 1 to 9 times a power of ten.
+static double minor_value(const Ticks *ticks, int32_t k)
+{
+    if (!ticks->is_log) return ((double)ticks->first + (double)k / ticks->minor) * ticks->step;
+    double power = floor((double)k / ticks->minor);
+    return (1 + k - power * ticks->minor) * pow(10, ((double)ticks->first + power) * ticks->step);
+}
+
 // Minor ticks lie between the ticks and beyond them to both ends of the axis.
 static void minor_marks(const Page *page, const Axes *axes, const Ticks *ticks, bool below)
 {
     const Axis *axis = below ? &axes->x : &axes->y;
     if (ticks->count == 0) return;
     for (int32_t k = -ticks->minor; k <= ticks->count * ticks->minor; ++k) {
-        double value = ((double)ticks->first + (double)k / ticks->minor) * ticks->step /
-                       axis->factor;
-        double slack = 1e-6 * (axis->high - axis->low);
-        if (value < axis->low - slack || value > axis->high + slack) continue;
+        double value = minor_value(ticks, k) / axis->factor, part = axis_part(axis, value);
+        if (!(part >= -1e-6 && part <= 1 + 1e-6)) continue;
         Point foot = below ? axes_place(axes, value, axes->y.low)
                            : axes_place(axes, axes->x.low, value);
         tick_mark(page, axes, foot, below, MINOR_LENGTH);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A frame with two linear axes: ticks, numbers, names. Called by the figures.
+// A frame with two axes, linear or logarithmic: ticks, numbers, names. Called by the figures.
 #ifndef AMONTONS_RENDER_AXES_H
 #define AMONTONS_RENDER_AXES_H
 
@@ -12,6 +12,7 @@ typedef struct Axis {
     double low, high;   // ends, in the data's unit
     double factor;   // numbers shown are the data's times this
     char label[AXIS_LABEL_SIZE];   // name and unit, with text.h's marks; may be empty
+    bool is_log;   // low > 0 then, and factor 1
 } Axis;
 
 typedef struct Axes {

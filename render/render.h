@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Pictures of a result, drawn off-screen from its stored history alone: `amontons render RESULT`
-// redraws any of them without solving again. A module opened on first use (symbol
-// "amontons_render"); knows base/ and io/result_file only.
+// redraws any of them without solving again; and plots of curves that a file describes. A module
+// opened on first use (symbols "amontons_render", "amontons_render_plot"); knows base/ and io/ only.
 #ifndef AMONTONS_RENDER_RENDER_H
 #define AMONTONS_RENDER_RENDER_H
 
@@ -26,5 +26,9 @@ typedef bool (*RenderFunction)(const RenderRequest *request, Error *err);
 
 // The module's entry. An unknown name is ERROR_INPUT and lists those that exist.
 bool amontons_render(const RenderRequest *request, Error *err);
+
+// Draws the curves that the file `plot` describes (render/plot_file.h) into the PNG file `png`.
+typedef bool (*RenderPlotFunction)(const char *plot, const char *png, Error *err);
+bool amontons_render_plot(const char *plot, const char *png, Error *err);
 
 #endif

@@ -48,6 +48,16 @@ void shape_disc(Canvas *canvas, Color color, Point centre, double radius)
     }
 }
 
+void shape_polygon(Canvas *canvas, Color color, const Point *corners, int32_t count)
+{
+    for (int32_t k = 2; k < count; ++k) {
+        Vertex vertices[3] = {vertex_at(color, corners[0].x, corners[0].y),
+                              vertex_at(color, corners[k - 1].x, corners[k - 1].y),
+                              vertex_at(color, corners[k].x, corners[k].y)};
+        canvas_triangles(canvas, PAINT_COLOR, vertices, 3);
+    }
+}
+
 // A solid piece without ends.
 static void piece_draw(Canvas *canvas, const Stroke *stroke, Point from, Point to)
 {

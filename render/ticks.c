@@ -39,13 +39,30 @@ Ticks ticks_choose(double low, double high, int32_t wanted)
     return ticks;
 }
 
+Ticks ticks_choose_log(double low, double high, int32_t wanted)
+{
+    Ticks ticks = {.is_log = true, .minor = 1};
+    if (!(low > 0) || !(high > low) || !isfinite(high) || wanted < 1) return ticks;
+    double from = ceil(log10(low) - END_SLACK), to = floor(log10(high) + END_SLACK);
+    ticks.step = fmax(1, ceil((to - from + 1) / wanted));
+    ticks.first = (int64_t)ceil(from / ticks.step);
+    ticks.count = (int32_t)(floor(to / ticks.step) - (double)ticks.first) + 1;
+    if (ticks.step == 1) ticks.minor = 9;
+    return ticks;
+}
+
 double tick_value(const Ticks *ticks, int32_t k)
 {
+    if (ticks->is_log) return pow(10, (double)(ticks->first + k) * ticks->step);
     return (double)(ticks->first + k) * ticks->step;
 }
 
 void tick_label(const Ticks *ticks, int32_t k, char label[TICK_LABEL_SIZE])
 {
+    if (ticks->is_log) {
+        snprintf(label, TICK_LABEL_SIZE, "10^{%.0f}", (double)(ticks->first + k) * ticks->step);
+        return;
+    }
     double value = tick_value(ticks, k) / pow(10, ticks->exponent);
     const char *sign = ticks->first + k < 0 ? "\u2212" : "";
     snprintf(label, TICK_LABEL_SIZE, "%s%.*f", sign, ticks->decimals, fabs(value));

@@ -3,13 +3,16 @@
 #ifndef AMONTONS_RENDER_TICKS_H
 #define AMONTONS_RENDER_TICKS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
 enum { TICK_LABEL_SIZE = 32 };
 
-// Ticks at first * step, (first + 1) * step, ...: `count` of them.
+// Ticks at first * step, (first + 1) * step, ...: `count` of them. On a logarithmic axis these are
+// the logarithms of what stands at the ticks.
 typedef struct Ticks {
+    bool is_log;
     double step;   // 1, 2 or 5 times a power of ten
     int64_t first;   // multiple of the step
     int32_t count;
@@ -21,8 +24,11 @@ typedef struct Ticks {
 // About `wanted` ticks (never more than wanted + 1) from low to high. None where the range is
 // empty or not finite.
 Ticks ticks_choose(double low, double high, int32_t wanted);
+// Ticks at powers of ten from low to high, both > 0; every second or third where they are many.
+// Minor ticks: 2 to 9 times each, where every power has a tick.
+Ticks ticks_choose_log(double low, double high, int32_t wanted);
 double tick_value(const Ticks *ticks, int32_t k);
-// "0.25", "−3": without the power of ten, minus sign U+2212.
+// "0.25", "−3", "10^{-3}": without the power of ten, minus sign U+2212.
 void tick_label(const Ticks *ticks, int32_t k, char label[TICK_LABEL_SIZE]);
 
 #endif

@@ -232,6 +232,8 @@ bool amontons_sweep(const char *path, const SweepOptions *options, SweepSummary 
 // Draws `figures` ([figure_count] names; 0: all) of the result in `folder` into folder/figures.
 bool amontons_render_result(const char *folder, const char *const *figures, int32_t figure_count,
                             Error *err);
+// Draws the curves that the YAML file `plot` describes (render/plot_file.h) into the PNG file `png`.
+bool amontons_render_plot_file(const char *plot, const char *png, Error *err);
 // Says in text what a mesh (.msh, .geo), a scene (.yaml) or a result folder holds.
 bool amontons_info(const char *path, FILE *out, Error *err);
 // The index of the one of `names` that a mistyped `word` probably means; -1: none is near.

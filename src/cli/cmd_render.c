@@ -2,8 +2,9 @@
 #include "cli/commands.h"
 
 #include <stdio.h>
+#include <string.h>
 
-enum { FIGURES_MAX = 32 };
+enum { FIGURES_MAX = 32, PATH_SIZE = 1200 };
 
 typedef struct RenderOptions {
     const char *folder;
@@ -33,6 +34,25 @@ static error_t take_option(int key, char *word, struct argp_state *state)
     }
 }
 
+static bool is_plot(const char *name)
+{
+    const char *dot = strrchr(name, '.');
+    return dot && (strcmp(dot, ".yaml") == 0 || strcmp(dot, ".json") == 0);
+}
+
+// fig2a.yaml becomes fig2a.png.
+static int draw_plot(const char *plot)
+{
+    Error err = {0};
+    char png[PATH_SIZE];
+    int stem = (int)(strrchr(plot, '.') - plot);
+    if (stem + 5 > (int)sizeof png) return report_misuse("the path of the plot is too long");
+    snprintf(png, sizeof png, "%.*s.png", stem, plot);
+    if (!amontons_render_plot_file(plot, png, &err)) return report_error(&err);
+    printf("picture drawn: %s\n", png);
+    return 0;
+}
+
 int command_render(int argc, char **argv)
 {
     static const struct argp_option known[] = {
@@ -44,9 +64,12 @@ int command_render(int argc, char **argv)
     static const struct argp argp = {
         .options = known,
         .parser = take_option,
-        .args_doc = "RESULT",
+        .args_doc = "RESULT\nPLOT.yaml",
         .doc = "Draws the pictures of the result folder RESULT again, from its stored history "
-               "alone: nothing is solved. They go to RESULT/figures/NAME.png."
+               "alone: nothing is solved. They go to RESULT/figures/NAME.png. Or draws the curves "
+               "that "
+               "the file PLOT.yaml describes, into PLOT.png; what such a file holds stands in "
+               "render/plot_file.h."
                "\vWithout --figure all pictures are drawn. Example:\n\n"
                "  amontons render fig1-result --figure force"};
     RenderOptions options = {0};
@@ -56,6 +79,10 @@ int command_render(int argc, char **argv)
         return report_misuse("render needs a result folder, as in `amontons render fig1-result`");
     if (options.too_many)
         return report_misuse("render takes one result folder, and at most 32 pictures");
+    if (is_plot(options.folder)) {
+        if (options.figure_count) return report_misuse("--figure has no meaning for a plot");
+        return draw_plot(options.folder);
+    }
     if (!amontons_render_result(options.folder, options.figures, options.figure_count, &err))
         return report_error(&err);
     printf("pictures drawn: %s/figures\n", options.folder);

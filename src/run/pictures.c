@@ -23,3 +23,13 @@ bool amontons_render_result(const char *folder, const char *const *figures, int3
 cleanup:
     return error_is_clean(err);
 }
+
+bool amontons_render_plot_file(const char *plot, const char *png, Error *err)
+{
+    RenderPlotFunction render =
+        (RenderPlotFunction)module_function("render", "amontons_render_plot", err);
+    TRY(render);
+    TRY(render(plot, png, err));
+cleanup:
+    return error_is_clean(err);
+}

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Lines below, then error bars, then marks; the legend stands in a corner of the frame.
+#include "render/figure_curves.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+
+static const double MARKER_RADIUS = 1.9;   // points
+static const double THIN_WIDTH = 0.45;   // points
+static const double BAR_WIDTH = 0.5, BAR_CAP = 1.4;   // points: error bars, half their caps
+static const double RIM = 0.62;   // inside over outside of an open mark
+static const double LEGEND_SAMPLE = 14, LEGEND_GAP = 3, LEGEND_MARGIN = 4;   // points
+static const double LEGEND_PITCH = 1.5;   // line to line, over the size of the words
+static const double RIGHT_MARGIN = 6;   // points: half a number may stand there
+static const double INSET_SHARE = 0.75;   // marks and lines of an inset over the main ones
+
+// Told apart by most colour-blind readers and, by lightness, in grey print; 0 is ink.
+static const Color COLORS[PLOT_COLORS] = {{0.08f, 0.08f, 0.10f, 1}, {0.00f, 0.35f, 0.66f, 1},
+                                          {0.80f, 0.28f, 0.02f, 1}, {0.00f, 0.52f, 0.38f, 1},
+                                          {0.55f, 0.20f, 0.55f, 1}, {0.72f, 0.55f, 0.00f, 1},
+                                          {0.30f, 0.62f, 0.85f, 1}, {0.50f, 0.50f, 0.52f, 1}};
+
+static void marker_shape(Canvas *canvas, PlotMarker marker, Color color, Point at, double radius)
+{
+    const double side = 0.89 * radius;   // of equal area
+    const double wide = 1.17 * radius, tall = 1.35 * radius, low = 0.68 * radius;
+    const Point square[4] = {{at.x - side, at.y - side},
+                             {at.x + side, at.y - side},
+                             {at.x + side, at.y + side},
+                             {at.x - side, at.y + side}};
+    double up = marker == MARKER_DOWN ? -1 : 1;
+    const Point triangle[3] = {
+        {at.x, at.y - up * tall}, {at.x + wide, at.y + up * low}, {at.x - wide, at.y + up * low}};
+    if (marker == MARKER_CIRCLE) shape_disc(canvas, color, at, radius);
+    if (marker == MARKER_SQUARE) shape_polygon(canvas, color, square, 4);
+    if (marker == MARKER_TRIANGLE || marker == MARKER_DOWN)
+        shape_polygon(canvas, color, triangle, 3);
+}
+
+static void marker_draw(const Page *page, const PlotSeries *series, Point at, double share)
+{
+    double radius = MARKER_RADIUS * share * page->point;
+    if (series->marker == MARKER_NONE || !isfinite(at.x) || !isfinite(at.y)) return;
+    marker_shape(page->canvas, series->marker, COLORS[series->color], at, radius);
+    if (!series->filled) marker_shape(page->canvas, series->marker, PAPER, at, RIM * radius);
+}
+
+static Stroke line_stroke(const Page *page, const PlotSeries *series, double share)
+{
+    double width = series->line == LINE_SOLID ? CURVE_WIDTH : THIN_WIDTH;
+    Stroke stroke = {.color = COLORS[series->color], .width = width * share * page->point};
+    if (series->line == LINE_DASHED) {
+        stroke.dash = 2.6 * page->point;
+        stroke.space = 1.8 * page->point;
+    }
+    return stroke;
+}
+
+static bool line_draw(const Page *page, const Axes *axes, const PlotSeries *series, double share,
+                      Error *err)
+{
+    Stroke stroke = line_stroke(page, series, share);
+    Point *line = NULL;
+    if (series->line == LINE_NONE) return true;
+    TRY((line = NEW_ARRAY(Point, series->count, err)));
+    for (int32_t k = 0; k < series->count; ++k)
+        line[k] = axes_place(axes, series->x[k], series->y[k]);
+    shape_line(page->canvas, &stroke, line, series->count);
+cleanup:
+    memory_free(line);
+    return error_is_clean(err);
+}
+
+// From low to high with caps; nothing where they agree within a mark.
+static void bars_draw(const Page *page, const Axes *axes, const PlotSeries *series)
+{
+    Stroke stroke = {.color = COLORS[series->color], .width = BAR_WIDTH * page->point};
+    double cap = BAR_CAP * page->point;
+    if (!series->low || !series->high) return;
+    for (int32_t k = 0; k < series->count; ++k) {
+        Point low = axes_place(axes, series->x[k], series->low[k]);
+        Point high = axes_place(axes, series->x[k], series->high[k]);
+        if (!isfinite(low.x) || !isfinite(low.y) || !isfinite(high.y)) continue;
+        shape_segment(page->canvas, &stroke, low, high);
+        shape_segment(page->canvas, &stroke, (Point){low.x - cap, low.y},
+                      (Point){low.x + cap, low.y});
+        shape_segment(page->canvas, &stroke, (Point){high.x - cap, high.y},
+                      (Point){high.x + cap, high.y});
+    }
+}
+
+static void legend_draw(const Page *page, const Axes *axes, const PlotPanel *panel, double share)
+{
+    TextStyle style = {.size = axes->number_size * page->point, .color = INK, .up = 0.5};
+    double pitch = LEGEND_PITCH * style.size, margin = LEGEND_MARGIN * page->point, widest = 0;
+    double sample = LEGEND_SAMPLE * page->point, gap = LEGEND_GAP * page->point;
+    int32_t lines = 0;
+    for (int32_t k = 0; k < panel->series_count; ++k) {
+        if (!panel->series[k].label[0]) continue;
+        widest = fmax(widest, text_width(page->text, style.size, panel->series[k].label));
+        lines++;
+    }
+    if (lines == 0 || panel->legend == CORNER_NONE) return;
+    bool right = panel->legend == CORNER_UPPER_RIGHT || panel->legend == CORNER_LOWER_RIGHT;
+    bool upper = panel->legend == CORNER_UPPER_RIGHT || panel->legend == CORNER_UPPER_LEFT;
+    double left = right ? axes->box.right - margin - widest - gap - sample
+                        : axes->box.left + margin;
+    double y = upper ? axes->box.top + margin + pitch / 2
+                     : axes->box.bottom - margin - (lines - 0.5) * pitch;
+    for (int32_t k = 0; k < panel->series_count; ++k) {
+        const PlotSeries *series = &panel->series[k];
+        if (!series->label[0]) continue;
+        Stroke stroke = line_stroke(page, series, share);
+        if (series->line != LINE_NONE)
+            shape_segment(page->canvas, &stroke, (Point){left, y}, (Point){left + sample, y});
+        marker_draw(page, series, (Point){left + sample / 2, y}, share);
+        text_draw(page->text, &style, (Point){left + sample + gap, y}, series->label);
+        y += pitch;
+    }
+}
+
+static bool panel_draw(const Page *page, const Axes *axes, const PlotPanel *panel, double share,
+                       Error *err)
+{
+    canvas_clip(page->canvas, &axes->box);
+    for (int32_t k = 0; k < panel->series_count; ++k)
+        TRY(line_draw(page, axes, &panel->series[k], share, err));
+    for (int32_t k = 0; k < panel->series_count; ++k) bars_draw(page, axes, &panel->series[k]);
+    canvas_clip(page->canvas, NULL);   // a mark on the frame is drawn whole
+    for (int32_t k = 0; k < panel->series_count; ++k) {
+        const PlotSeries *series = &panel->series[k];
+        for (int32_t i = 0; i < series->count; ++i) {
+            Point at = axes_place(axes, series->x[i], series->y[i]);
+            bool inside = at.x >= axes->box.left - 1 && at.x <= axes->box.right + 1 &&
+                          at.y >= axes->box.top - 1 && at.y <= axes->box.bottom + 1;
+            if (inside) marker_draw(page, series, at, share);
+        }
+    }
+    legend_draw(page, axes, panel, share);
+    axes_draw(page, axes);
+cleanup:
+    return error_is_clean(err);
+}
+
+static Box inset_place(const Plot *plot, const Box *frame)
+{
+    double width = frame->right - frame->left, height = frame->bottom - frame->top;
+    return (Box){.left = frame->left + plot->place[0] * width,
+                 .top = frame->top + plot->place[1] * height,
+                 .right = frame->left + plot->place[2] * width,
+                 .bottom = frame->top + plot->place[3] * height};
+}
+
+// The inset's frame is what is left of its place when its numbers and names have their room.
+static Axes inset_axes(const Page *page, const Plot *plot, const Box *frame)
+{
+    Axes axes = {.box = inset_place(plot, frame),
+                 .x = plot->inset.x,
+                 .y = plot->inset.y,
+                 .number_size = SMALL_SIZE,
+                 .color = INK};
+    axes.box.left = round(axes.box.left + axes_left_margin(page, &axes) * page->point);
+    axes.box.bottom = round(axes.box.bottom - axes_bottom_margin(&axes) * page->point);
+    axes.box.right = round(axes.box.right);
+    axes.box.top = round(axes.box.top);
+    return axes;
+}
+
+bool figure_curves(const Page *page, const Plot *plot, Error *err)
+{
+    double point = page->point;
+    Axes axes = {.x = plot->main.x, .y = plot->main.y, .number_size = NUMBER_SIZE, .color = INK};
+    axes.box.top = round(axes_top_margin(&axes) * point);
+    axes.box.bottom = round(canvas_height(page->canvas) - axes_bottom_margin(&axes) * point);
+    axes.box.left = round(axes_left_margin(page, &axes) * point);
+    axes.box.right = round(canvas_width(page->canvas) - RIGHT_MARGIN * point);
+    TRY(panel_draw(page, &axes, &plot->main, 1, err));
+    if (plot->has_inset) {
+        Axes inset = inset_axes(page, plot, &axes.box);
+        Box place = inset_place(plot, &axes.box);
+        shape_fill(page->canvas, PAPER, &place);
+        TRY(panel_draw(page, &inset, &plot->inset, INSET_SHARE, err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
