@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Pictures of a result, drawn off-screen from its stored history alone: `amontons render RESULT`
-// redraws any of them without solving again; and plots of curves that a file describes. A module
-// opened on first use (symbols "amontons_render", "amontons_render_plot"); knows base/ and io/ only.
+// redraws any of them without solving again; of curves that a file describes; and of a mesh before
+// anything is computed. A module opened on first use (symbols "amontons_render",
+// "amontons_render_plot", "amontons_render_mesh"); knows base/ and io/ only.
 #ifndef AMONTONS_RENDER_RENDER_H
 #define AMONTONS_RENDER_RENDER_H
 
 #include "base/error.h"
+#include "io/mesh_file.h"
 
 #include <stdint.h>
 
@@ -30,5 +32,25 @@ bool amontons_render(const RenderRequest *request, Error *err);
 // Draws the curves that the file `plot` describes (render/plot_file.h) into the PNG file `png`.
 typedef bool (*RenderPlotFunction)(const char *plot, const char *png, Error *err);
 bool amontons_render_plot(const char *plot, const char *png, Error *err);
+
+// A mesh to draw: arrays as in io/mesh_file, all borrowed.
+typedef struct RenderMesh {
+    const char *title, *note;   // two lines above the picture; NULL or empty: none
+    int32_t node_count;
+    const double *position;   // [node_count * 2] (x, z), length
+    int32_t element_count;
+    const uint8_t *kind;   // [element_count] ElementKind
+    const int32_t *first_node;   // [element_count + 1] offsets into element_nodes
+    const int32_t *element_nodes;
+    int32_t group_count;
+    const MeshGroup *groups;   // [group_count]; curves are drawn and named
+    double rod_low, rod_high;   // strip of the face x = least that the rod pushes, z; NaN: none
+    int32_t width;   // pixels; 0: 1720
+} RenderMesh;
+
+typedef bool (*RenderMeshFunction)(const RenderMesh *mesh, const char *path, Error *err);
+
+// Draws `mesh` to scale into the PNG file `path`.
+bool amontons_render_mesh(const RenderMesh *mesh, const char *path, Error *err);
 
 #endif

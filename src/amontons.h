@@ -234,8 +234,14 @@ bool amontons_render_result(const char *folder, const char *const *figures, int3
                             Error *err);
 // Draws the curves that the YAML file `plot` describes (render/plot_file.h) into the PNG file `png`.
 bool amontons_render_plot_file(const char *plot, const char *png, Error *err);
-// Says in text what a mesh (.msh, .geo), a scene (.yaml) or a result folder holds.
-bool amontons_info(const char *path, FILE *out, Error *err);
+typedef struct InfoOptions {
+    const char *const *overrides;   // [override_count] "load.pressure=1" of a scene, "n=4" of a .geo
+    int32_t override_count;
+    const char *picture;   // PNG file of the mesh, or of a scene's mesh and rod; NULL: none
+} InfoOptions;
+// Says in text what a mesh (.msh, .geo), a scene (.yaml) or a result folder holds. options: NULL is
+// fine.
+bool amontons_info(const char *path, const InfoOptions *options, FILE *out, Error *err);
 // The index of the one of `names` that a mistyped `word` probably means; -1: none is near.
 int32_t amontons_nearest_name(const char *word, const char *const *names, int32_t count);
 

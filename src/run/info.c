@@ -10,12 +10,32 @@
 #include <string.h>
 #include <sys/stat.h>
 
-static bool info_scene(const char *path, FILE *out, Error *err)
+// The mesh that the scene names, with its parameters, and where the rod stands.
+static bool info_scene_mesh(const Scene *scene, const char *picture, FILE *out, Error *err)
+{
+    MeshFile file = {0};
+    Mesh mesh = {0};
+    TRY(mesh_file_read(scene->mesh.file, scene->mesh.parameters, scene->mesh.parameter_count, &file,
+                       err));
+    TRY(mesh_build(&file, scene->mesh.file, &mesh, err));
+    info_write_mesh(&mesh, out);
+    double height = mesh.z_max - mesh.z_min;
+    double middle = scene->rod.height > 0 ? scene->rod.height : 0.5 * height;
+    double width = scene->rod.width > 0 ? scene->rod.width : 0.1 * height;
+    double strip[2] = {middle - 0.5 * width, middle + 0.5 * width};
+    TRY(info_draw_mesh(&mesh, scene->rod.kind == ROD_NONE ? NULL : strip, picture, err));
+cleanup:
+    mesh_file_destroy(&file);
+    mesh_destroy(&mesh);
+    return error_is_clean(err);
+}
+
+static bool info_scene(const char *path, const InfoOptions *options, FILE *out, Error *err)
 {
     Scene *scene = NULL;
     int32_t count = 0;
     const SceneKey *keys = scene_keys(&count);
-    TRY(amontons_scene_read(path, NULL, 0, &scene, err));
+    TRY(amontons_scene_read(path, options->overrides, options->override_count, &scene, err));
     fprintf(out, "scene %s\n  %s\n\n", path, *scene->title ? scene->title : "(no title)");
     for (int32_t k = 0; k < count; k++) {
         char value[1200];
@@ -25,6 +45,7 @@ static bool info_scene(const char *path, FILE *out, Error *err)
                 scene->given[k] ? "" : "   (default)");
     }
     fprintf(out, "\nThe mesh file is %s\n", scene->mesh.file);
+    if (options->picture) TRY(info_scene_mesh(scene, options->picture, out, err));
 cleanup:
     amontons_scene_destroy(scene);
     return error_is_clean(err);
@@ -36,16 +57,23 @@ static bool ends_with(const char *path, const char *end)
     return length > size && strcmp(path + length - size, end) == 0;
 }
 
-bool amontons_info(const char *path, FILE *out, Error *err)
+bool amontons_info(const char *path, const InfoOptions *options, FILE *out, Error *err)
 {
     struct stat status;
+    InfoOptions none = {0};
+    if (!options) options = &none;
     if (stat(path, &status) != 0) FAIL(err, ERROR_INPUT, "%s: %s", path, strerror(errno));
-    if (S_ISDIR(status.st_mode))
+    if (S_ISDIR(status.st_mode)) {
+        if (options->picture || options->override_count > 0)
+            FAIL(err, ERROR_INPUT,
+                 "%s is a result folder: values are set and meshes drawn of meshes and scenes "
+                 "(`amontons render` draws a result)",
+                 path);
         TRY(info_result(path, out, err));
-    else if (ends_with(path, ".msh") || ends_with(path, ".geo"))
-        TRY(info_mesh(path, out, err));
+    } else if (ends_with(path, ".msh") || ends_with(path, ".geo"))
+        TRY(info_mesh(path, options, out, err));
     else if (ends_with(path, ".yaml") || ends_with(path, ".yml"))
-        TRY(info_scene(path, out, err));
+        TRY(info_scene(path, options, out, err));
     else
         FAIL(err, ERROR_INPUT,
              "%s: not known what this is; allowed: a mesh (.msh, .geo), a scene (.yaml, .yml) or "

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The two longer parts of amontons_info; called by run/info only.
+// The longer parts of amontons_info; called by run/info only.
 #ifndef AMONTONS_RUN_INFO_H
 #define AMONTONS_RUN_INFO_H
 
-#include "base/error.h"
+#include "amontons.h"
+#include "bulk/mesh.h"
 
-#include <stdio.h>
-
-bool info_mesh(const char *path, FILE *out, Error *err);       // a .msh or .geo file
+bool info_mesh(const char *path, const InfoOptions *options, FILE *out, Error *err);   // .msh, .geo
+void info_write_mesh(const Mesh *mesh, FILE *out);
 bool info_result(const char *folder, FILE *out, Error *err);   // a result folder
+
+// The mesh as a picture; strip: the rod's, z from and to, NULL: none.
+bool info_draw_mesh(const Mesh *mesh, const double strip[2], const char *picture, Error *err);
 
 #endif

@@ -2,9 +2,12 @@
 #include "run/info.h"
 
 #include "base/memory.h"
-#include "bulk/mesh.h"
+#include "base/module.h"
+#include "render/render.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 static const char *dimension_name(int32_t dimension)
 {
@@ -45,24 +48,82 @@ static void write_groups(const Mesh *mesh, FILE *out)
     }
 }
 
-bool info_mesh(const char *path, FILE *out, Error *err)
+void info_write_mesh(const Mesh *mesh, FILE *out)
 {
-    MeshFile file = {0};
-    Mesh mesh = {0};
-    TRY(mesh_file_read(path, NULL, 0, &file, err));
-    TRY(mesh_build(&file, path, &mesh, err));
-    MeshSummary summary = mesh_summarise(&mesh);
-    fprintf(out, "mesh %s\n  %d nodes, %d elements:", path, mesh.node_count, mesh.element_count);
+    MeshSummary summary = mesh_summarise(mesh);
+    fprintf(out, "mesh %s\n  %d nodes, %d elements:", mesh->path, mesh->node_count,
+            mesh->element_count);
     for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++)
         if (summary.element_counts[kind])
             fprintf(out, " %d %s", summary.element_counts[kind], element_name((ElementKind)kind));
-    fprintf(out, "\n  x from %.6g to %.6g, z from %.6g to %.6g, area %.6g\n", mesh.x_min,
-            mesh.x_max, mesh.z_min, mesh.z_max, summary.area);
+    fprintf(out, "\n  x from %.6g to %.6g, z from %.6g to %.6g, area %.6g\n", mesh->x_min,
+            mesh->x_max, mesh->z_min, mesh->z_max, summary.area);
     fprintf(out, "  element edges %.4g to %.4g, largest aspect ratio %.3g\n", summary.edge_min,
             summary.edge_max, summary.aspect_max);
-    write_groups(&mesh, out);
+    write_groups(mesh, out);
+}
+
+// "n=4" as a parameter of a .geo: what reads as a number is one.
+static bool read_parameter(const char *word, MeshParameter *parameter, Error *err)
+{
+    const char *equals = strchr(word, '=');
+    char *end = NULL;
+    *parameter = (MeshParameter){0};
+    if (!equals || equals == word || !equals[1])
+        FAIL(err, ERROR_INPUT, "--set %s: a mesh takes name=value, as in --set n=4", word);
+    if (equals - word >= GROUP_NAME_SIZE || strlen(equals + 1) >= GROUP_NAME_SIZE)
+        FAIL(err, ERROR_INPUT, "--set %s: name and value have at most %d bytes each", word,
+             GROUP_NAME_SIZE - 1);
+    memcpy(parameter->name, word, (size_t)(equals - word));
+    parameter->value = strtod(equals + 1, &end);
+    if (*end) snprintf(parameter->text, GROUP_NAME_SIZE, "%s", equals + 1);
+cleanup:
+    return error_is_clean(err);
+}
+
+bool info_mesh(const char *path, const InfoOptions *options, FILE *out, Error *err)
+{
+    MeshFile file = {0};
+    Mesh mesh = {0};
+    MeshParameter *parameters = NEW_ARRAY(MeshParameter, options->override_count, err);
+    if (!parameters) goto cleanup;
+    for (int32_t k = 0; k < options->override_count; k++)
+        TRY(read_parameter(options->overrides[k], &parameters[k], err));
+    TRY(mesh_file_read(path, parameters, options->override_count, &file, err));
+    TRY(mesh_build(&file, path, &mesh, err));
+    info_write_mesh(&mesh, out);
+    if (options->picture) TRY(info_draw_mesh(&mesh, NULL, options->picture, err));
 cleanup:
     mesh_file_destroy(&file);
     mesh_destroy(&mesh);
+    memory_free(parameters);
+    return error_is_clean(err);
+}
+
+bool info_draw_mesh(const Mesh *mesh, const double strip[2], const char *picture, Error *err)
+{
+    char note[200];
+    const char *name = strrchr(mesh->path, '/');
+    MeshSummary summary = mesh_summarise(mesh);
+    snprintf(note, sizeof note, "%d nodes, %d elements, edges %.3g to %.3g, aspect ratio to %.3g",
+             mesh->node_count, mesh->element_count, summary.edge_min, summary.edge_max,
+             summary.aspect_max);
+    RenderMesh request = {.title = name ? name + 1 : mesh->path,
+                          .note = note,
+                          .node_count = mesh->node_count,
+                          .position = mesh->position,
+                          .element_count = mesh->element_count,
+                          .kind = mesh->kind,
+                          .first_node = mesh->first_node,
+                          .element_nodes = mesh->element_nodes,
+                          .group_count = mesh->group_count,
+                          .groups = mesh->groups,
+                          .rod_low = strip ? strip[0] : NAN,
+                          .rod_high = strip ? strip[1] : NAN};
+    RenderMeshFunction render =
+        (RenderMeshFunction)module_function("render", "amontons_render_mesh", err);
+    TRY(render);
+    TRY(render(&request, picture, err));
+cleanup:
     return error_is_clean(err);
 }

@@ -54,7 +54,7 @@ static void assert_info_holds(const char *path, const char *const *parts)
     size_t size = 0;
     Error err = {0};
     FILE *out = open_memstream(&text, &size);
-    if (!amontons_info(path, out, &err)) fail_msg("%s", err.message);
+    if (!amontons_info(path, NULL, out, &err)) fail_msg("%s", err.message);
     fclose(out);
     for (; *parts; parts++)
         if (!strstr(text, *parts)) fail_msg("no `%s` in\n%s", *parts, text);
@@ -70,7 +70,7 @@ static void assert_faults_are_clean(const char *path)
         Error err = {0};
         FILE *out = fopen("/dev/null", "w");
         memory_fail_after(k);
-        done = amontons_info(path, out, &err);
+        done = amontons_info(path, NULL, out, &err);
         memory_fail_after(-1);
         fclose(out);
         if (!done) assert_int_equal(err.code, ERROR_MEMORY);
@@ -119,14 +119,14 @@ static void test_broken_results(void **state)
     Error err = {0};
     char path[200];
     write_text("run.json", "{\"status\": ");
-    assert_false(amontons_info(folder, stdout, &err));
+    assert_false(amontons_info(folder, NULL, stdout, &err));
     assert_non_null(strstr(err.message, "run.json:1:"));
     snprintf(path, sizeof path, "%s/run.json", folder);
     unlink(path);
     snprintf(path, sizeof path, "%s/history.h5", folder);
     unlink(path);
     error_clear(&err);
-    assert_false(amontons_info(folder, stdout, &err));
+    assert_false(amontons_info(folder, NULL, stdout, &err));
     assert_int_equal(err.code, ERROR_INPUT);
     assert_non_null(strstr(err.message, "not a result folder"));
 }

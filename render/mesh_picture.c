@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A mesh as it is before anything is computed: its elements, the named curves in colours with their
+// names, the strip the rod pushes. Drawn to scale from the arrays handed in.
+#include "render/render.h"
+
+#include "base/memory.h"
+#include "render/axes.h"
+#include "render/context.h"
+#include "render/png_file.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { WIDTH_DEFAULT = 1720 };   // pixels: 20 a millimetre of a journal's column
+
+static const double MARGIN = 0.09;   // of the mesh's larger extent, kept around it for names
+static const double EDGE_WIDTH = 0.22;   // points: edges of elements
+static const double CURVE_WIDTH_NAMED = 1.6;   // points: named curves
+static const double NAME_GAP = 3.0;   // points: curve to its name
+static const double HEAD_HEIGHT = 11;   // points: the lines above the frame, each
+static const double ARROW = 9;   // points: length of the rod's arrow
+static const double LEFT = 32, RIGHT = 4;   // points: beside the frame
+static const double SIDE_MAX = 1.4;   // the picture's height over its width, at most
+
+static const Color FILL = {0.93f, 0.94f, 0.96f, 1}, EDGE = {0.55f, 0.58f, 0.63f, 1};
+static const Color ROD = {0.80f, 0.22f, 0.08f, 1}, TOP = {0.10f, 0.32f, 0.66f, 1};
+static const Color CONTACT[2] = {{0.05f, 0.45f, 0.30f, 1}, {0.45f, 0.62f, 0.10f, 1}};
+static const Color OTHER = {0.45f, 0.25f, 0.55f, 1};
+
+typedef struct MeshPage {
+    const RenderMesh *mesh;
+    const Page *page;
+    Axes axes;
+} MeshPage;
+
+static Point node_place(const MeshPage *map, int32_t node)
+{
+    const double *at = map->mesh->position + 2 * (int64_t)node;
+    return axes_place(&map->axes, at[0], at[1]);
+}
+
+// --- layout -------------------------------------------------------------------------------------
+
+// Ranges of both axes, margins included, and the picture's size that draws them to scale.
+static void choose_ranges(const RenderMesh *mesh, Axes *axes)
+{
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    for (int64_t k = 0; k < 2 * (int64_t)mesh->node_count; ++k) {
+        low[k % 2] = fmin(low[k % 2], mesh->position[k]);
+        high[k % 2] = fmax(high[k % 2], mesh->position[k]);
+    }
+    double margin = MARGIN * fmax(high[0] - low[0], high[1] - low[1]);
+    axes->x = (Axis){.low = low[0] - margin, .high = high[0] + margin, .factor = 1};
+    axes->y = (Axis){.low = low[1] - margin, .high = high[1] + margin, .factor = 1};
+    snprintf(axes->x.label, sizeof axes->x.label, "~{x}");
+    snprintf(axes->y.label, sizeof axes->y.label, "~{z}");
+    axes->number_size = NUMBER_SIZE;
+    axes->color = INK;
+}
+
+// The frame's height over its width.
+static double frame_shape(const Axes *axes)
+{
+    return (axes->y.high - axes->y.low) / (axes->x.high - axes->x.low);
+}
+
+static double head_points(const RenderMesh *mesh)
+{
+    return 4 + HEAD_HEIGHT * ((mesh->title && mesh->title[0]) + (mesh->note && mesh->note[0]));
+}
+
+static int32_t picture_height(const RenderMesh *mesh, int32_t width)
+{
+    Axes axes = {0};
+    choose_ranges(mesh, &axes);
+    double point = width / COLUMN_WIDTH_POINTS;
+    double frame = (COLUMN_WIDTH_POINTS - LEFT - RIGHT) * frame_shape(&axes);
+    double height = (frame + head_points(mesh) + axes_bottom_margin(&axes)) * point;
+    return (int32_t)lround(fmin(height, SIDE_MAX * width));
+}
+
+static void place_frame(MeshPage *map)
+{
+    const Page *page = map->page;
+    double point = page->point;
+    Axes *axes = &map->axes;
+    choose_ranges(map->mesh, axes);
+    double width = canvas_width(page->canvas) - (LEFT + RIGHT) * point;
+    double height = canvas_height(page->canvas) -
+                    (head_points(map->mesh) + axes_bottom_margin(axes)) * point;
+    double shape = frame_shape(axes), narrow = fmin(width, height / shape);
+    axes->box.left = round(LEFT * point + (width - narrow) / 2);
+    axes->box.right = axes->box.left + round(narrow);
+    axes->box.top = round(head_points(map->mesh) * point);
+    axes->box.bottom = axes->box.top + round(narrow * shape);
+}
+
+// --- elements -----------------------------------------------------------------------------------
+
+static int32_t corner_count(ElementKind kind)
+{
+    return kind == ELEMENT_T3 || kind == ELEMENT_T6 ? 3 : 4;
+}
+
+// The outline [n] of an element, through the middles of its sides where it has them.
+static int32_t element_outline(const MeshPage *map, int32_t e, Point *outline)
+{
+    const RenderMesh *mesh = map->mesh;
+    const int32_t *nodes = mesh->element_nodes + mesh->first_node[e];
+    int32_t corners = corner_count((ElementKind)mesh->kind[e]), count = 0;
+    bool curved = mesh->first_node[e + 1] - mesh->first_node[e] >= 2 * corners;
+    for (int32_t k = 0; k < corners; ++k) {
+        outline[count++] = node_place(map, nodes[k]);
+        if (curved) outline[count++] = node_place(map, nodes[corners + k]);
+    }
+    return count;
+}
+
+static Vertex vertex_at(Point place)
+{
+    return (Vertex){.x = (float)place.x, .y = (float)place.y, .color = FILL};
+}
+
+// A fan from the mean of the outline.
+static void element_fill(const MeshPage *map, const Point *outline, int32_t count)
+{
+    Vertex fan[3 * 2 * 4];
+    Point middle = {0, 0};
+    for (int32_t k = 0; k < count; ++k) {
+        middle.x += outline[k].x / count;
+        middle.y += outline[k].y / count;
+    }
+    for (int32_t k = 0; k < count; ++k) {
+        fan[3 * k] = vertex_at(middle);
+        fan[3 * k + 1] = vertex_at(outline[k]);
+        fan[3 * k + 2] = vertex_at(outline[(k + 1) % count]);
+    }
+    canvas_triangles(map->page->canvas, PAINT_COLOR, fan, 3 * (int64_t)count);
+}
+
+// Fine meshes get thinner edges: a tenth of the typical element at most.
+static double edge_width(const MeshPage *map)
+{
+    const Box *box = &map->axes.box;
+    double area = (box->right - box->left) * (box->bottom - box->top);
+    return fmin(EDGE_WIDTH * map->page->point, 0.1 * sqrt(area / map->mesh->element_count));
+}
+
+static void draw_elements(const MeshPage *map)
+{
+    Point outline[9];
+    Canvas *canvas = map->page->canvas;
+    Stroke stroke = {.color = EDGE, .width = edge_width(map)};
+    for (int32_t e = 0; e < map->mesh->element_count; ++e)
+        element_fill(map, outline, element_outline(map, e, outline));
+    for (int32_t e = 0; e < map->mesh->element_count; ++e) {
+        int32_t count = element_outline(map, e, outline);
+        for (int32_t k = 0; k < count; ++k)
+            shape_segment(canvas, &stroke, outline[k], outline[(k + 1) % count]);
+    }
+}
+
+// --- named curves -------------------------------------------------------------------------------
+
+static bool is_contact(const MeshGroup *group)
+{
+    return strncmp(group->name, "contact", 7) == 0;
+}
+
+// Neighbouring pads differ, so that their ends are seen.
+static Color group_color(const MeshGroup *group, int32_t contact)
+{
+    if (is_contact(group)) return CONTACT[contact % 2];
+    if (strcmp(group->name, "top") == 0) return TOP;
+    if (strcmp(group->name, "rod") == 0) return ROD;
+    return OTHER;
+}
+
+static void draw_curve(const MeshPage *map, const MeshGroup *group, Color color, Box *extent)
+{
+    Stroke stroke = {.color = color, .width = CURVE_WIDTH_NAMED * map->page->point};
+    *extent = (Box){INFINITY, INFINITY, -INFINITY, -INFINITY};
+    for (int32_t k = 0; k < group->edge_count; ++k) {
+        const int32_t *nodes = group->edge_nodes + (int64_t)k * group->nodes_per_edge;
+        Point from = node_place(map, nodes[0]), to = node_place(map, nodes[1]);
+        Point through = group->nodes_per_edge == 3 ? node_place(map, nodes[2]) : to;
+        shape_segment(map->page->canvas, &stroke, from, through);
+        shape_segment(map->page->canvas, &stroke, through, to);
+        extent->left = fmin(extent->left, fmin(from.x, to.x));
+        extent->right = fmax(extent->right, fmax(from.x, to.x));
+        extent->top = fmin(extent->top, fmin(from.y, to.y));
+        extent->bottom = fmax(extent->bottom, fmax(from.y, to.y));
+    }
+}
+
+// Outside the mesh, beside the middle of the curve: below or above a level one, left or right of an
+// upright one. What is too long for a pad loses "contact_".
+static void draw_name(const MeshPage *map, const MeshGroup *group, Color color, const Box *extent)
+{
+    const Page *page = map->page;
+    const Box *box = &map->axes.box;
+    double gap = NAME_GAP * page->point, middle = (box->left + box->right) / 2;
+    double x = (extent->left + extent->right) / 2, y = (extent->top + extent->bottom) / 2;
+    TextStyle style = {.size = NUMBER_SIZE * page->point, .color = color, .across = 0.5};
+    const char *name = group->name;
+    if (extent->right - extent->left >= extent->bottom - extent->top) {
+        bool below = y > (box->top + box->bottom) / 2;
+        double room = extent->right - extent->left;
+        if (is_contact(group) && strlen(name) > 8 &&
+            text_width(page->text, style.size, name) > room)
+            name += 8;
+        style.up = below ? 1 : 0;
+        text_draw(page->text, &style, (Point){x, y + (below ? gap : -gap)}, name);
+        return;
+    }
+    style.rising = true;
+    if (isfinite(map->mesh->rod_low)) y = (extent->top + y) / 2;   // the middle is the arrow's
+    double right = text_digit_height() * style.size + gap;   // the baseline is on the right
+    text_draw(page->text, &style, (Point){x < middle ? x - gap : x + right, y}, name);
+}
+
+static void draw_groups(const MeshPage *map)
+{
+    int32_t contact = 0;
+    for (int32_t g = 0; g < map->mesh->group_count; ++g) {
+        const MeshGroup *group = &map->mesh->groups[g];
+        Box extent;
+        if (group->dimension != 1 || group->edge_count == 0) continue;
+        Color color = group_color(group, contact);
+        contact += is_contact(group);
+        draw_curve(map, group, color, &extent);
+        draw_name(map, group, color, &extent);
+    }
+}
+
+// An arrow against the strip that the rod pushes, and the strip in the same colour.
+static void draw_rod(const MeshPage *map)
+{
+    const RenderMesh *mesh = map->mesh;
+    double point = map->page->point;
+    if (!isfinite(mesh->rod_low) || !isfinite(mesh->rod_high)) return;
+    double face = INFINITY;
+    for (int32_t node = 0; node < mesh->node_count; ++node)
+        face = fmin(face, mesh->position[2 * (int64_t)node]);
+    Point low = axes_place(&map->axes, face, mesh->rod_low);
+    Point high = axes_place(&map->axes, face, mesh->rod_high);
+    Stroke strip = {.color = ROD, .width = 2.2 * CURVE_WIDTH_NAMED * point};
+    Stroke shaft = {.color = ROD, .width = 0.6 * CURVE_WIDTH_NAMED * point};
+    Point tip = {low.x - 2.5 * point, (low.y + high.y) / 2};
+    shape_segment(map->page->canvas, &strip, low, high);
+    shape_segment(map->page->canvas, &shaft, (Point){tip.x - ARROW * point, tip.y}, tip);
+    for (int32_t side = -1; side <= 1; side += 2)
+        shape_segment(map->page->canvas, &shaft,
+                      (Point){tip.x - 3 * point, tip.y + side * 3 * point}, tip);
+}
+
+static void draw_head(const MeshPage *map)
+{
+    const char *lines[2] = {map->mesh->title, map->mesh->note};
+    double point = map->page->point, y = map->axes.box.top - 4 * point;
+    double room = canvas_width(map->page->canvas) - map->axes.box.left - RIGHT * point;
+    TextStyle style = {.color = INK};
+    for (int32_t k = 1; k >= 0; --k) {
+        if (!lines[k] || !lines[k][0]) continue;
+        style.size = (k == 0 ? LABEL_SIZE : SMALL_SIZE) * point;
+        style.size *= fmin(1, room / text_width(map->page->text, style.size, lines[k]));
+        text_draw(map->page->text, &style, (Point){map->axes.box.left, y}, lines[k]);
+        y -= HEAD_HEIGHT * point;
+    }
+}
+
+// --- the module's second entry ------------------------------------------------------------------
+
+static bool draw_page(const RenderMesh *mesh, Page *page, uint8_t **pixels, Error *err)
+{
+    MeshPage map = {.mesh = mesh, .page = page};
+    page->text = text_create(page->canvas, err);
+    TRY(page->text);
+    place_frame(&map);
+    canvas_clip(page->canvas, &map.axes.box);
+    draw_elements(&map);
+    draw_groups(&map);
+    draw_rod(&map);
+    canvas_clip(page->canvas, NULL);
+    draw_head(&map);
+    axes_draw(page, &map.axes);
+    TRY(canvas_read(page->canvas, pixels, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+__attribute__((visibility("default"))) bool amontons_render_mesh(const RenderMesh *mesh,
+                                                                 const char *path, Error *err)
+{
+    RenderContext *context = NULL;
+    Page page = {0};
+    uint8_t *pixels = NULL;
+    int32_t width = mesh->width > 0 ? mesh->width : WIDTH_DEFAULT;
+    page.point = width / COLUMN_WIDTH_POINTS;
+    context = context_create(err);
+    TRY(context);
+    page.canvas = canvas_create(width, picture_height(mesh, width), err);
+    TRY(page.canvas);
+    TRY(draw_page(mesh, &page, &pixels, err));
+    PngPicture picture = {.width = width,
+                          .height = canvas_height(page.canvas),
+                          .pixels = pixels,
+                          .pixels_per_metre = width / (1e-3 * COLUMN_WIDTH_MM),
+                          .title = mesh->title ? mesh->title : "mesh"};
+    TRY(png_file_write(path, &picture, err));
+cleanup:
+    error_context(err, "picture %s", path);
+    text_destroy(page.text);
+    canvas_destroy(page.canvas);
+    context_destroy(context);
+    memory_free(pixels);
+    return error_is_clean(err);
+}
