@@ -235,7 +235,7 @@ bool amontons_render_result(const char *folder, const char *const *figures, int3
 // Draws the curves that the YAML file `plot` describes (render/plot_file.h) into the PNG file `png`.
 bool amontons_render_plot_file(const char *plot, const char *png, Error *err);
 typedef struct InfoOptions {
-    const char *const *overrides;   // [override_count] "load.pressure=1" of a scene, "n=4" of a .geo
+    const char *const *overrides;   // [override_count] "rod.width=1" of a scene, "n=4" of a .geo
     int32_t override_count;
     const char *picture;   // PNG file of the mesh, or of a scene's mesh and rod; NULL: none
 } InfoOptions;
