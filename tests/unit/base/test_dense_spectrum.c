@@ -135,6 +135,74 @@ static void test_products(void **state)
     }
 }
 
+// L^-1 (L A L') L^-T is A, from the lower triangle of L.
+static void test_divide_both_sides(void **state)
+{
+    (void)state;
+    Random random = {.state = 5};
+    for (int32_t n = 0; n <= SIZE_TRIED; n += 5) {
+        double lower[SIZE_TRIED * SIZE_TRIED], a[SIZE_TRIED * SIZE_TRIED];
+        double wanted[SIZE_TRIED * SIZE_TRIED], half[SIZE_TRIED * SIZE_TRIED];
+        for (int32_t j = 0; j < n; j++) {
+            for (int32_t i = 0; i < n; i++) {
+                lower[j * n + i] = i < j ? 0 : random_between(&random, -0.5, 0.5) + 2 * (i == j);
+                if (i >= j) wanted[j * n + i] = wanted[i * n + j] = random_between(&random, -1, 1);
+            }
+        }
+        // half = L A, transposed back and forth by the symmetry of A: (L (L A)')'.
+        DenseView factor = {lower, n, n};
+        hand_product(factor, (DenseView){wanted, n, n}, false, 1, 0, half);
+        for (int32_t j = 0; j < n; j++)
+            for (int32_t i = 0; i < n; i++) a[j * n + i] = half[i * n + j];
+        hand_product(factor, (DenseView){a, n, n}, false, 1, 0, half);
+        for (int32_t j = 0; j < n; j++)
+            for (int32_t i = 0; i < j; i++) lower[j * n + i] = NAN;
+        dense_divide_both_sides(lower, n, half);
+        assert_all_near("A", half, wanted, n * n, 1e-11);
+    }
+}
+
+// A v = s v with s and v complex; pairs stand together, the one with im > 0 first; the sum of all s is
+// the trace. Random matrices have both kinds.
+static void test_general_eigenvalues(void **state)
+{
+    (void)state;
+    Random random = {.state = 6};
+    int32_t pairs = 0, real = 0;
+    for (int32_t n = 1; n <= SIZE_TRIED; n += 2) {
+        double a[SIZE_TRIED * SIZE_TRIED], kept[SIZE_TRIED * SIZE_TRIED], re[SIZE_TRIED];
+        double im[SIZE_TRIED], v[SIZE_TRIED * SIZE_TRIED], x[SIZE_TRIED], y[SIZE_TRIED];
+        double *work = hand_matrix((int32_t)dense_eigen_work(n), 1), trace = 0, sum = 0;
+        fill_random(&random, a, n * n);
+        memcpy(kept, a, sizeof a);
+        assert_true(dense_eigen_general(a, n, re, im, v, work));
+        for (int32_t k = 0; k < n; k++) {
+            trace += kept[k * n + k];
+            sum += re[k];
+            const double *p = v + k * n, *q = p + n;
+            hand_apply(kept, n, n, p, x);
+            if (im[k] == 0) {
+                real++;
+                for (int32_t i = 0; i < n; i++) assert_near("A v", x[i], re[k] * p[i], 1e-12 * n);
+                continue;
+            }
+            pairs++;
+            assert_true(k + 1 < n && im[k] > 0 && im[k + 1] == -im[k] && re[k + 1] == re[k]);
+            hand_apply(kept, n, n, q, y);
+            for (int32_t i = 0; i < n; i++) {
+                assert_near("real part", x[i], re[k] * p[i] - im[k] * q[i], 1e-12 * n);
+                assert_near("imaginary part", y[i], re[k] * q[i] + im[k] * p[i], 1e-12 * n);
+            }
+            sum += re[k + 1];
+            trace += kept[(k + 1) * n + k + 1];
+            k++;
+        }
+        assert_near("trace", sum, trace, 1e-12 * n);
+        free(work);
+    }
+    assert_true(pairs > 20 && real > 20);
+}
+
 static int lu_sign(double *a, int32_t n)
 {
     int32_t pivots[SIZE_TRIED];
@@ -186,6 +254,8 @@ int main(void)
         cmocka_unit_test(test_eigen_of_random_matrices),
         cmocka_unit_test(test_inverse_of_hilbert),
         cmocka_unit_test(test_products),
+        cmocka_unit_test(test_divide_both_sides),
+        cmocka_unit_test(test_general_eigenvalues),
         cmocka_unit_test(test_lu_sign),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

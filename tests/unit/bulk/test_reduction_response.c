@@ -68,6 +68,24 @@ static void test_error_falls_with_tolerance(void **state)
     }
 }
 
+// A block in which waves are slow beside viscosity (rho L^2 E / eta^2 = 100) and one in which they are
+// fast (0.01) are covered by the shifts that these make.
+static void test_heavy_and_light(void **state)
+{
+    (void)state;
+    const BlockDef shape = {.kind = ELEMENT_Q4, .nx = 10, .nz = 10, .length = 1, .height = 0.5};
+    for (double density = 400; density > 1e-2; density *= 1e-4) {
+        Material material = MATERIAL;
+        material.density = density;
+        ReducedBlock block;
+        reduced_block_build(&shape, &material, 0.003, 1e-2, &block);
+        double error = worst_response(&block, &block.reduced);
+        print_message("density %g: error of S %.1e\n", density, error);
+        assert_true(error < 1e-3);
+        reduced_block_destroy(&block);
+    }
+}
+
 // The program's own measure, at shifts between those of the build, is the same as ours there.
 static void test_own_measure(void **state)
 {
@@ -189,6 +207,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_error_falls_with_tolerance),
+        cmocka_unit_test(test_heavy_and_light),
         cmocka_unit_test(test_own_measure),
         cmocka_unit_test(test_units),
         cmocka_unit_test(test_another_length),
