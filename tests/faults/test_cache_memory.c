@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Every allocation of a tiny run fails in turn while a cache is filled, and again while it is read: out
-// of memory or, where only the keeping failed, done with a note; nothing is lost, nothing half-written
-// is ever taken for a shape.
+// Every allocation of a tiny run fails in turn while a cache is filled, and again while it is read:
+// out of memory or, where only the keeping failed, done with a note; nothing is lost, nothing
+// half-written is ever taken for a shape.
 #include "base/memory.h"
 #include "result_place.h"
 #include "small_scene.h"

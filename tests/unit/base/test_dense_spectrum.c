@@ -162,8 +162,8 @@ static void test_divide_both_sides(void **state)
     }
 }
 
-// A v = s v with s and v complex; pairs stand together, the one with im > 0 first; the sum of all s is
-// the trace. Random matrices have both kinds.
+// A v = s v with s and v complex; pairs stand together, the one with im > 0 first; the sum of all s
+// is the trace. Random matrices have both kinds.
 static void test_general_eigenvalues(void **state)
 {
     (void)state;

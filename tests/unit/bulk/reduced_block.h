@@ -96,8 +96,8 @@ static inline double *reduced_schur(const ReducedBulk *reduced, OperatorTerms te
     return schur;
 }
 
-// The least and the largest eigenvalue of `wanted`^-1 (value - wanted), by Gauss and Jacobi: relative
-// differences in the energy norm of `wanted`, with their sign.
+// The least and the largest eigenvalue of `wanted`^-1 (value - wanted), by Gauss and Jacobi:
+// relative differences in the energy norm of `wanted`, with their sign.
 static inline void energy_differences(const double *value, const double *wanted, int32_t n,
                                       double *least, double *largest)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the reduced bulk answers at the interface, S(dt) over seven decades of steps, against CHOLMOD's
-// exact Schur complements of the full mesh: too stiff, never too soft, and the closer the smaller the
-// tolerance; the same in any units, and for a block of another size.
+// What the reduced bulk answers at the interface, S(dt) over seven decades of steps, against
+// CHOLMOD's exact Schur complements of the full mesh: too stiff, never too soft, and the closer the
+// smaller the tolerance; the same in any units, and for a block of another size.
 #include "bulk/reduction_check.h"
 
 #include "reduced_block.h"
@@ -22,8 +22,8 @@ static OperatorTerms step_terms(double dt)
     return (OperatorTerms){.mass = 1 / (GAMMA * dt), .damping = 1, .stiffness = GAMMA * dt};
 }
 
-// The largest relative error in the energy norm, over the steps whose 1/(gamma dt) the basis was built
-// for; times in units of eta/E. Too soft it is at none.
+// The largest relative error in the energy norm, over the steps whose 1/(gamma dt) the basis was
+// built for; times in units of eta/E. Too soft it is at none.
 static double worst_response(ReducedBlock *block, const ReducedBulk *reduced)
 {
     double worst = 0, unit = reduced->scales.damping / reduced->scales.stiffness;
@@ -68,8 +68,8 @@ static void test_error_falls_with_tolerance(void **state)
     }
 }
 
-// A block in which waves are slow beside viscosity (rho L^2 E / eta^2 = 100) and one in which they are
-// fast (0.01) are covered by the shifts that these make.
+// A block in which waves are slow beside viscosity (rho L^2 E / eta^2 = 100) and one in which they
+// are fast (0.01) are covered by the shifts that these make.
 static void test_heavy_and_light(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The key of a shape changes when and only when the reduced matrices do, and what the cache gives back
-// is what was put in, or nothing with a reason.
+// The key of a shape changes when and only when the reduced matrices do, and what the cache gives
+// back is what was put in, or nothing with a reason.
 #include "run/shape_cache.h"
 
 #include "base/memory.h"

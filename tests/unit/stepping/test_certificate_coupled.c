@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The coupled test of a step, det J(s) > 0, against finite differences of the equations of slip written
-// down by hand: a node that slips obeys tau = -sign(v) mu(v) p, and p answers to all that moves.
+// The coupled test of a step, det J(s) > 0, against finite differences of the equations of slip
+// written down by hand: a node that slips obeys tau = -sign(v) mu(v) p, and p answers to all that
+// moves.
 #include "stepping/certificate.h"
 
 #include "block_rig.h"
@@ -32,8 +33,8 @@ static void list_moving(Slip *slip)
         if (!slip->seen->rod_touches[j]) slip->moving[slip->count++] = interface_rod(interface, j);
 }
 
-// What is out of balance in row `row` when unknown `changed` moves by `step` beside what is seen: forces
-// are those seen plus S times that.
+// What is out of balance in row `row` when unknown `changed` moves by `step` beside what is seen:
+// forces are those seen plus S times that.
 static double out_of_balance(const Slip *slip, int32_t row, int32_t changed, double step)
 {
     const FrictionLaw *law = &slip->rig->law;

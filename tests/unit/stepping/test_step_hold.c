@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Where growth limits the step: a rung that slip outgrew is left alone for a while, so that few steps
-// are done twice; and a large step, proposed just before slip runs away, is not taken.
+// Where growth limits the step: a rung that slip outgrew is left alone for a while, so that few
+// steps are done twice; and a large step, proposed just before slip runs away, is not taken.
 #include "stepping/step_control.h"
 
 #include "block_rig.h"
@@ -163,8 +163,8 @@ static void find_peak(Run *run, double *place, double *height)
     }
 }
 
-// Goes to `from` with care, then is told that the state is certified and the longest step is next, and
-// that errors of steps do not matter.
+// Goes to `from` with care, then is told that the state is certified and the longest step is next,
+// and that errors of steps do not matter.
 static void tricked_peak(double from, bool use_certificate, double *place, double *height)
 {
     RigDef def = pushed_def();
