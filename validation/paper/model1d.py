@@ -1,0 +1,177 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The paper's effective 1D model against its own simulation, and against the block.
+
+    validation/paper/model1d.py [PROGRAM] [--cells N] [--nodes N]
+
+PROGRAM: the built amontons (default: build/bin/amontons of this checkout). Markdown tables on
+standard output:
+
+1. theory against simulation of the 1D equation, for sets A and B;
+2. the 1D model (alpha = 0.2) against the block, `amontons run`: l_c/L and mu_M in the periodic
+   regime, beside the line mu_K + (mu_S - mu_K) l_c/L;
+3. where the distance from that line comes from. With p = 2 P x/L, tau = mu_S p behind the front
+   and tau = mu_K p plus a uniform load ahead of it, F_T/F_N is on the line for l << L. What was
+   simulated differs from that in four parts, which add up to (mu - line):
+     pressure  mu_S times (share of the load that is carried behind the front, less (l/L)^2)
+     friction  behind the front: tau less mu_S p
+     start     ahead of the front: tau left by the last sliding, less mu_K times 2 P x/L
+     ahead     ahead of the front: tau gained since, less (mu_S - mu_K) l/L (1 - l/L)
+   each over F_N, at the last step before the sliding.
+
+Needs numpy and h5py. Takes about a minute and a half.
+"""
+import argparse
+import json
+import subprocess
+import tempfile
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+SCENE = ROOT / "validation/paper/fig1.yaml"
+LEADING = 2   # events/kind
+
+# V: set A the paper's; set B 0.026 v_c, as V/v_c in A.
+SETS = {
+    "A": {"material.poisson": 0.34, "friction.mu_static": 0.38, "friction.mu_kinetic": 0.1,
+          "friction.critical_velocity": 3.4e-4, "rod.velocity": 1e-5},
+    "B": {"material.poisson": 0.4, "friction.mu_static": 1.2, "friction.mu_kinetic": 0.2,
+          "friction.critical_velocity": 3.9e-7, "rod.velocity": 1e-8},
+}
+CASES = [("A", 0.003, 0.25), ("A", 0.03, 0.25), ("A", 0.001, 1), ("A", 0.003, 1), ("A", 0.01, 1),
+         ("A", 0.03, 1), ("A", 0.003, 4), ("A", 0.01, 4), ("A", 0.03, 4),
+         ("B", 2.875e-5, 0.04), ("B", 5.75e-5, 0.04), ("B", 1.15e-4, 0.04), ("B", 4.6e-4, 0.04)]
+
+
+def settings(name, pressure, length, cells):
+    drop = SETS[name]["friction.mu_static"] - SETS[name]["friction.mu_kinetic"]
+    slip = drop * pressure * length   # what a cycle moves the rod by is about this
+    values = {**SETS[name], "mesh.set.nx": cells, "mesh.set.nz": cells, "mesh.set.length": length,
+              "mesh.set.height": length / 2, "rod.height": length / 4, "rod.width": length / 20,
+              "load.pressure": pressure, "time.until": f"{{U: {12 * slip:.6g}, periodic: true}}",
+              "output.figures": "[]", "output.fields": "none"}
+    return [word for key, value in values.items() for word in ("--set", f"{key}={value}")]
+
+
+def parts(folder, mu_static, mu_kinetic):
+    """What (mu - line) is made of at the last sliding that began after another one; see above."""
+    with h5py.File(folder / "history.h5") as file:
+        kinds, starts, stops = (file[f"events/{k}"][:] for k in ("kind", "t_start", "t_stop"))
+        slidings = np.flatnonzero(kinds == LEADING)
+        if len(slidings) < 2:
+            return None
+        time = file["series/time"][:]
+        row = np.searchsorted(time, starts[slidings[-1]]) - 1
+        rest = np.searchsorted(time, stops[slidings[-2]])
+        x, weight = file["nodes/x"][:], file["nodes/weight"][:]
+        length, load = file.attrs["length"], file.attrs["normal_force"]
+        pressure, shear = file["interface/pressure"][row], file["interface/shear"][row]
+        before = file["interface/shear"][rest]
+        front, mu = file["series/front"][row], file["series/mu"][row]
+        mu_rest = file["series/mu"][rest]
+    share = weight / load
+    behind = x <= front + 1e-9 * length
+    l = (x[behind][-1] + x[~behind][0]) / 2 / length if (~behind).any() else 1.0
+    drop = mu_static - mu_kinetic
+    found = {"l": l, "mu": mu, "line": mu_kinetic + drop * l, "mu_rest": mu_rest,
+             "pressure": mu_static * ((share * pressure)[behind].sum() - l * l),
+             "friction": (share * (shear - mu_static * pressure))[behind].sum(),
+             "start": (share * before)[~behind].sum() - mu_kinetic * (1 - l * l),
+             "ahead": (share * (shear - before))[~behind].sum() - drop * l * (1 - l)}
+    found["inertia"] = mu - found["line"] - sum(
+        found[k] for k in ("pressure", "friction", "start", "ahead"))
+    return found
+
+
+def compare(given, name, pressure, length):
+    words = settings(name, pressure, length, given.cells)
+    friction = (SETS[name]["friction.mu_static"], SETS[name]["friction.mu_kinetic"])
+    with tempfile.TemporaryDirectory() as folder:
+        line, block = Path(folder, "line"), Path(folder, "block")
+        subprocess.run([given.program, "model1d", SCENE, "--quiet", "-o", line, "--points",
+                        str(given.nodes), *words], check=True)
+        subprocess.run([given.program, "run", SCENE, "--quiet", "-o", block, *words], check=True)
+        model = json.loads((line / "model1d.json").read_text())
+        run = json.loads((block / "run.json").read_text())
+        return {"case": (name, pressure, length), "theory": model["theory"],
+                "line": model["simulation"], "block": run["results"],
+                "parts": {"line": parts(line, *friction), "block": parts(block, *friction)}}
+
+
+def cell(value, form=".3f"):
+    return "-" if value is None else format(value, form)
+
+
+def table(heads):
+    print("\n| " + " | ".join(heads) + " |\n|" + "---|" * len(heads))
+
+
+def show_theory(rows):
+    print("\n## The 1D equation: theory and simulation\n\n"
+          "`paper`: off-diagonal terms neglected; `full`: all kept; `at V`: growth from V to v_c "
+          "within half an oscillation; `first`: the first peak, which starts from tau = mu_K p as "
+          "the theory does; `periodic`: later ones. A front that reaches the end has no l_c: mu_S.")
+    table(["set", "P", "L", "l_sc paper", "l_sc full", "l_sc first", "l_c paper", "l_c full",
+           "l_c at V", "l_c first", "mu_M paper", "mu_M at V", "mu_M first", "mu_M periodic"])
+    for row in rows:
+        name, pressure, length = row["case"]
+        theory, line = row["theory"], row["line"]
+        print(f"| {name} | {pressure:g} | {length:g} | {cell(theory['l_sc_over_L'])} | "
+              f"{cell(theory['l_sc_full_over_L'])} | {cell(line['first_l_sc_over_L'])} | "
+              f"{cell(theory['l_c_over_L'])} | {cell(theory['l_c_full_over_L'])} | "
+              f"{cell(theory['l_c_at_V_full_over_L'])} | {cell(line['first_l_c_over_L'])} | "
+              f"{theory['mu_M']:.4f} | {theory['mu_M_at_V_full']:.4f} | "
+              f"{cell(line['first_mu'], '.4f')} | {cell(line['mu_M'], '.4f')} |")
+
+
+def show_block(rows):
+    print("\n## The 1D model and the block\n\nPeriodic regime. `line`: mu_K + (mu_S - mu_K) "
+          "l_c/L with the block's own l_c.")
+    table(["set", "P", "L", "l_c/L paper", "l_c/L 1D", "l_c/L block", "mu_M paper", "mu_M 1D",
+           "mu_M block", "spread", "line", "block off the line"])
+    for row in rows:
+        name, pressure, length = row["case"]
+        values, block = SETS[name], row["block"]
+        static, kinetic = values["friction.mu_static"], values["friction.mu_kinetic"]
+        line = kinetic + (static - kinetic) * block["l_c_over_L"]
+        print(f"| {name} | {pressure:g} | {length:g} | {row['theory']['l_c_over_L']:.3f} | "
+              f"{cell(row['line']['l_c_over_L'])} | {block['l_c_over_L']:.3f} | "
+              f"{row['theory']['mu_M']:.3f} | {cell(row['line']['mu_M'])} | {block['mu_M']:.3f} | "
+              f"{cell(block['mu_M_spread'])} | {line:.3f} | {block['mu_M'] - line:+.3f} |")
+
+
+def show_parts(rows):
+    print("\n## Off the line, part by part\n\nThe last step before the last sliding; `mu rest`: "
+          "F_T/F_N when the sliding before it stopped. The rest, inertia, is "
+          "below 0.001 where not shown.")
+    table(["set", "P", "L", "model", "l/L", "mu", "mu - line", "pressure", "friction", "start",
+           "ahead", "inertia", "mu rest"])
+    for row in rows:
+        name, pressure, length = row["case"]
+        for model, found in row["parts"].items():
+            if found is None:
+                continue
+            print(f"| {name} | {pressure:g} | {length:g} | {model} | {found['l']:.3f} | "
+                  f"{found['mu']:.3f} | {found['mu'] - found['line']:+.3f} | "
+                  + " | ".join(f"{found[k]:+.3f}" for k in
+                               ("pressure", "friction", "start", "ahead", "inertia"))
+                  + f" | {found['mu_rest']:.3f} |")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("program", nargs="?", default=ROOT / "build/bin/amontons")
+    parser.add_argument("--cells", type=int, default=40, help="of the block, along each side")
+    parser.add_argument("--nodes", type=int, default=81, help="of the line")
+    given = parser.parse_args()
+    rows = [compare(given, *case) for case in CASES]
+    show_theory(rows)
+    show_block(rows)
+    show_parts(rows)
+
+
+if __name__ == "__main__":
+    main()
