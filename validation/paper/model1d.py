@@ -17,7 +17,8 @@ standard output:
      friction  behind the front: tau less mu_S p
      start     ahead of the front: tau left by the last sliding, less mu_K times 2 P x/L
      ahead     ahead of the front: tau gained since, less (mu_S - mu_K) l/L (1 - l/L)
-   each over F_N, at the last step before the sliding.
+   each over F_N, at the last step before the sliding; what is left over is inertia and viscosity;
+4. the alpha that would give the 1D model the block's l_c, and the mu it then has there.
 
 Needs numpy and h5py. Takes about a minute and a half.
 """
@@ -66,6 +67,7 @@ def parts(folder, mu_static, mu_kinetic):
         time = file["series/time"][:]
         row = np.searchsorted(time, starts[slidings[-1]]) - 1
         rest = np.searchsorted(time, stops[slidings[-2]])
+        rest += np.argmin(file["series/mu"][rest:row + 1])
         x, weight = file["nodes/x"][:], file["nodes/weight"][:]
         length, load = file.attrs["length"], file.attrs["normal_force"]
         pressure, shear = file["interface/pressure"][row], file["interface/shear"][row]
@@ -99,6 +101,24 @@ def compare(given, name, pressure, length):
         return {"case": (name, pressure, length), "theory": model["theory"],
                 "line": model["simulation"], "block": run["results"],
                 "parts": {"line": parts(line, *friction), "block": parts(block, *friction)}}
+
+
+def fit_alpha(given, name, pressure, length, wanted):
+    """alpha for which all terms give l_c at V = wanted, and the theory there."""
+    words = settings(name, pressure, length, cells=4)
+    low, high = 1e-5, 10.0
+    with tempfile.TemporaryDirectory() as folder:
+        for _ in range(16):
+            alpha = (low * high) ** 0.5
+            subprocess.run([given.program, "model1d", SCENE, "--quiet", "--theory-only", "-o",
+                            folder, "--overwrite", "--alpha", repr(alpha), *words], check=True)
+            theory = json.loads(Path(folder, "model1d.json").read_text())["theory"]
+            found = theory["l_c_at_V_full_over_L"]
+            if found is None or found > wanted:
+                high = alpha
+            else:
+                low, best = alpha, theory
+    return low, best
 
 
 def cell(value, form=".3f"):
@@ -145,8 +165,7 @@ def show_block(rows):
 
 def show_parts(rows):
     print("\n## Off the line, part by part\n\nThe last step before the last sliding; `mu rest`: "
-          "F_T/F_N when the sliding before it stopped. The rest, inertia, is "
-          "below 0.001 where not shown.")
+          "the smallest F_T/F_N since the sliding before it, where `start` is taken.")
     table(["set", "P", "L", "model", "l/L", "mu", "mu - line", "pressure", "friction", "start",
            "ahead", "inertia", "mu rest"])
     for row in rows:
@@ -161,6 +180,24 @@ def show_parts(rows):
                   + f" | {found['mu_rest']:.3f} |")
 
 
+def show_alpha(given, rows):
+    print("\n## Which alpha gives the block's l_c?\n\nAll terms kept, at V; where the block's l_c is "
+          "on the line and more than an element. `least`: the smallest l_c/L of the paper's formula, "
+          "alpha -> 0.")
+    table(["set", "P", "L", "l_c/L block", "alpha", "mu_M 1D", "mu_M block", "least"])
+    for row in rows:
+        name, pressure, length = row["case"]
+        wanted, values = row["block"]["l_c_over_L"], SETS[name]
+        if not 1 / given.cells < wanted < 0.99:
+            continue
+        alpha, theory = fit_alpha(given, name, pressure, length, wanted)
+        drop = values["friction.mu_static"] - values["friction.mu_kinetic"]
+        least = (np.pi ** 2 / (np.pi ** 2 - 4) * values["friction.critical_velocity"] /
+                 (drop * 0.5 * pressure * length))
+        print(f"| {name} | {pressure:g} | {length:g} | {wanted:.3f} | {alpha:.2g} | "
+              f"{theory['mu_M_at_V_full']:.3f} | {row['block']['mu_M']:.3f} | {least:.3f} |")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", nargs="?", default=ROOT / "build/bin/amontons")
@@ -171,6 +208,7 @@ def main():
     show_theory(rows)
     show_block(rows)
     show_parts(rows)
+    show_alpha(given, rows)
 
 
 if __name__ == "__main__":
