@@ -131,6 +131,13 @@ class Options(unittest.TestCase):
         self.assertAlmostEqual(report["theory"]["range_over_L"],
                                numpy.sqrt(2 / (1 - 0.34) * 0.4 * 0.25 * 0.5))
 
+    def test_rod_height(self):
+        done = model1d("--theory-only", "-o", self.folder, settings=[*HEAVY, "rod.height=0.1"])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        report = json.loads((self.folder / "model1d.json").read_text())
+        self.assertAlmostEqual(report["theory"]["range_over_L"],
+                               numpy.sqrt(2 / (1 - 0.34) * 0.2 * 0.1 * 0.5))
+
     def test_quiet(self):
         done = model1d("--quiet", "--theory-only")
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
