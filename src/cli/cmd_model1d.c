@@ -89,7 +89,7 @@ static void read_options(int argc, char **argv, Model1dWords *words)
          0},
         {"set", OPTION_SET, "KEY=VALUE", 0,
          "Use this value in the place of the scene's; may be given several times", 0},
-        {"theory-only", OPTION_THEORY, NULL, 0, "Formulas only, no simulation", 0},
+        {"theory", OPTION_THEORY, NULL, 0, "Formulas only, no simulation", 0},
         {"alpha", OPTION_ALPHA, "NUMBER", 0,
          "The part of H over which the shear stress varies (default: the paper's 0.2)", 0},
         {"points", OPTION_POINTS, "N", 0, "Nodes of the simulated line (default: 81)", 0},
@@ -131,7 +131,7 @@ static int check_words(const Model1dWords *words, Model1dOptions *options)
         if (*words->points == 0 || *end || count < 3 || count > 2000)
             return report_misuse("--points %s: a whole number from 3 to 2000 is allowed",
                                  words->points);
-        if (words->theory_only) return report_misuse("--points has no meaning with --theory-only");
+        if (words->theory_only) return report_misuse("--points has no meaning with --theory");
         options->nodes = (int32_t)count;
     }
     return 0;

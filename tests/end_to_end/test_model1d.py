@@ -120,7 +120,7 @@ class Options(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.folder)
 
     def test_theory_only(self):
-        done = model1d("--theory-only", "--alpha", 0.4, "-o", self.folder)
+        done = model1d("--theory", "--alpha", 0.4, "-o", self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertNotIn("Simulation", done.stdout)
         report = json.loads((self.folder / "model1d.json").read_text())
@@ -132,18 +132,18 @@ class Options(unittest.TestCase):
                                numpy.sqrt(2 / (1 - 0.34) * 0.4 * 0.25 * 0.5))
 
     def test_rod_height(self):
-        done = model1d("--theory-only", "-o", self.folder, settings=[*HEAVY, "rod.height=0.1"])
+        done = model1d("--theory", "-o", self.folder, settings=[*HEAVY, "rod.height=0.1"])
         self.assertEqual(done.returncode, 0, done.stderr)
         report = json.loads((self.folder / "model1d.json").read_text())
         self.assertAlmostEqual(report["theory"]["range_over_L"],
                                numpy.sqrt(2 / (1 - 0.34) * 0.2 * 0.1 * 0.5))
 
     def test_quiet(self):
-        done = model1d("--quiet", "--theory-only")
+        done = model1d("--quiet", "--theory")
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
 
     def test_no_files(self):
-        done = model1d("--theory-only")
+        done = model1d("--theory")
         self.assertNotIn("Results in", done.stdout)
 
     def test_same_bits(self):
@@ -155,7 +155,7 @@ class Options(unittest.TestCase):
     def test_misuse(self):
         for words, says in [(["--alpha", "0"], "--alpha 0"), (["--alpha", "x"], "--alpha x"),
                             (["--points", "2"], "3 to 2000"), (["--points", "8.5"], "--points 8.5"),
-                            (["--points", "9", "--theory-only"], "--theory-only"),
+                            (["--points", "9", "--theory"], "--theory"),
                             (["-o", ""], "no name"), ([FIG1], "one scene")]:
             done = model1d(*words)
             self.assertEqual(done.returncode, 2, words)
@@ -174,7 +174,7 @@ class Options(unittest.TestCase):
         done = subprocess.run([PROGRAM, "model1d", "--help"], capture_output=True, text=True,
                               timeout=20)
         self.assertEqual(done.returncode, 0)
-        for word in ("--alpha", "--points", "--theory-only", "SCENE"):
+        for word in ("--alpha", "--points", "--theory", "SCENE"):
             self.assertIn(word, done.stdout)
 
 

@@ -110,7 +110,7 @@ def fit_alpha(given, name, pressure, length, wanted):
     with tempfile.TemporaryDirectory() as folder:
         for _ in range(16):
             alpha = (low * high) ** 0.5
-            subprocess.run([given.program, "model1d", SCENE, "--quiet", "--theory-only", "-o",
+            subprocess.run([given.program, "model1d", SCENE, "--quiet", "--theory", "-o",
                             folder, "--overwrite", "--alpha", repr(alpha), *words], check=True)
             theory = json.loads(Path(folder, "model1d.json").read_text())["theory"]
             found = theory["l_c_at_V_full_over_L"]

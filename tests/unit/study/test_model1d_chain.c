@@ -87,7 +87,7 @@ static void test_rest(void **state)
     assert_near("order", log2(coarse / fine), 2, 0.3);
 }
 
-// Led slowly by steps of the block's own control to a front of about 0.4 L: mu against the theory's.
+// Led slowly by the steps of a block to a front of about 0.4 L: mu against the theory's.
 static double slip_error(int32_t nodes)
 {
     Error err = {0};
