@@ -15,9 +15,16 @@ static const PadCycle NOTHING_YET = {.normal_force = NAN,
                                      .t_rapid = NAN,
                                      .slow_length = NAN};
 
+enum { FIRST_ROOM = 32 };
+
 bool pads_create(const Interface *interface, const Events *events, Pads *pads, Error *err)
 {
-    *pads = (Pads){.events = events, .contact_count = interface->contact_count, .mu = -INFINITY};
+    *pads = (Pads){.events = events,
+                   .contact_count = interface->contact_count,
+                   .mu = -INFINITY,
+                   .rising.mu = -INFINITY,
+                   .sliding_room = FIRST_ROOM};
+    pads->slidings = NEW_ARRAY(PadSliding, FIRST_ROOM, err);
     pads->list = NEW_ARRAY(Pad, interface->pad_count, err);
     pads->stuck = NEW_ARRAY(uint8_t, interface->contact_count, err);
     pads->slipped = NEW_ARRAY(uint8_t, interface->contact_count, err);
@@ -45,6 +52,7 @@ void pads_destroy(Pads *pads)
     memory_free(pads->list);
     memory_free(pads->stuck);
     memory_free(pads->slipped);
+    memory_free(pads->slidings);
     *pads = (Pads){0};
 }
 
@@ -118,13 +126,59 @@ static void begin_cycle(Pads *pads)
     for (int32_t p = 0; p < pads->count; p++) pads->list[p].now = NOTHING_YET;
 }
 
+// Pads of which every node slipped in the rapid event that ended in this step.
+static int32_t count_slid(Pads *pads, const Interface *interface)
+{
+    int32_t slid = 0;
+    for (int32_t p = 0; p < pads->count; p++) {
+        int32_t nodes = 0;
+        for (int32_t i = 0; i < interface->contact_count; i++)
+            if (interface->pad[i] == p) nodes += pads->events->slipped[i];
+        if (nodes < pads->list[p].nodes) continue;
+        pads->list[p].slidings++;
+        slid++;
+    }
+    return slid;
+}
+
+static bool push_sliding(Pads *pads, int32_t slid, Error *err)
+{
+    if (pads->sliding_count == pads->sliding_room) {
+        PadSliding *longer = memory_resize(pads->slidings, pads->sliding_room,
+                                           2 * (int64_t)pads->sliding_room, sizeof *longer, err);
+        if (!longer) goto cleanup;
+        pads->slidings = longer;
+        pads->sliding_room *= 2;
+    }
+    pads->rising.pads = slid;
+    pads->slidings[pads->sliding_count++] = pads->rising;
+    pads->rising = (PadSliding){.mu = -INFINITY};
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool follow_slidings(Pads *pads, const Observation *seen, Error *err)
+{
+    const Events *events = pads->events;
+    if (events->ended) {
+        int32_t slid = count_slid(pads, seen->interface);
+        if (slid > 0) TRY(push_sliding(pads, slid, err));
+    }
+    if (events->rapid < 0 && seen->mu > pads->rising.mu) {
+        pads->rising.mu = seen->mu;
+        pads->rising.U = seen->U;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
 bool pads_record(void *self, const Observation *seen, Error *err)
 {
     Pads *pads = self;
     const Events *events = pads->events;
     bool sliding = events->rapid >= 0 && events->list[events->rapid].kind == EVENT_LEADING;
     int32_t let_go = 0;
-    (void)err;
+    TRY(follow_slidings(pads, seen, err));
     if (!sliding || events->crossed) {
         mark_nodes(pads, seen);
         for (int32_t p = 0; p < pads->count; p++) follow_pad(pads, seen, p, &let_go);
@@ -138,11 +192,27 @@ bool pads_record(void *self, const Observation *seen, Error *err)
     }
     if (sliding || (events->ended && events->list[events->count - 1].kind == EVENT_LEADING))
         begin_cycle(pads);
-    return true;
+cleanup:
+    return error_is_clean(err);
+}
+
+// Of the later half of the slidings: what the start left is gone by then.
+static void write_falls(const Pads *pads, JsonWriter *json)
+{
+    double low = INFINITY, high = -INFINITY;
+    int32_t first = pads->sliding_count / 2;
+    for (int32_t k = first; k < pads->sliding_count; k++) {
+        low = fmin(low, pads->slidings[k].mu);
+        high = fmax(high, pads->slidings[k].mu);
+    }
+    bool any = pads->sliding_count > 0;
+    json_number(json, "mu_falls_low", any ? low : NAN);
+    json_number(json, "mu_falls_high", any ? high : NAN);
 }
 
 void pads_write_json(const Pads *pads, JsonWriter *json)
 {
+    write_falls(pads, json);
     json_begin_list(json, "pads");
     for (int32_t p = 0; p < pads->count; p++) {
         const Pad *pad = &pads->list[p];
@@ -162,6 +232,17 @@ void pads_write_json(const Pads *pads, JsonWriter *json)
         json_number(json, "t_rapid", last->t_rapid);
         json_number(json, "l_c", last->slow_length);
         json_number(json, "l_c_over_length", last->slow_length / pad->length);
+        json_integer(json, "slidings", pad->slidings);
+        json_end(json);
+    }
+    json_end(json);
+    json_begin_list(json, "pad_slidings");
+    for (int32_t k = 0; k < pads->sliding_count; k++) {
+        const PadSliding *sliding = &pads->slidings[k];
+        json_begin_object(json, NULL);
+        json_number(json, "U", sliding->U);
+        json_number(json, "mu", sliding->mu);
+        json_integer(json, "pads", sliding->pads);
         json_end(json);
     }
     json_end(json);

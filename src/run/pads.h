@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What each contact curve (pad) does between two slidings: what it carries when mu is largest, when
 // it first slips, when all of it has, in what order pads let go, and how much of a pad slips slowly
-// before its slip turns fast. Fed after run/events; written by run/report, a pad an object of
+// before its slip turns fast; and every event in which whole pads slid. Fed after run/events; written by run/report, a pad an object of
 // results.pads. The course of loads and slip over all steps is in history.h5 (pads/...).
 #ifndef AMONTONS_RUN_PADS_H
 #define AMONTONS_RUN_PADS_H
@@ -19,6 +19,13 @@ typedef struct PadCycle {
     double slow_length;   // how much of it slipped just before: l_c of the pad, length
 } PadCycle;
 
+// A rapid event in which some pads slipped over all their length: the force falls, also where not
+// all of them did and the block as a whole has not slid.
+typedef struct PadSliding {
+    double U, mu;   // the largest mu since the one before, and where it was; length, 1
+    int32_t pads;   // that slid
+} PadSliding;
+
 typedef struct Pad {
     char name[GROUP_NAME_SIZE];
     double x_from, x_to;   // length
@@ -26,6 +33,7 @@ typedef struct Pad {
     int32_t nodes;
     double normal_force_start;   // when the rod starts, force/width
     PadCycle now, last;   // of the cycle under way; of the last one that ended in sliding
+    int32_t slidings;   // rapid events in which all of it slipped
     double slipping;   // how much of it slips in the step seen last, length
     bool rapid;   // in the step seen last
 } Pad;
@@ -41,11 +49,17 @@ typedef struct Pads {
     int32_t cycles;   // that ended in sliding
     double mu;   // the largest of this cycle
     bool started;   // the first step was seen
+    PadSliding rising;   // the largest mu since the last sliding of any pad
+    int32_t sliding_count, sliding_room;
+    PadSliding *slidings;   // [sliding_count]; owned
 } Pads;
 
 bool pads_create(const Interface *interface, const Events *events, Pads *pads, Error *err);
 void pads_destroy(Pads *pads);
 bool pads_record(void *self, const Observation *seen, Error *err);   // a Recorder
-void pads_write_json(const Pads *pads, JsonWriter *json);   // the list results.pads
+
+// results.pads, results.pad_slidings, and of the later half of those mu_falls_low and _high: the
+// smallest and the largest mu at which the force fell.
+void pads_write_json(const Pads *pads, JsonWriter *json);
 
 #endif
