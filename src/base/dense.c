@@ -20,9 +20,16 @@ void dgeev_(const char *jobvl, const char *jobvr, const int *n, double *a, const
             double *wr, double *wi, double *vl, const int *ldvl, double *vr, const int *ldvr,
             double *work, const int *lwork, int *info, size_t jobvl_size, size_t jobvr_size);
 
+// Ends OpenBLAS's threads, as it does itself before a fork. Its builds without threads have none.
+int blas_thread_shutdown_(void) __attribute__((weak));
+
+// OpenBLAS starts its threads when it is loaded, and an idle one looks for work at full speed for
+// 2^26 clock ticks (26 ms) before it sleeps: more than a short run takes.
 void dense_use_one_thread(void)
 {
+    if (openblas_get_num_threads() == 1) return;   // to set it again would start them again
     openblas_set_num_threads(1);
+    if (blas_thread_shutdown_) blas_thread_shutdown_();
 }
 
 bool dense_cholesky(double *a, int32_t n)

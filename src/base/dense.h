@@ -7,7 +7,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// BLAS threads gain nothing at these sizes and cost twice as much beside another process.
+// BLAS threads gain nothing at these sizes and cost twice as much beside another process: those
+// started already are ended.
 void dense_use_one_thread(void);
 
 // Cholesky factor in place of a symmetric `a` [n * n]; the lower triangle is read and written.

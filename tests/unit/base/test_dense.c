@@ -7,6 +7,9 @@
 #include "near.h"
 #include "random_numbers.h"
 
+#include <dirent.h>
+#include <dlfcn.h>
+
 enum { SIZE_MAX_TRIED = 24 };
 
 // L L' with a random lower triangle that is far from singular.
@@ -109,6 +112,36 @@ static void test_vectors(void **state)
     assert_near("largest of nothing", dense_max_abs(x, 0), 0, 0);
 }
 
+static int32_t thread_count(void)
+{
+    int32_t count = 0;
+    DIR *tasks = opendir("/proc/self/task");
+    assert_non_null(tasks);
+    for (struct dirent *entry; (entry = readdir(tasks));) count += entry->d_name[0] != '.';
+    closedir(tasks);
+    return count;
+}
+
+// OpenBLAS's own threads go, once and for all; a second call does not bring them back.
+static void test_one_thread(void **state)
+{
+    (void)state;
+    void *symbol = dlsym(RTLD_DEFAULT, "openblas_set_num_threads");
+    void (*set_threads)(int) = NULL;
+    assert_non_null(symbol);
+    memcpy(&set_threads, &symbol, sizeof set_threads);
+    set_threads(3);
+    if (thread_count() == 1) skip();   // an OpenBLAS built without threads
+    for (int32_t call = 0; call < 2; call++) {
+        dense_use_one_thread();
+        assert_int_equal(thread_count(), 1);
+    }
+    double lower[4] = {2, 1, 0, 1}, square[4];
+    dense_lower_square(lower, 2, square);
+    assert_near("still computes", square[3], 2, 1e-15);
+    assert_int_equal(thread_count(), 1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -116,6 +149,7 @@ int main(void)
         cmocka_unit_test(test_not_definite),
         cmocka_unit_test(test_lu),
         cmocka_unit_test(test_vectors),
+        cmocka_unit_test(test_one_thread),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
