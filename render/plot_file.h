@@ -4,7 +4,7 @@
 //
 //     title: mu_M against pressure            # stored in the PNG
 //     height: 0.75                            # over the width; default 0.75
-//     x: {label: "~{P}_{ext}", scale: log, range: [1e-3, 1e-1]}   # scale: linear; range: the data's
+//     x: {label: "~{P}_{ext}", scale: log, range: [1e-3, 1e-1]}   # linear; the data's
 //     y: {label: "~{\u03bc}_{M}"}
 //     legend: upper-right                     # or upper-left, lower-left, lower-right, none
 //     series:

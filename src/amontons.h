@@ -232,7 +232,7 @@ bool amontons_sweep(const char *path, const SweepOptions *options, SweepSummary 
 // Draws `figures` ([figure_count] names; 0: all) of the result in `folder` into folder/figures.
 bool amontons_render_result(const char *folder, const char *const *figures, int32_t figure_count,
                             Error *err);
-// Draws the curves that the YAML file `plot` describes (render/plot_file.h) into the PNG file `png`.
+// Draws the curves that the YAML file `plot` describes (render/plot_file.h) into `png`.
 bool amontons_render_plot_file(const char *plot, const char *png, Error *err);
 typedef struct InfoOptions {
     const char *const *overrides;   // [override_count] "rod.width=1" of a scene, "n=4" of a .geo

@@ -12,7 +12,7 @@ static const double TOLERANCES[] = {
     [ACCURACY_DRAFT] = 1e-2, [ACCURACY_STANDARD] = 1e-3, [ACCURACY_FINE] = 1e-4};
 
 static const double STEP_MAX_SLIP = 0.2;   // rung 0: the rod moves this part of that slip
-static const double STEPS_AT_LEAST = 50;   // and a run has at least so many
+static const double STEPS_AT_LEAST = 50;   // without a rod a run has at least so many
 static const double STEP_RANGE = 1e-10;   // step_min over step_max
 
 // The slip that the drop of friction drives: (mu_S - mu_K) p H / E, with p the mean pressure.
@@ -36,12 +36,12 @@ bool model_prepare_steps(Simulation *simulation, Error *err)
     }
     double tolerance = scene->time.tolerance > 0 ? scene->time.tolerance
                                                  : TOLERANCES[scene->time.accuracy];
+    bool driven = scene->rod.kind != ROD_NONE;
     StepControlDef def = {.tolerance = tolerance * slip,
-                          .step_max = simulation->t_end / STEPS_AT_LEAST,
+                          .step_max = driven ? STEP_MAX_SLIP * slip / velocity
+                                             : simulation->t_end / STEPS_AT_LEAST,
                           .growth_max = 2,
                           .use_certificate = scene->time.certificate};
-    if (scene->rod.kind != ROD_NONE)
-        def.step_max = fmin(def.step_max, STEP_MAX_SLIP * slip / velocity);
     bool implicit = scene->time.scheme == SCHEME_SDIRK2;   // the keys mean the scheme named
     if (implicit && scene->time.step_max > 0) def.step_max = scene->time.step_max;
     def.step_min = implicit && scene->time.step_min > 0 ? scene->time.step_min

@@ -9,6 +9,7 @@
 #include "run/shape_cache.h"
 
 #include <math.h>
+#include <stdio.h>
 
 // Singular values of the interior's responses. Set A, 40x40: 1e-2 moves single peaks by 1e-5 to
 // 1e-4.
@@ -181,6 +182,10 @@ static bool build_checked(Simulation *simulation, ReductionDef *def, Shape *shap
         if (reduced->error <= bound) break;
         def->tolerance *= 0.1;
     }
+    if (reduced->error > bound)
+        snprintf(simulation->cache_note, sizeof simulation->cache_note,
+                 "the reduced bulk is off by %.1e, more than %.1e (reduction.tolerance)",
+                 reduced->error, bound);
 cleanup:
     bulk_operator_destroy(&full);
     bulk_operator_destroy(&tried);

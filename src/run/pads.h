@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What each contact curve (pad) does between two slidings: what it carries when mu is largest, when
 // it first slips, when all of it has, in what order pads let go, and how much of a pad slips slowly
-// before its slip turns fast; and every event in which whole pads slid. Fed after run/events; written by run/report, a pad an object of
-// results.pads. The course of loads and slip over all steps is in history.h5 (pads/...).
+// before its slip turns fast; and every event in which whole pads slid. Fed after run/events;
+// written by run/report, a pad an object of results.pads. The course of loads and slip over all
+// steps is in history.h5 (pads/...).
 #ifndef AMONTONS_RUN_PADS_H
 #define AMONTONS_RUN_PADS_H
 

@@ -26,7 +26,7 @@ def allowed(folder, include):
         return include.startswith(("base/", "amontons"))   # the public header and its parts
     if folder == "render":
         return include.startswith(("base/", "render/")) or include in (
-            "io/result_file.h", "io/yaml_document.h")
+            "io/mesh_file.h", "io/result_file.h", "io/yaml_document.h")
     if folder == "cli":
         return include == "amontons.h" or include.startswith("cli/")
     if include in ("amontons.h", "render/render.h"):
