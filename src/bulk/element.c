@@ -39,6 +39,26 @@ static void add_quadratic_form(int32_t dofs, const double b[3][ELEMENT_DOFS_MAX]
     }
 }
 
+// Shares out the element's mass in proportion to int N_a^2.
+static void lump_mass(ElementKind kind, const double (*position)[2], double density,
+                      ElementMatrices *out)
+{
+    Quadrature quadrature = shape_mass_quadrature(kind);
+    int32_t nodes = element_node_count(kind);
+    double square_sum = 0;
+    for (int32_t q = 0; q < quadrature.count; q++) {
+        const double *point = quadrature.point[q];
+        ShapeValues shape = shape_at(kind, point[0], point[1]);
+        double weight = quadrature.weight[q] * shape_jacobian(kind, &shape, position, NULL);
+        for (int32_t a = 0; a < nodes; a++) {
+            double square = weight * shape.value[a] * shape.value[a];
+            out->mass[a] += square;
+            square_sum += square;
+        }
+    }
+    for (int32_t a = 0; a < nodes; a++) out->mass[a] *= density * out->area / square_sum;
+}
+
 void element_matrices(ElementKind kind, const double (*position)[2], const Material *material,
                       ElementMatrices *out)
 {
@@ -49,19 +69,12 @@ void element_matrices(ElementKind kind, const double (*position)[2], const Mater
     int32_t nodes = element_node_count(kind);
     out->dof_count = 2 * nodes;
     Quadrature quadrature = shape_quadrature(kind);
-    double square_sum = 0;
     for (int32_t q = 0; q < quadrature.count; q++) {
         const double *point = quadrature.point[q];
         double weight = quadrature.weight[q] * element_strain_matrix(kind, position, point, b);
         add_quadratic_form(out->dof_count, b, elastic, weight, out->stiffness);
         add_quadratic_form(out->dof_count, b, viscous, weight, out->damping);
         out->area += weight;
-        ShapeValues shape = shape_at(kind, point[0], point[1]);
-        for (int32_t a = 0; a < nodes; a++) {
-            double square = weight * shape.value[a] * shape.value[a];
-            out->mass[a] += square;
-            square_sum += square;
-        }
     }
-    for (int32_t a = 0; a < nodes; a++) out->mass[a] *= material->density * out->area / square_sum;
+    lump_mass(kind, position, material->density, out);
 }

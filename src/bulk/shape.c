@@ -166,6 +166,30 @@ Quadrature shape_quadrature(ElementKind kind)
     return (Quadrature){0};
 }
 
+// Degree 4 on the triangle (Dunavant, Int. J. Numer. Meth. Eng. 21, 1985, in closed form): points
+// (a, a), (1 - 2 a, a), (a, 1 - 2 a) for each of two orbits.
+static Quadrature triangle_rule_4(void)
+{
+    Quadrature rule = {.count = 6};
+    for (int32_t orbit = 0; orbit < 2; orbit++) {
+        double sign = orbit == 0 ? 1 : -1;
+        double a = (8 - sqrt(10) + sign * sqrt(38 - 44 * sqrt(0.4))) / 18;
+        double weight = (620 + sign * sqrt(213125 - 53320 * sqrt(10))) / 3720 / 2;
+        for (int32_t corner = 0; corner < 3; corner++) {
+            int32_t q = 3 * orbit + corner;
+            rule.point[q][0] = corner == 1 ? 1 - 2 * a : a;
+            rule.point[q][1] = corner == 2 ? 1 - 2 * a : a;
+            rule.weight[q] = weight;
+        }
+    }
+    return rule;
+}
+
+Quadrature shape_mass_quadrature(ElementKind kind)
+{
+    return kind == ELEMENT_T6 ? triangle_rule_4() : shape_quadrature(kind);
+}
+
 double shape_jacobian(ElementKind kind, const ShapeValues *shape, const double (*position)[2],
                       double jacobian[2][2])
 {

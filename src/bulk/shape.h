@@ -36,6 +36,10 @@ typedef struct Quadrature {
 // Q9 3x3.
 Quadrature shape_quadrature(ElementKind kind);
 
+// Integrates N_a^2 exactly on straight-sided triangles and parallelograms: as above, but 6 points
+// for T6.
+Quadrature shape_mass_quadrature(ElementKind kind);
+
 // J = [dx/dxi dx/deta; dz/dxi dz/deta] from the nodes' positions [nodes][2]; returns its
 // determinant. `jacobian` may be NULL.
 double shape_jacobian(ElementKind kind, const ShapeValues *shape, const double (*position)[2],

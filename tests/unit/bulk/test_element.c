@@ -163,7 +163,7 @@ static void test_masses(void **state)
     material.density = 2.5;
     for_all_elements(&material, check_mass);
     const double fractions[ELEMENT_KIND_COUNT][3] = {[ELEMENT_T3] = {1. / 3},
-                                                     [ELEMENT_T6] = {6. / 117, 33. / 117},
+                                                     [ELEMENT_T6] = {3. / 57, 16. / 57},
                                                      [ELEMENT_Q4] = {1. / 4},
                                                      [ELEMENT_Q8] = {3. / 76, 16. / 76},
                                                      [ELEMENT_Q9] = {1. / 36, 4. / 36, 16. / 36}};
