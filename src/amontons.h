@@ -104,6 +104,8 @@ bool amontons_scene_read(const char *path, const char *const *overrides, int32_t
                          Scene **scene, Error *err);
 void amontons_scene_destroy(Scene *scene);   // NULL is fine
 const char *amontons_scene_title(const Scene *scene);   // owned by the scene
+// What is allowed but cannot give what it seems to; NULL: nothing. Static storage.
+const char *amontons_scene_warning(const Scene *scene);
 bool amontons_scene_reference(FILE *out, Error *err);   // every key, as Markdown
 
 // --- one simulation -----------------------------------------------------------------------------

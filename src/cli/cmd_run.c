@@ -138,6 +138,8 @@ static int run_scene(const Scene *scene, const Options *options, const char *fol
                       .on_step = progress_step,
                       .context = &progress,
                       .stop = &stop_wanted};
+    const char *warning = amontons_scene_warning(scene);
+    if (warning && !options->quiet) fprintf(stderr, "amontons: warning: %s\n", warning);
     catch_signals();
     bool done = amontons_run(scene, &run, &summary, &err);
     progress_end(&progress);

@@ -318,6 +318,10 @@ bool model_obtain(Simulation *simulation, Error *err)
                               (material->eta1 + material->eta2) / material->young;
     simulation->scales.slip_velocity = scene->rod.velocity > 0 ? scene->rod.velocity
                                                                : scene->friction.critical_velocity;
+    // Nothing gives a velocity: that with which the load would deform the block in that time.
+    if (!(simulation->scales.slip_velocity > 0))
+        simulation->scales.slip_velocity = simulation->scales.load / material->young /
+                                           simulation->scales.time;
 cleanup:
     shape_destroy(&shape);
     simulation->timing.reduce = clock_seconds() - started - simulation->timing.mesh;

@@ -142,6 +142,10 @@ bool report_write(const char *folder, const RunReport *report, Error *err)
         json_text(json, "message", report->failure->message);
     }
     json_text(json, "version", AMONTONS_VERSION);
+    json_begin_list(json, "warnings");
+    const char *warning = amontons_scene_warning(report->scene);
+    if (warning) json_text(json, NULL, warning);
+    json_end(json);
     scene_write_json(report->scene, json, "scene");
     write_steps(json, report->counters);
     write_rungs(json, report->ladder);

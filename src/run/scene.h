@@ -65,6 +65,9 @@ typedef struct Scene {
         double mu_static, mu_kinetic, critical_velocity;
     } friction;
     struct {
+        double radius;   // of the substrate's curvature; 0: flat
+    } contact;
+    struct {
         double pressure;
         int32_t traction_count;   // load.tractions: [{group, x, z}]
         SceneTraction tractions[SCENE_LIST_MAX];

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "run/scene_check.h"
 
+#include "amontons.h"
+
 #include <stdarg.h>
 #include <string.h>
 
@@ -151,6 +153,17 @@ static bool check_output(const Check *check)
                      "pictures are drawn from the history: they need "
                      "output.history: true");
     return true;
+}
+
+const char *amontons_scene_warning(const Scene *scene)
+{
+    bool weakens = scene->friction.law != LAW_COULOMB &&
+                   scene->friction.mu_static > scene->friction.mu_kinetic;
+    if (!weakens || scene->material.eta1 > 0) return NULL;
+    return "material.eta1 is 0: with friction that weakens, the shortest wave that the mesh can "
+           "hold "
+           "grows fastest, so the answer has no limit as the mesh gets finer (an ill-posed "
+           "problem)";
 }
 
 bool scene_check(const Scene *scene, const SceneValue *sources, const YamlDocument *file,

@@ -70,6 +70,10 @@ static const SceneKey keys[] = {
     {"friction.critical_velocity", KEY_NUMBER, offsetof(Scene, friction.critical_velocity),
      "velocity", RANGE_NOT_NEGATIVE, "0",
      .sentence = "Slip rate v_c over which friction weakens; needed by the weakening laws."},
+    {"contact.radius", KEY_NUMBER, offsetof(Scene, contact.radius), "length", RANGE_NOT_NEGATIVE,
+     "0",
+     .sentence = "The substrate falls away from the middle of the block as x^2 / (2 radius); 0: it "
+                 "is flat. Read by `amontons static` only."},
     {"load.pressure", KEY_NUMBER, offsetof(Scene, load.pressure), "stress", RANGE_NOT_NEGATIVE,
      NULL, .sentence = "Uniform pressure P_ext on groups.top."},
     {"load.tractions", KEY_TRACTIONS, offsetof(Scene, load), "stress", RANGE_ANY, "[]",
@@ -213,9 +217,9 @@ static const char *last_word(const char *name)
 
 const char *scene_key_nearest(const char *name)
 {
-    static const char *const groups[] = {"mesh",       "groups",    "material", "friction",
-                                         "load",       "rod",       "start",    "time",
-                                         "time.until", "reduction", "output"};
+    static const char *const groups[] = {"mesh",    "groups",     "material",  "friction",
+                                         "contact", "load",       "rod",       "start",
+                                         "time",    "time.until", "reduction", "output"};
     enum { GROUP_COUNT = sizeof groups / sizeof groups[0], COUNT = GROUP_COUNT + KEY_COUNT };
     const char *names[COUNT], *words[COUNT];
     for (int32_t k = 0; k < GROUP_COUNT; k++) names[k] = groups[k];

@@ -38,6 +38,21 @@ void static_solution_destroy(StaticSolution *solution)
     *solution = (StaticSolution){0};
 }
 
+// Where the nodes may go: the rod's displacement, and down to the substrate (bound [count]).
+static void fill_bounds(const Simulation *simulation, double *bound)
+{
+    const Interface *interface = &simulation->interface;
+    double radius = simulation->scene.contact.radius;
+    double middle = 0.5 * (simulation->mesh.x_min + simulation->mesh.x_max);
+    memset(bound, 0, (size_t)interface->count * sizeof(double));
+    for (int32_t i = 0; i < interface->contact_count && radius > 0; i++) {
+        double x = interface->x[i] - middle;
+        bound[interface_normal(i)] = -x * x / (2 * radius);
+    }
+    for (int32_t j = 0; j < interface->rod_count; j++)
+        bound[interface_rod(interface, j)] = simulation->scene.rod.displacement;
+}
+
 // All nodes start sticking and the rod touching; bound: [interface_count] work.
 static bool solve_contact(const Simulation *simulation, InterfaceOperator *stiffness,
                           const double *g, double *bound, StaticSolution *solution, Error *err)
@@ -46,10 +61,8 @@ static bool solve_contact(const Simulation *simulation, InterfaceOperator *stiff
     FrictionLaw coulomb = {.kind = FRICTION_COULOMB,
                            .mu_static = simulation->scene.friction.mu_static};
     ContactSolver solver = {0};
-    for (int32_t j = 0; j < interface->rod_count; j++) {
-        bound[interface_rod(interface, j)] = simulation->scene.rod.displacement;
-        solution->rod_touches[j] = 1;
-    }
+    fill_bounds(simulation, bound);
+    for (int32_t j = 0; j < interface->rod_count; j++) solution->rod_touches[j] = 1;
     for (int32_t i = 0; i < interface->contact_count; i++) solution->status[i] = CONTACT_STICK;
     ContactProblem problem = {.interface = interface,
                               .law = &coulomb,
@@ -178,9 +191,7 @@ static double contact_violation(const Simulation *simulation, const StaticSoluti
     const Interface *interface = &simulation->interface;
     FrictionLaw coulomb = {.kind = FRICTION_COULOMB,
                            .mu_static = simulation->scene.friction.mu_static};
-    memset(bound, 0, (size_t)interface->count * sizeof(double));
-    for (int32_t j = 0; j < interface->rod_count; j++)
-        bound[interface_rod(interface, j)] = simulation->scene.rod.displacement;
+    fill_bounds(simulation, bound);
     ContactProblem problem = {.interface = interface,
                               .law = &coulomb,
                               .rod_kind = simulation->scene.rod.kind == ROD_BONDED ? ROD_IS_BONDED

@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The bulk against exact solutions: patch test, creep, damped waves, and the orders of convergence
+that elements and integrator show on them."""
+from pathlib import Path
+
+import numpy as np
+
+from harness import Chart, Control, Row, Run, Static, observed_order, relative
+
+HERE = Path(__file__).resolve().parent
+GROUP = "exact bulk"
+ELEMENTS = {"T3": ("triangle", 1, 0), "T6": ("triangle", 2, 0), "Q4": ("quad", 1, 0),
+            "Q8": ("quad", 2, 1), "Q9": ("quad", 2, 0)}
+NU, PRESSURE = 0.34, 0.003
+
+
+def mesh_set(element, **more):
+    shape, order, incomplete = ELEMENTS[element]
+    values = {"shape": shape, "order": order, "incomplete": incomplete, **more}
+    return "{" + ", ".join(f"{k}: {v}" for k, v in values.items()) + "}"
+
+
+# --- patch test -----------------------------------------------------------------------------------
+
+def patch(study):
+    """Uniform strain eps_xx = nu P/E, eps_zz = -P/E on unstructured meshes, to rounding."""
+    for element in ELEMENTS:
+        ours = Static(study, HERE / "patch.yaml", f"patch-{element}",
+                      {"mesh.set": mesh_set(element, layout="free", nx=8, nz=4)})
+        exact = ours.position * [NU * PRESSURE, -PRESSURE]
+        study.add(GROUP, f"patch test, distorted {element}", "displacement of every node",
+                  PRESSURE / 2, np.abs(ours.displacement[:, 1]).max(),
+                  relative(ours.displacement, exact), 1e-11)
+        stress = ours.stress - [0, -PRESSURE, 0]
+        study.add(GROUP, f"patch test, distorted {element}", "stress at every node", -PRESSURE,
+                  ours.stress[:, 1].min(), np.abs(stress).max() / PRESSURE, 1e-10)
+
+
+# --- creep ----------------------------------------------------------------------------------------
+
+def creep_exact(points, t):
+    """eps_xx + eps_zz and eps_zz - eps_xx relax with tau_v and tau_d (Kelvin-Voigt)."""
+    tau_v, tau_d = 3 * (1 - NU), 1 + NU
+    both = -PRESSURE * (1 - NU) * (1 - np.exp(-t / tau_v))
+    difference = -PRESSURE * (1 + NU) * (1 - np.exp(-t / tau_d))
+    return points * [(both - difference) / 2, (both + difference) / 2]
+
+
+def creep_error(study, step, element="Q4"):
+    run = Run(study, HERE / "creep.yaml", "creep",
+              {"time.step_max": step, "time.step_min": step,
+               "mesh.set": mesh_set(element, length=1, height=0.5, nx=4, nz=4)}, energy=0.1)
+    worst, largest = 0, 0
+    for t, points, u, _ in run.frames():
+        exact = creep_exact(points, t)
+        worst, largest = max(worst, np.abs(u - exact).max()), max(largest, np.abs(exact).max())
+    return worst / largest, largest
+
+
+def creep(study):
+    steps = [0.2, 0.1, 0.05] if study.quick else [0.4, 0.2, 0.1, 0.05, 0.025]
+    errors = [creep_error(study, s)[0] for s in steps]
+    order = observed_order(steps, errors)
+    study.add(GROUP, "creep, SDIRK2", "displacement to t = 4, all nodes", "exact",
+              f"dt = {steps[-1]:g}", errors[-1], 1e-4, order=f"2 expected, {order:.2f} observed")
+    study.add(GROUP, "creep, SDIRK2", "order in time, smooth", 2, order, abs(order - 2), 0.15)
+    study.charts.append(Chart("order-in-time", "Creep: error against step", "dt", "relative error",
+                              {"SDIRK2": (steps, errors)}, logarithmic=True))
+    wrong = creep_error(study, steps[-1])[1]
+    study.controls.append(Control(GROUP, "creep with the sign of eta2 turned round", Row(
+        GROUP, "creep", "displacement", "", "", wrong_creep(study, steps[-1]) if wrong else 1, 1e-4)))
+
+
+def wrong_creep(study, step):
+    """The exact solution with tau_v of -eta2 in place of eta2: what a wrong sign would show."""
+    run = Run(study, HERE / "creep.yaml", "creep-wrong",
+              {"time.step_max": step, "time.step_min": step, "material.eta2": 0}, energy=0.1)
+    frames = list(run.frames())
+    exact = [creep_exact(points, t) for t, points, _, _ in frames]
+    return max(relative(u, e) for (_, _, u, _), e in zip(frames[1:], exact[1:]))
+
+
+# --- damped waves ---------------------------------------------------------------------------------
+
+def column_exact(z, t, modulus, eta, height=1.0, terms=400):
+    """Sudden traction on top of a column fixed below: modes sin(k z) with rho s^2 + eta k^2 s + M k^2."""
+    u = PRESSURE / modulus * z   # at rest; the modes are what is left to come
+    for m in range(terms):
+        k = (m + 0.5) * np.pi / height
+        root = np.sqrt(complex((eta * k * k) ** 2 - 4 * modulus * k * k))
+        s1, s2 = (-eta * k * k + root) / 2, (-eta * k * k - root) / 2
+        rest = ((s2 * np.exp(s1 * t) - s1 * np.exp(s2 * t)) / (s2 - s1)).real
+        u = u - (-1) ** m * 2 * PRESSURE / (modulus * height * k * k) * rest * np.sin(k * z)
+    return u
+
+
+WAVES = {"longitudinal": ("wave.yaml", 1 / (1 - NU**2), 0.2, 1, -1),
+         "shear": ("shear_wave.yaml", 1 / (2 * (1 + NU)), 0.05, 0, 1)}
+
+
+def wave_error(study, kind, element, cells, step, layout="regular"):
+    scene, modulus, eta, component, sign = WAVES[kind]
+    run = Run(study, HERE / scene, f"wave-{element}-{cells}",
+              {"mesh.set": mesh_set(element, length=0.25, height=1, nx=max(cells // 4, 1), nz=cells,
+                                    layout=layout),
+               "time.step_max": step, "time.step_min": step}, energy=0.1)
+    t, points, u, _ = list(run.frames())[-1]
+    exact = sign * column_exact(points[:, 1], t, modulus, eta)
+    return float(np.sqrt(np.mean((u[:, component] - exact) ** 2) / np.mean(exact**2)))
+
+
+def waves(study):
+    """Both wave kinds, each element: error falls at the element's order."""
+    table = {}
+    for kind in WAVES:
+        curves = {}
+        for element in ("Q4", "T6") if study.quick else ELEMENTS:
+            high = ELEMENTS[element][1] == 2
+            cells = [4, 8] if high else [8, 16]
+            if not study.quick:
+                cells = [4, 8, 16] if high else [8, 16, 32]
+            errors = [wave_error(study, kind, element, c, 2e-3 if study.quick else 1e-3)
+                      for c in cells]
+            order = observed_order([1 / c for c in cells], errors)
+            expected = 3 if high else 2
+            study.add(GROUP, f"damped {kind} wave, {element}",
+                      f"displacement at every node, {cells[-1]} cells", "exact series",
+                      f"{errors[-1]:.2e}", errors[-1], 1e-3 if high else 5e-3,
+                      order=f"{expected} expected, {order:.2f} observed")
+            curves[element] = ([1 / c for c in cells], errors)
+            table[kind, element] = order
+        study.charts.append(Chart(f"order-in-space-{kind}", f"Damped {kind} wave: error against cell",
+                                  "h / H", "relative error", curves, logarithmic=True))
+    _, modulus, eta, component, sign = WAVES["longitudinal"]
+    run = Run(study, HERE / "wave.yaml", "wave-control", {"mesh.set": mesh_set(
+        "Q4", length=0.25, height=1, nx=4, nz=16)}, energy=0.1)
+    t, points, u, _ = list(run.frames())[-1]
+    wrong = -column_exact(points[:, 1], t, modulus, 0.1 - 0.1 + 0.05)
+    study.controls.append(Control(GROUP, "wave damped by eta1/2 in place of eta1 + eta2", Row(
+        GROUP, "wave", "displacement", "", "", relative(u[:, 1], wrong), 5e-3)))
+
+
+def run(study):
+    patch(study)
+    creep(study)
+    waves(study)

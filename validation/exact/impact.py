@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""An elastic bar on a rigid wall (the data of Doyen, Ern and Piperno, SIAM J. Sci. Comput. 33, 223,
+2011, from the moment of contact): E = 900, rho = 1, length 10, speed 10. Contact lasts 2 L/c with the
+stress |v0| sqrt(E rho), then the bar leaves at |v0| without deformation."""
+from pathlib import Path
+
+import numpy as np
+
+from harness import Chart, Control, Row, Run, observed_order
+
+HERE = Path(__file__).resolve().parent
+GROUP = "unilateral dynamics"
+SPEED, LENGTH, WAVE, STRESS = 10.0, 10.0, 30.0, 300.0
+
+
+def bounce(study, cells, **sets):
+    step = 0.1 / cells
+    run = Run(study, HERE / "impact.yaml", "impact", {
+        "mesh.set": f"{{length: 0.5, height: 10, nx: 1, nz: {cells}}}",
+        "time.step_max": step, "time.step_min": step, **sets}, energy=0.1)
+    t = run["time"]
+    pressure = run["pressure"].astype(float) @ run["weight"] / run["weight"].sum()
+    pressed = np.nonzero(pressure > 0.1 * STRESS)[0]
+    duration = float(t[pressed[-1]]) if len(pressed) else np.inf
+    middle = (t > 0.1 * duration) & (t < 0.8 * duration)
+    _, points, _, v = list(run.frames())[-1]
+    side = points[:, 0] == 0
+    order = np.argsort(points[side, 1])
+    mean = np.trapz(v[side, 1][order], points[side, 1][order]) / LENGTH
+    return {"duration": duration, "stress": float(pressure[middle].mean()) if middle.any() else 0.0,
+            "speed": float(mean), "t": t, "pressure": pressure,
+            "impulse": float(np.trapz(pressure, t))}
+
+
+def run(study):
+    cells = [25, 50, 100] if study.quick else [50, 100, 200, 400]
+    results = [bounce(study, n) for n in cells]
+    exact = {"duration": 2 * LENGTH / WAVE, "stress": STRESS, "speed": SPEED,
+             "impulse": 2 * SPEED * LENGTH}
+    texts = {"duration": "duration of contact 2 L/c", "stress": "contact stress |v0| sqrt(E rho)",
+             "speed": "mean speed after the rebound", "impulse": "impulse 2 rho L |v0|"}
+    limits = {"duration": 0.02, "stress": 5e-3, "speed": 2e-2, "impulse": 1e-2}
+    curves = {}
+    for name, value in exact.items():
+        errors = [abs(r[name] / value - 1) for r in results]
+        curves[name] = ([1 / n for n in cells], [max(e, 1e-16) for e in errors])
+        study.add(GROUP, f"bar on a wall, {cells[-1]} cells", texts[name], value, results[-1][name],
+                  errors[-1], limits[name],
+                  order=f"{observed_order([1 / n for n in cells], curves[name][1]):.2f} observed")
+    fine = results[-1]
+    study.charts.append(Chart("impact", "Bar on a wall: contact stress in time", "t", "stress",
+                              {f"{cells[-1]} cells": (fine["t"], fine["pressure"]),
+                               "exact": ([0, 0, 2 / 3, 2 / 3, 1], [0, 300, 300, 0, 0])}))
+    wrong = bounce(study, cells[0], **{"material.density": 1.2})
+    study.controls.append(Control(GROUP, "a bar 20 % denser", Row(
+        GROUP, "bar on a wall", "duration", "", "", abs(wrong["duration"] / exact["duration"] - 1), 0.02)))
+    glued = bounce(study, cells[0], **{
+        "load.supports": "[{group: contact, direction: z}]", "time.until.t": 1})
+    study.controls.append(Control(GROUP, "a bar that is glued to the wall (no unilateral contact)", Row(
+        GROUP, "bar on a wall", "speed", "", "", abs(glued["speed"] / SPEED - 1), 1e-2)))

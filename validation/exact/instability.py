@@ -1,0 +1,218 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Velocity-weakening friction against its exact growth rates, by time stepping. (The command
+`stability` does not exist yet: its rows are missing here.)"""
+from pathlib import Path
+
+import numpy as np
+
+from harness import Chart, Control, Row, Run, observed_order
+
+HERE = Path(__file__).resolve().parent
+GROUP = "exact instability"
+
+
+def exponents(t, v, rank):
+    """The exponents of a sum of `rank` exponentials, fastest growth first (matrix pencil: Hua and
+    Sarkar, IEEE Trans. Acoust. 38, 1990)."""
+    columns = len(v) // 3
+    hankel = np.array([v[i:i + columns + 1] for i in range(len(v) - columns)])
+    _, _, right = np.linalg.svd(hankel, full_matrices=False)
+    space = right[:rank].conj().T
+    z = np.linalg.eigvals(np.linalg.pinv(space[:-1]) @ space[1:])
+    s = np.log(z.astype(complex)) / (t[1] - t[0])
+    return s[np.argsort(-s.real)]
+
+
+# --- a rigid block --------------------------------------------------------------------------------
+
+def rigid_block(study):
+    """rho H v' = tau - mu(v) P: v - v* grows as exp(lambda t), lambda = (mu_S - mu_K) P/(rho H v_c)."""
+    exact, steady = 0.3 * 1e-3 / (0.1 * 1e-3), 5e-4
+    errors, stiffness = [], [1e1, 1e2, 1e3]
+    for young in stiffness[-1:] if study.quick else stiffness:
+        run = Run(study, HERE / "rigid_block.yaml", "rigid-block", {"material.young": young})
+        t, v = run["time"], run["slip_rate"].astype(float) @ run["weight"] / run["weight"].sum()
+        linear = v < 9.5e-4
+        rate = np.polyfit(t[linear], np.log(v[linear] - steady), 1)[0]
+        errors.append(abs(rate / exact - 1))
+    study.add(GROUP, "rigid block", "growth rate", exact, rate, errors[-1], 2e-3,
+              note="" if study.quick else "error at E = 10, 100, 1000: "
+              + ", ".join(f"{e:.1e}" for e in errors))
+    study.controls.append(Control(GROUP, "growth rate of a block twice as dense", Row(
+        GROUP, "rigid block", "growth rate", exact / 2, rate, abs(rate / (exact / 2) - 1), 2e-3)))
+
+
+# --- one shear column -----------------------------------------------------------------------------
+
+SHEAR = 1 / (2 * 1.34)   # G for E = 1, nu = 0.34
+V_C, V = 1e-3, 6e-4
+
+
+def dispersion(s, w, eta):
+    """(G + eta s) q coth(q H) - s w, q = sqrt(rho s^2 / (G + eta s)), H = rho = 1."""
+    q = np.sqrt(s * s / (SHEAR + eta * s))
+    return (SHEAR + eta * s) * q / np.tanh(q) - s * w
+
+
+def newton(s, w, eta):
+    for _ in range(60):
+        h = 1e-6
+        slope = (dispersion(s + h, w, eta) - dispersion(s - h, w, eta)) / (2 * h)
+        s = s - dispersion(s, w, eta) / slope
+    return s
+
+
+def exact_root(w, eta):
+    """The root that grows fastest."""
+    found = []
+    with np.errstate(all="ignore"):
+        for real in np.linspace(-1, 6, 15):
+            for imaginary in np.linspace(0, 3, 7):
+                s = newton(complex(real + 1e-3, imaginary), w, eta)
+                if np.isfinite(s) and abs(dispersion(s, w, eta)) < 1e-9 and abs(s) > 1e-6:
+                    found.append(s)
+    best = max(found, key=lambda s: s.real)
+    return complex(best.real, abs(best.imag))
+
+
+def column_signal(study, w, cells, step, eta=0.05, duration=8.0, disturb=1e-7, scene=None):
+    """Slip rate less V, weighted over the base, at even times while the law is linear."""
+    p = w * V_C / 0.4
+    tractions = f"[{{group: contact, x: 0, z: {-p}}}, {{group: top, x: {0.16 * p}, z: 0}}]"
+    run = Run(study, scene or HERE / "column.yaml", "column",
+              {"load.tractions": tractions, "material.eta1": 2 * eta,
+               "mesh.set": f"{{width: 1, nx: {cells}, nz: {cells}}}",
+               "start.velocity_x": V + disturb, "time.until.t": duration,
+               "time.step_max": step, "time.step_min": step}, energy=1)
+    t, v = run["time"], run["slip_rate"].astype(float) @ run["weight"] / run["weight"].sum() - V
+    spread = np.abs(run["slip_rate"] - V).max(axis=1)
+    end = np.argmax(spread > 0.35 * V_C) or len(t)
+    return t[:end], v[:end]
+
+
+def column_root(study, w, cells, step, **more):
+    t, v = column_signal(study, w, cells, step, **more)
+    start = int(0.3 / step)
+    return exponents(t[start:], v[start:], 6 if len(t) > 400 else 4)[0]
+
+
+def column(study):
+    """Growth rates below, between and above the thresholds; then the thresholds themselves."""
+    cells = 16 if study.quick else 32
+    for w, text in ((0.03, "decaying"), (0.2, "growing"), (0.5, "growing fast")):
+        if study.quick and w != 0.2:
+            continue
+        exact = exact_root(w, 0.05)
+        ours = column_root(study, w, cells, 0.01, duration=8 if w < 0.4 else 5)
+        ours = complex(ours.real, abs(ours.imag))
+        study.add(GROUP, f"shear column, w = {w:g}, {text}", "s = Re + i Im",
+                  f"{exact:.5f}", f"{ours:.5f}", abs(ours - exact) / abs(exact), 1e-2)
+    if study.quick:
+        return
+    mesh_convergence(study)
+    thresholds(study)
+    exact, wrong = exact_root(0.2, 0.05), exact_root(0.2, 0.1)
+    ours = column_root(study, 0.2, 16, 0.01)
+    ours = complex(ours.real, abs(ours.imag))
+    study.controls.append(Control(GROUP, "shear viscosity eta1 in place of eta1/2", Row(
+        GROUP, "shear column", "s", "", "", abs(ours - wrong) / abs(exact), 1e-2)))
+
+
+def mesh_convergence(study):
+    exact, cells, errors = exact_root(0.2, 0.05), [8, 16, 32], []
+    for n in cells:
+        ours = column_root(study, 0.2, n, 0.01)
+        errors.append(abs(complex(ours.real, abs(ours.imag)) - exact) / abs(exact))
+    order = observed_order([1 / n for n in cells], errors)
+    study.add(GROUP, "shear column, w = 0.2", "s on 8, 16, 32 cells", f"{exact:.5f}",
+              ", ".join(f"{e:.1e}" for e in errors), errors[-1], 5e-3,
+              order=f"1 to 2 expected, {order:.2f} observed")
+    study.charts.append(Chart("growth-rate", "Shear column: error of the growth rate", "h / H",
+                              "relative error", {"Q4": ([1 / n for n in cells], errors)}, True))
+    steps, roots = [0.04, 0.02, 0.01], []
+    for step in steps:
+        roots.append(column_root(study, 0.2, 16, step))
+    gaps = [abs(abs(a) - abs(b)) + abs(a.real - b.real) for a, b in zip(roots, roots[1:])]
+    order = float(np.log2(gaps[0] / gaps[1]))
+    study.add(GROUP, "shear column, w = 0.2", "order in time of s", 2, order, abs(order - 2), 0.5,
+              order=f"2 expected, {order:.2f} observed")
+
+
+def thresholds(study):
+    """Where Re s = 0 (subcritical: eta/H, about), and where the pair becomes real (critical)."""
+    low, high = 0.0, 0.3
+    for _ in range(40):
+        middle = (low + high) / 2
+        low, high = (middle, high) if exact_root_near(middle) < 0 else (low, middle)
+    ws = [0.04, 0.08]
+    rates = [column_root(study, w, 32, 0.01).real for w in ws]
+    ours = ws[0] - rates[0] * (ws[1] - ws[0]) / (rates[1] - rates[0])
+    study.add(GROUP, "shear column", "subcritical threshold of (mu_S - mu_K) p/v_c", low, ours,
+              abs(ours / low - 1), 2e-2, note=f"eta/H = 0.05")
+    exact = critical_exact()
+    ws = [exact - 0.06, exact - 0.03]
+    squares = []
+    for w in ws:
+        squares.append(column_root(study, w, 32, 0.005, duration=6, disturb=1e-9).imag ** 2)
+    ours = ws[1] + squares[1] * (ws[1] - ws[0]) / (squares[0] - squares[1])
+    near = 0.05 + 2 * np.sqrt(SHEAR / 3)
+    study.add(GROUP, "shear column", "critical threshold, where growth becomes real", exact, ours,
+              abs(ours / exact - 1), 2e-2, note=f"eta/H + 2 sqrt(rho G/3) = {near:.3f}")
+
+
+def exact_root_near(w):
+    return newton(complex(0.01, 0.96), w, 0.05).real
+
+
+def critical_exact():
+    """The smallest w at which a real positive root exists: the minimum of w(s) over s > 0."""
+    s = np.linspace(0.05, 8, 4000)
+    q = np.sqrt(s * s / (SHEAR + 0.05 * s))
+    return float(((SHEAR + 0.05 * s) * q / np.tanh(q) / s).min())
+
+
+# --- without viscosity ----------------------------------------------------------------------------
+
+def ill_posed(study):
+    """Without viscosity the shortest wave that the mesh has grows fastest, so a disturbed steady slip
+    ends the sooner the finer the mesh: no limit under refinement. With it there is one."""
+    cells = [8, 16, 32] if study.quick else [8, 16, 32, 64]
+    times = {eta: [stopping_time(study, n, eta) for n in cells] for eta in (0.5, 0.0)}
+    ratio = {eta: t[-2] / t[-1] for eta, t in times.items()}
+    shown = {eta: ", ".join(f"{x:.3g}" for x in t) for eta, t in times.items()}
+    study.add(GROUP, "layer with viscosity", "time to lose half its speed, by mesh",
+              "converges (ratio 1)", shown[0.5], abs(ratio[0.5] - 1), 0.05)
+    study.add(GROUP, "layer without viscosity", "the same", "no limit (ratio about 2)", shown[0.0],
+              max(0, 1.6 - ratio[0.0]), 0)
+    study.charts.append(Chart("ill-posed", "Time in which disturbed slip loses half its speed", "cells",
+                              "time", {"eta1 = 0.5": (cells, times[0.5]),
+                                       "eta1 = 0": (cells, times[0.0])}, True))
+    said = warnings_of(study)
+    study.add(GROUP, "layer without viscosity", "run.json warns", "yes", "yes" if said else "no",
+              0 if said else 1, 0, note=said[:60])
+
+
+LAYER = {"start.state": "undeformed", "rod.velocity": 9.5e-4, "start.velocity_x": 9.5e-4,
+         "load.tractions": "[{group: contact, x: 0, z: -2.5e-3}]", "time.step_min": 1e-9}
+
+
+def stopping_time(study, n, eta):
+    run = Run(study, HERE / "column.yaml", f"layer-{n}", {
+        **LAYER, "mesh.set": f"{{width: 1, nx: {n}, nz: {n}}}", "material.eta1": eta,
+        "material.eta2": eta, "time.until.t": 0.8, "time.step_max": 1e-3}, energy=10)
+    t, v = run["time"], run["slip_rate"].astype(float) @ run["weight"] / run["weight"].sum()
+    k = int(np.argmax(v < 4.75e-4))
+    return float(np.interp(4.75e-4, [v[k], v[k - 1]], [t[k], t[k - 1]])) if k else float("inf")
+
+
+def warnings_of(study):
+    run = Run(study, HERE / "column.yaml", "layer-warned", {
+        **LAYER, "mesh.set": "{width: 1, nx: 4, nz: 4}", "material.eta1": 0, "material.eta2": 0,
+        "time.until.t": 0.01, "time.step_max": 1e-3}, energy=10)
+    return " ".join(run.report.get("warnings", []))
+
+
+def run(study):
+    rigid_block(study)
+    column(study)
+    ill_posed(study)

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Observed orders: of each element on a manufactured solution (no time), and of the integrator on
+stick-slip, where events leave less than the order 2 that smooth problems have."""
+from pathlib import Path
+
+import numpy as np
+
+from harness import (PROGRAM, SOURCE, Chart, Control, Row, Run, call, observed_order)
+
+HERE = Path(__file__).resolve().parent
+GROUP = "orders"
+ELEMENTS = {"T3": ("triangle", 1, 0), "T6": ("triangle", 2, 0), "Q4": ("quad", 1, 0),
+            "Q8": ("quad", 2, 1), "Q9": ("quad", 2, 0)}
+
+
+def manufactured(element, n, layout):
+    shape, order, incomplete = ELEMENTS[element]
+    done = call([PROGRAM.parent / "amontons_manufactured", SOURCE / "meshes/block.geo",
+                 f"shape={shape}", f"order={order}", f"incomplete={incomplete}", f"nx={n}",
+                 f"nz={n // 2}", f"layout={layout}"])
+    return [float(word) for word in done.stdout.split()]
+
+
+def in_space(study):
+    for layout in ("regular",) if study.quick else ("regular", "free"):
+        curves = {}
+        for element, (_, order, _) in ELEMENTS.items():
+            cells = [8, 16, 32] if study.quick else [8, 16, 32, 64]
+            table = np.array([manufactured(element, n, layout) for n in cells])
+            sizes = table[:, 0]
+            for column, name, expected in ((1, "displacement, L2", order + 1),
+                                           (2, "strain energy norm", order)):
+                seen = observed_order(sizes, table[:, column])
+                study.add(GROUP, f"manufactured solution, {element}, {layout}", name,
+                          f"order {expected}", f"error {table[-1, column]:.2e}",
+                          max(0, expected - seen), 0.25,
+                          order=f"{expected} expected, {seen:.2f} observed")
+            curves[element] = (sizes, table[:, 1])
+        study.charts.append(Chart(f"manufactured-{layout}",
+                                  f"Manufactured solution on {layout} meshes: L2 error of u", "h",
+                                  "relative error", curves, logarithmic=True))
+    first, second = manufactured("T3", 8, "regular"), manufactured("T3", 16, "regular")
+    order = np.log(first[1] / second[1]) / np.log(first[0] / second[0])
+    study.controls.append(Control(GROUP, "T3 passed off as T6", Row(
+        GROUP, "manufactured solution", "order", 3, order, max(0, 3 - order), 0.25)))
+
+
+def with_events(study):
+    """The first peaks of F_T/F_N in a stick-slip run, against the run with the smallest tolerance."""
+    tolerances = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6]
+    steps, peaks = [], []
+    for tolerance in tolerances:
+        run = Run(study, SOURCE / "validation/paper/fig1.yaml", "fig1", {
+            "mesh.set": "{length: 1.0, height: 0.5, nx: 16, nz: 16, shape: quad, order: 1}",
+            "time.tolerance": tolerance, "time.until": "{U: 0.003}", "output.fields": "none",
+            "output.figures": "[]"})
+        steps.append(run.report["steps"]["accepted"])
+        peaks.append(run.report["results"]["peaks"][0]["mu"])
+    errors = [max(abs(p / peaks[-1] - 1), 1e-16) for p in peaks[:-1]]
+    order = -float(np.polyfit(np.log(steps[:-1]), np.log(errors), 1)[0])
+    study.add(GROUP, "stick-slip, Figure 1 on 16 x 16", "first peak of F_T/F_N by tolerance",
+              f"{peaks[-1]:.8f} (tolerance 1e-6)", ", ".join(f"{p:.6f}" for p in peaks[:-1]),
+              errors[1], 1e-3, order=f"about 1 expected with events, {order:.2f} observed against steps",
+              note="steps " + ", ".join(map(str, steps)))
+    study.charts.append(Chart("order-events", "Stick-slip: error of the first peak against steps", "steps",
+                              "relative error", {"SDIRK2": (steps[:-1], errors)}, logarithmic=True))
+
+
+def run(study):
+    in_space(study)
+    if not study.quick:
+        with_events(study)

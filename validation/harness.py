@@ -1,0 +1,216 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What the validation cases share: rows of the report, calls of amontons, gmsh and FreeFem++, and
+the invariants that are checked on every result, whatever it is compared with."""
+import json
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+SOURCE = Path(__file__).resolve().parents[1]
+PROGRAM = Path(os.environ.get("AMONTONS_BIN", SOURCE / "build/bin")) / "amontons"
+FREEFEM = Path(__file__).resolve().parent / "freefem"
+
+
+@dataclass
+class Row:
+    """One line of the report. `reference` comes from outside, `ours` was computed just now."""
+    group: str
+    case: str
+    quantity: str
+    reference: object
+    ours: object
+    error: float
+    tolerance: float
+    order: str = ""        # expected and observed, of a convergence study
+    note: str = ""
+
+    @property
+    def passed(self):
+        return bool(np.isfinite(self.error)) and self.error <= self.tolerance
+
+
+@dataclass
+class Control:
+    """A deliberately broken variant: `row` must fail."""
+    group: str
+    broken: str
+    row: Row
+
+    @property
+    def caught(self):
+        return not self.row.passed
+
+
+@dataclass
+class Study:
+    """What one validation run gathers. `quick`: the subset for CTest."""
+    quick: bool = False
+    folder: Path = None
+    rows: list = field(default_factory=list)
+    controls: list = field(default_factory=list)
+    invariants: list = field(default_factory=list)   # (case, name, value, tolerance)
+    charts: list = field(default_factory=list)       # Chart
+    count: int = 0
+
+    def new_folder(self, name):
+        self.count += 1
+        return self.folder / f"{self.count:03d}-{name}"
+
+    def add(self, *arguments, **named):
+        self.rows.append(Row(*arguments, **named))
+
+    def check(self, case, name, value, tolerance):
+        self.invariants.append((case, name, float(value), tolerance))
+
+
+@dataclass
+class Chart:
+    """Curves for the report's figures: name -> (x, y)."""
+    name: str
+    title: str
+    x_label: str
+    y_label: str
+    curves: dict
+    logarithmic: bool = False
+
+
+def relative(ours, reference):
+    """The largest difference over the largest reference."""
+    ours, reference = np.asarray(ours, float), np.asarray(reference, float)
+    scale = np.abs(reference).max()
+    return float(np.abs(ours - reference).max() / (scale if scale > 0 else 1))
+
+
+def observed_order(sizes, errors):
+    """Slope of log(error) against log(size) between the last two."""
+    return float(np.log(errors[-2] / errors[-1]) / np.log(sizes[-2] / sizes[-1]))
+
+
+# --- programs -------------------------------------------------------------------------------------
+
+def call(words, **named):
+    done = subprocess.run([str(w) for w in words], capture_output=True, text=True, **named)
+    if done.returncode:
+        raise RuntimeError(f"{' '.join(map(str, words))}\n{done.stdout[-3000:]}{done.stderr[-3000:]}")
+    return done
+
+
+def settings(sets):
+    return [word for key, value in sets.items() for word in ("--set", f"{key}={value}")]
+
+
+class Static:
+    """`amontons static`: sums in .results, arrays by node."""
+
+    def __init__(self, study, scene, name, sets=None, mu=None):
+        folder = study.new_folder(name)
+        call([PROGRAM, "static", scene, "-q", "-o", folder, *settings(sets or {})])
+        report = json.loads((folder / "static.json").read_text())
+        self.results, self.errors, self.scene = report["results"], report["errors"], report["scene"]
+        with h5py.File(folder / "static.h5") as file:
+            self.position = file["nodes/position"][:]
+            self.displacement = file["nodes/displacement"][:]
+            self.reaction = file["nodes/reaction"][:]
+            self.stress = file["nodes/stress"][:]
+            self.contact = file["contact/node"][:]
+            self.status = file["contact/status"][:]
+            self.weight = file["contact/weight"][:]
+        self.check(study, name)
+
+    def check(self, study, name):
+        """No penetration, no pull, the cone, complementarity; equations, forces, moments, energy."""
+        u, r = self.displacement[self.contact], self.reaction[self.contact]
+        length, force = np.abs(self.displacement).max(), np.abs(self.reaction).max()
+        held = {s["group"] for s in self.scene["load"]["supports"]}
+        if not any(g.startswith("contact") for g in held):
+            gap, pressing, mu = u[:, 1] / length, r[:, 1] / force, self.scene["friction"]["mu_static"]
+            if not self.scene.get("contact", {}).get("radius"):
+                study.check(name, "penetration", max(0, -gap.min()), 1e-12)
+                study.check(name, "gap times pressure", np.abs(gap * pressing).max(), 1e-12)
+            study.check(name, "pull", max(0, -pressing.min()), 1e-9)
+            study.check(name, "Coulomb cone", max(0, (np.abs(r[:, 0]) / force - mu * pressing).max()),
+                        1e-9)
+            study.check(name, "slip against friction", max(0, (r[:, 0] * u[:, 0]).max() / force / length),
+                        1e-10)
+        for key in ("residual", "force", "moment", "energy"):
+            study.check(name, key, self.errors[key], 1e-9)
+
+
+class Run:
+    """`amontons run`: run.json in .report, history arrays by name."""
+
+    def __init__(self, study, scene, name, sets=None, energy=1e-2):
+        self.folder = study.new_folder(name)
+        call([PROGRAM, "run", scene, "-q", "-o", self.folder, *settings(sets or {})])
+        self.report = json.loads((self.folder / "run.json").read_text())
+        self.series = {}
+        with h5py.File(self.folder / "history.h5") as file:
+            for group in ("series", "interface", "nodes"):
+                for key, item in file[group].items():
+                    self.series[key] = item[:]
+        errors, mu = self.report["errors"], self.report["scene"]["friction"]["mu_static"]
+        study.check(name, "energy ledger", errors["energy"], energy)
+        study.check(name, "complementarity", errors["complementarity"], 1e-6)
+        if errors["moment"] is not None and not self.report["scene"]["load"]["supports"]:
+            study.check(name, "moment balance", errors["moment"], 1e-6)
+        pressure, shear = self.series["pressure"], self.series["shear"]
+        scale = np.abs(pressure).max() or 1.0
+        study.check(name, "pull", max(0, -pressure.min() / scale), 1e-6)
+        study.check(name, "Coulomb cone", max(0, (np.abs(shear) - mu * pressure).max() / scale), 1e-6)
+
+    def __getitem__(self, key):
+        return self.series[key]
+
+    def frames(self):
+        """[(time, positions, displacement, velocity)] of the fields that were written."""
+        import meshio
+        listing = (self.folder / "fields.pvd").read_text()
+        entries = re.findall(r'timestep="([^"]+)"[^>]*file="(fields/bulk[^"]+)"', listing)
+        for time, name in entries:
+            grid = meshio.read(self.folder / name)
+            yield (float(time), grid.points[:, :2], grid.point_data["displacement"][:, :2],
+                   grid.point_data["velocity"][:, :2])
+
+
+def make_mesh(path, geo, parameters, order=1):
+    """gmsh meshes meshes/GEO.geo into msh 2.2; gives the physical numbers of its curves."""
+    words = ["gmsh", "-2", "-v", "1", SOURCE / "meshes" / f"{geo}.geo", "-format", "msh22", "-o", path]
+    for key, value in {**parameters, "order": order}.items():
+        words += ["-setstring" if isinstance(value, str) else "-setnumber", key, value]
+    call(words)
+    return dict((name, number) for number, name in
+                re.findall(r'^1 (\d+) "(\w+)"', Path(path).read_text(), re.M))
+
+
+def freefem(script, order, mesh, curves, out):
+    """Runs validation/freefem/SCRIPT.edp with P1 or P2 elements on the msh 2.2 file `mesh`."""
+    environment = dict(os.environ, FF_LOADPATH="/usr/lib/freefem++",
+                       FF_INCLUDEPATH=f"{FREEFEM}/P{order};{FREEFEM}")
+    words = ["FreeFem++", "-nw", "-ne", "-v", "0", script, "-mesh", mesh, "-out", out]
+    for name, number in curves.items():
+        words += [f"-{name}", number]
+    call(words, env=environment)
+    return np.loadtxt(out)
+
+
+def have_freefem():
+    return shutil.which("FreeFem++") is not None
+
+
+def match(points, others):
+    """For each of `points` the row of `others` at the same place."""
+    def key(p):
+        return [tuple(q) for q in np.round(p, 9) + 0.0]
+    where = {k: i for i, k in enumerate(key(others))}
+    return np.array([where[k] for k in key(points)])
+
+
+def scratch():
+    return Path(tempfile.mkdtemp(prefix="amontons-validation-"))

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The report: report.md, and one picture a chart (validation/plot.py)."""
+from plot import draw
+
+
+def shown(value):
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def verdict(good):
+    return "pass" if good else "**FAIL**"
+
+
+def row_lines(rows):
+    yield "| case | quantity | reference | amontons | error | allowed | order | |"
+    yield "|---|---|---|---|---|---|---|---|"
+    for r in rows:
+        note = f" ({r.note})" if r.note else ""
+        yield (f"| {r.case} | {r.quantity}{note} | {shown(r.reference)} | {shown(r.ours)} | "
+               f"{r.error:.1e} | {r.tolerance:.0e} | {r.order} | {verdict(r.passed)} |")
+
+
+def invariant_lines(invariants):
+    """The worst of each kind over all runs, and where."""
+    worst = {}
+    for case, name, value, tolerance in invariants:
+        share = value / tolerance if tolerance else (0 if value == 0 else float("inf"))
+        if not share <= worst.get(name, (-1,))[0]:
+            worst[name] = (share, case, value, tolerance)
+    yield "| invariant | checks | largest | in | allowed there | |"
+    yield "|---|---|---|---|---|---|"
+    for name, (share, case, value, tolerance) in sorted(worst.items()):
+        count = sum(i[1] == name for i in invariants)
+        yield f"| {name} | {count} | {value:.1e} | {case} | {tolerance:.0e} | {verdict(share <= 1)} |"
+
+
+def control_lines(controls):
+    yield "| group | deliberate mistake | error seen | allowed | |"
+    yield "|---|---|---|---|---|"
+    for c in controls:
+        yield (f"| {c.group} | {c.broken} | {c.row.error:.1e} | {c.row.tolerance:.0e} | "
+               f"{'caught' if c.caught else '**MISSED**'} |")
+
+
+def order_lines(rows):
+    yield "| case | order |"
+    yield "|---|---|"
+    for r in rows:
+        if r.order:
+            yield f"| {r.case}, {r.quantity} | {r.order} |"
+
+
+def write_report(study, folder, how):
+    """True: everything passed."""
+    folder.mkdir(parents=True, exist_ok=True)
+    failed = [r for r in study.rows if not r.passed]
+    broken = [i for i in study.invariants if not i[2] <= i[3]]
+    missed = [c for c in study.controls if not c.caught]
+    good = not (failed or broken or missed)
+    lines = ["# Validation of amontons", "",
+             f"Computed by {how}. {len(study.rows)} rows, {len(failed)} failed; "
+             f"{len(study.invariants)} checks of invariants, {len(broken)} broken; "
+             f"{len(study.controls)} deliberate mistakes, {len(missed)} missed.", "",
+             "The reference of each row comes from outside: FreeFem++ run now on the same mesh, an "
+             "exact solution, a published value. Errors are relative where not said otherwise.", ""]
+    for group in dict.fromkeys(r.group for r in study.rows):
+        lines += [f"## {group[0].upper()}{group[1:]}", "",
+                  *row_lines(r for r in study.rows if r.group == group), ""]
+    lines += ["## Orders of convergence", "", *order_lines(study.rows), "",
+              "## Invariants, on every run above", "", *invariant_lines(study.invariants), "",
+              "## Deliberate mistakes", "",
+              "Each puts one thing wrong into the reference, or into what is compared with it; the row "
+              "that must then fail is shown.", "", *control_lines(study.controls), "", "## Pictures", ""]
+    for chart in study.charts:
+        draw(chart, folder / f"{chart.name}.png")
+        lines += [f"![{chart.title}]({chart.name}.png)", ""]
+    (folder / "report.md").write_text("\n".join(lines))
+    for r in failed:
+        print(f"FAIL {r.group}: {r.case}: {r.quantity}: {shown(r.ours)} against {shown(r.reference)}, "
+              f"error {r.error:.2e}, allowed {r.tolerance:.0e}")
+    for case, name, value, tolerance in broken:
+        print(f"FAIL invariant: {case}: {name} {value:.2e}, allowed {tolerance:.0e}")
+    for c in missed:
+        print(f"MISSED {c.group}: {c.broken}: {c.row.error:.2e} is within {c.row.tolerance:.0e}")
+    return good
