@@ -28,6 +28,9 @@ def in_space(study):
             cells = [8, 16, 32] if study.quick else [8, 16, 32, 64]
             table = np.array([manufactured(element, n, layout) for n in cells])
             sizes = table[:, 0]
+            # Serendipity elements lose one order where cells are no parallelograms (Arnold, Boffi
+            # and Falk, Math. Comp. 71, 2002).
+            order -= element == "Q8" and layout == "free"
             for column, name, expected in ((1, "displacement, L2", order + 1),
                                            (2, "strain energy norm", order)):
                 seen = observed_order(sizes, table[:, column])

@@ -84,7 +84,8 @@ def line_contact(study):
     cells, errors = [40, 80] if study.quick else [40, 80, 160], {"a": [], "c": []}
     for n in cells:
         mesh = f"{{length: 2, height: 1, nx: {n}, nz: {n // 2}, order: 2, grade_x: 0.02, grade_z: 40}}"
-        normal = Static(study, HERE / "line_contact.yaml", "hertz", {"mesh.set": mesh})
+        normal = Static(study, HERE / "line_contact.yaml", "hertz", {"mesh.set": mesh},
+                        slack=10)
         x, r = normal.position[normal.contact, 0] - 1, normal.reaction[normal.contact]
         ours_a = 2 * np.sqrt((x**2 * r[:, 1]).sum() / r[:, 1].sum())
         errors["a"].append(abs(ours_a / a - 1))
@@ -92,7 +93,7 @@ def line_contact(study):
         sheared = Static(study, HERE / "line_contact.yaml", "mindlin", {
             "mesh.set": mesh, "friction.mu_static": MU, "load.supports": "[]",
             "load.tractions": f"[{{group: top, x: {q / 2}, z: 0}}, {{group: leading, x: 0, z: {q / 2}}}, "
-                              f"{{group: rod, x: 0, z: {-q / 2}}}]"})
+                              f"{{group: rod, x: 0, z: {-q / 2}}}]"}, slack=10)
         x, r = sheared.position[sheared.contact, 0] - 1, sheared.reaction[sheared.contact]
         second = -(x**2 * r[:, 0]).sum() / (MU * FORCE)
         ours_c = (a**2 * (a**2 - 4 * second)) ** 0.25
@@ -106,9 +107,9 @@ def line_contact(study):
               order=f"{observed_order([1 / n for n in cells], errors['c']):.2f} observed")
     stick = np.abs(x[sheared.status == 1]).max()
     slip = np.abs(x[sheared.status >= 2]).min()
-    study.add(GROUP, "Cattaneo-Mindlin, Q = mu P'/2", "stick ends between nodes",
-              c, f"{stick:.5f} to {slip:.5f}",
-              max(0, stick - c, c - slip) / c, 0.03)
+    study.add(GROUP, "Cattaneo-Mindlin, Q = mu P'/2", "outermost sticking, innermost slipping node",
+              c, f"{stick:.5f}, {slip:.5f}",
+              max(abs(stick - c), abs(slip - c)) / c, 0.05)
     study.charts.append(Chart("line-contact", "Line contact: error of half-widths against cells", "cells",
                               "relative error", {"a": (cells, errors["a"]), "c": (cells, errors["c"])}, True))
 
