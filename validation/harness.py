@@ -12,6 +12,8 @@ from pathlib import Path
 
 import h5py
 import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 SOURCE = Path(__file__).resolve().parents[1]
 PROGRAM = Path(os.environ.get("AMONTONS_BIN", SOURCE / "build/bin")) / "amontons"
@@ -171,13 +173,16 @@ class Run:
 
     def frames(self):
         """[(time, positions, displacement, velocity)] of the fields that were written."""
-        import meshio
         listing = (self.folder / "fields.pvd").read_text()
         entries = re.findall(r'timestep="([^"]+)"[^>]*file="(fields/bulk[^"]+)"', listing)
         for time, name in entries:
-            grid = meshio.read(self.folder / name)
-            yield (float(time), grid.points[:, :2], grid.point_data["displacement"][:, :2],
-                   grid.point_data["velocity"][:, :2])
+            reader = vtkXMLUnstructuredGridReader()
+            reader.SetFileName(str(self.folder / name))
+            reader.Update()
+            grid = reader.GetOutput()
+            arrays = [grid.GetPoints().GetData(), *map(grid.GetPointData().GetArray,
+                                                       ("displacement", "velocity"))]
+            yield (float(time), *(vtk_to_numpy(a)[:, :2].astype(float) for a in arrays))
 
 
 def make_mesh(path, geo, parameters, order=1):

@@ -122,7 +122,9 @@ def waves(study):
             errors = [wave_error(study, kind, element, c, 2e-3 if study.quick else 1e-3)
                       for c in cells]
             order = observed_order([1 / c for c in cells], errors)
-            expected = 3 if high else 2
+            # Lumping the mass positively (in proportion to int N^2) leaves order 2 to T6 and Q8; on
+            # Q9 it is Simpson's rule.
+            expected = 3 if element == "Q9" else 2
             study.add(GROUP, f"damped {kind} wave, {element}",
                       f"displacement at every node, {cells[-1]} cells", "exact series",
                       f"{errors[-1]:.2e}", errors[-1], 1e-3 if high else 5e-3,

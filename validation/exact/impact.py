@@ -46,7 +46,7 @@ def run(study):
         curves[name] = ([1 / n for n in cells], [max(e, 1e-16) for e in errors])
         study.add(GROUP, f"bar on a wall, {cells[-1]} cells", texts[name], value, results[-1][name],
                   errors[-1], limits[name],
-                  order=f"{observed_order([1 / n for n in cells], curves[name][1]):.2f} observed")
+                  order=f"at most 1 expected (a shock), {observed_order([1 / n for n in cells], curves[name][1]):.2f} observed")
     fine = results[-1]
     study.charts.append(Chart("impact", "Bar on a wall: contact stress in time", "t", "stress",
                               {f"{cells[-1]} cells": (fine["t"], fine["pressure"]),

@@ -49,24 +49,24 @@ def in_space(study):
 
 
 def with_events(study):
-    """The first peaks of F_T/F_N in a stick-slip run, against the run with the smallest tolerance."""
-    tolerances = [1e-1, 1e-2, 1e-3, 1e-4, 1e-7]
+    """The first peak of F_T/F_N in a stick-slip run, with all step sizes halved again and again. The
+    peak is where slip runs away: what remains is not a power of the step but the moment at which a
+    step happens to end, so no order is claimed."""
     steps, peaks = [], []
-    for tolerance in tolerances:
+    for k in range(5):
         run = Run(study, SOURCE / "validation/paper/fig1.yaml", "fig1", {
             "mesh.set": "{length: 1.0, height: 0.5, nx: 16, nz: 16, shape: quad, order: 1}",
-            "time.tolerance": tolerance, "time.until": "{U: 0.0036}", "output.fields": "none",
+            "time.tolerance": 1, "time.energy_tolerance": 1, "time.step_max": 8 / 2**k,
+            "time.wave_step": 0.2 / 2**k, "time.until": "{U: 0.0036}", "output.fields": "none",
             "output.figures": "[]"})
         steps.append(run.report["steps"]["accepted"])
         peaks.append(run.report["results"]["peaks"][0]["mu"])
-    errors = [max(abs(p / peaks[-1] - 1), 1e-16) for p in peaks[:-1]]
-    order = -float(np.polyfit(np.log(steps[:-1]), np.log(errors), 1)[0])
-    study.add(GROUP, "stick-slip, Figure 1 on 16 x 16", "first peak of F_T/F_N by tolerance",
-              f"{peaks[-1]:.8f} (tolerance 1e-7)", ", ".join(f"{p:.6f}" for p in peaks[:-1]),
-              errors[2], 1e-3, order=f"about 1 expected with events, {order:.2f} observed against steps",
-              note="steps " + ", ".join(map(str, steps)))
-    study.charts.append(Chart("order-events", "Stick-slip: error of the first peak against steps", "steps",
-                              "relative error", {"SDIRK2": (steps[:-1], errors)}, logarithmic=True))
+    spread = max(peaks) / min(peaks) - 1
+    study.add(GROUP, "stick-slip, Figure 1 on 16 x 16", "first peak of F_T/F_N, steps halved four times",
+              "no change", ", ".join(f"{p:.6f}" for p in peaks), spread, 3e-4,
+              note="no order: events; steps " + ", ".join(map(str, steps)))
+    study.charts.append(Chart("order-events", "Stick-slip: first peak against steps", "steps",
+                              "F_T/F_N", {"SDIRK2": (steps, peaks)}))
 
 
 def run(study):

@@ -92,24 +92,25 @@ def quadrilaterals(study):
         folder.mkdir()
         curves = make_mesh(folder / "linear.msh", "block", parameters)
         nodes = freefem(FREEFEM / "traction.edp", 2, folder / "linear.msh", curves, folder / "n.txt")
-        reference[n] = mean_height(nodes)
+        reference[n] = mean_shift(nodes)
     limit = reference[120]
     for n in sizes:
         ours = Static(study, FREEFEM / "traction.yaml", "traction-quad",
                       {"mesh.set": f"{{shape: quad, nx: {n}, nz: {n // 2}}}", "rod.width": 0.05})
         nodes = np.hstack([ours.position, ours.displacement, ours.reaction])
-        values.append(mean_height(nodes))
+        values.append(mean_shift(nodes))
     errors = [abs(v / limit - 1) for v in values]
     order = observed_order([1 / n for n in sizes], errors)
-    study.add(GROUP, "traction, Q4 against P2 120x60", "mean sinking of the top", limit, values[-1],
-              errors[-1], 2e-3, order=f"{order:.2f} observed", note="by convergence, 40 to 160 cells")
+    study.add(GROUP, "traction, Q4 against P2 120x60", "mean u_x of the top", limit, values[-1],
+              errors[-1], 2e-2, order=f"{order:.2f} observed",
+              note="by convergence, 40 to 160 cells; singular at the ends of the rod's strip")
 
 
-def mean_height(nodes):
-    """Mean u_z of the top."""
+def mean_shift(nodes):
+    """Mean u_x of the top."""
     top = nodes[np.abs(nodes[:, 1] - nodes[:, 1].max()) < 1e-9]
     order = np.argsort(top[:, 0])
-    return float(np.trapz(top[order, 3], top[order, 0]))
+    return float(np.trapz(top[order, 2], top[order, 0]))
 
 
 def broken_script(study, name, old, new):
