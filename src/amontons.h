@@ -104,8 +104,7 @@ bool amontons_scene_read(const char *path, const char *const *overrides, int32_t
                          Scene **scene, Error *err);
 void amontons_scene_destroy(Scene *scene);   // NULL is fine
 const char *amontons_scene_title(const Scene *scene);   // owned by the scene
-// What is allowed but cannot give what it seems to; NULL: nothing. Static storage.
-const char *amontons_scene_warning(const Scene *scene);
+const char *amontons_scene_warning(const Scene *scene);       // NULL: none; static storage
 bool amontons_scene_reference(FILE *out, Error *err);   // every key, as Markdown
 
 // --- one simulation -----------------------------------------------------------------------------
@@ -128,7 +127,7 @@ typedef struct StaticSummary {
     int32_t nodes, contact_nodes, rod_nodes;
     int32_t open, sticking, slipping;   // contact nodes
     double normal_force, shear_force;   // of the plane on the block, along z and x
-    double pressure_moment;   // sum of x r_n, about the origin
+    double pressure_moment;   // sum of x r_n
     double rod_force, rod_height;   // of the rod along x; z of its resultant (NaN: no force)
     double elastic_energy, load_work;   // u'Ku/2 and f'u
     double residual;   // largest out-of-balance nodal force ...
@@ -137,8 +136,7 @@ typedef struct StaticSummary {
     double complementarity;   // largest violation of the contact conditions, relative
     int64_t iterations;   // of the contact solver
 } StaticSummary;
-// Writes static.json, static.h5 and static.vtu into `folder` (NULL: nothing). ERROR_COMPUTE where
-// no equilibrium is found: nothing holds the block, say.
+// Writes static.{json,h5,vtu} into `folder` (NULL: nothing). ERROR_COMPUTE: found no equilibrium.
 bool amontons_static(const Scene *scene, const char *folder, bool overwrite, StaticSummary *summary,
                      Error *err);
 
