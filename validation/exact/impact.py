@@ -37,8 +37,8 @@ def run(study):
     results = [bounce(study, n) for n in cells]
     exact = {"duration": 2 * LENGTH / WAVE, "stress": STRESS, "speed": SPEED,
              "impulse": 2 * SPEED * LENGTH}
-    texts = {"duration": "duration of contact 2 L/c", "stress": "contact stress |v0| sqrt(E rho)",
-             "speed": "mean speed after the rebound", "impulse": "impulse 2 rho L |v0|"}
+    texts = {"duration": "duration of contact 2 L/c", "stress": "contact stress v0 sqrt(E rho)",
+             "speed": "mean speed after the rebound", "impulse": "impulse 2 rho L v0"}
     limits = {"duration": 0.02, "stress": 5e-3, "speed": 2e-2, "impulse": 1e-2}
     curves = {}
     for name, value in exact.items():
