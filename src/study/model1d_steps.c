@@ -13,7 +13,7 @@
 static const double TOLERANCES[] = {
     [ACCURACY_DRAFT] = 1e-3, [ACCURACY_STANDARD] = 1e-4, [ACCURACY_FINE] = 1e-5};
 // The rod's way in the longest step, over the same slip; the rest as in run/model.
-static const double STEP_MAX_SLIP = 0.2, STEPS_AT_LEAST = 50, STEP_RANGE = 1e-10;
+static const double STEP_MAX_SLIP = 0.2, STEP_RANGE = 1e-10;
 
 static double friction_slip(const Model1d *model)
 {
@@ -29,8 +29,7 @@ static StepControlDef step_def(const Model1dSimulation *simulation)
     double tolerance = scene->time.tolerance > 0 ? scene->time.tolerance
                                                  : TOLERANCES[scene->time.accuracy];
     StepControlDef def = {.tolerance = tolerance * slip,
-                          .step_max = fmin(simulation->t_end / STEPS_AT_LEAST,
-                                           STEP_MAX_SLIP * slip / model->velocity),
+                          .step_max = STEP_MAX_SLIP * slip / model->velocity,
                           .wave_step = scene->time.wave_step * model->length / model->speed,
                           .growth_max = 2,
                           .use_certificate = scene->time.certificate};
