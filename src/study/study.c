@@ -123,12 +123,23 @@ cleanup:
     return error_is_clean(err);
 }
 
-// A key as one would type it after --set. Unknown ones are found when scenes are made.
+// A key as one would type it after --set: one of the scene's, a map of them, or mesh.set.NAME.
 static bool check_key(const Study *study, YamlNode item, Error *err)
 {
-    if (strlen(yaml_key(study->file, item)) < STUDY_NAME_SIZE) return true;
-    yaml_key_error(study->file, item, err, "a key of more than %d bytes", STUDY_NAME_SIZE - 1);
-    return false;
+    const char *key = yaml_key(study->file, item), *nearest = scene_key_nearest(key);
+    bool is_known = scene_key_index(key) >= 0 || scene_key_is_group(key) ||
+                    strncmp(key, "mesh.set.", 9) == 0;
+    if (strlen(key) >= STUDY_NAME_SIZE)
+        yaml_key_error(study->file, item, err, "a key of more than %d bytes", STUDY_NAME_SIZE - 1);
+    else if (!is_known && nearest)
+        yaml_key_error(study->file, item, err,
+                       "%s: unknown key of a scene; did you mean `%s`? (`amontons info keys` lists "
+                       "them all)",
+                       key, nearest);
+    else if (!is_known)
+        yaml_key_error(study->file, item, err,
+                       "%s: unknown key of a scene (`amontons info keys` lists them all)", key);
+    return error_is_clean(err);
 }
 
 static bool is_formula(const YamlDocument *document, YamlNode node)

@@ -53,7 +53,7 @@ enum {
     X("contact_error", "errors.complementarity", true, "contact conditions, relative")             \
     X("moment_error", "errors.moment", true, "balance of moments, relative")                       \
     X("reduction_error", "errors.reduction", true, "reduced bulk against the full one")            \
-    X("mu_max", "results.mu_max", false, "largest mu of the whole run")                            \
+    X("mu_max", "results.mu_max", true, "largest mu of the whole run")                             \
     X("first_mu", "results.peaks.0.mu", false, "first peak, from the start state")                 \
     X("contact_nodes", "model.contact_nodes", false, "nodes on the interface")                     \
     X("reduced_dofs", "model.reduced_dofs", false, "unknowns stepped; 0: the full mesh")

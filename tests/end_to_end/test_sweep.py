@@ -1,0 +1,241 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""`amontons sweep`: tables against single runs, kills and resumes, failing points, any number of processes."""
+import csv
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
+PROGRAM = Path(os.environ.get("AMONTONS_BIN", SOURCE / "build" / "bin")) / "amontons"
+TIMES = ("solve_s", "total_s")   # of the machine, not of the study
+STUDY = f"""
+title: test
+scene: {SOURCE}/validation/paper/fig1.yaml
+set: {{mesh.set.nx: 10, mesh.set.nz: 10, mesh.set.height: = 0.5 * mesh.set.length, rod.height: 0, rod.width: 0}}
+vary:
+  mesh.set.length: [1, 2]
+  load.pressure: [0.003, 0.006]
+  rod.kind: [push, bonded]
+"""
+
+
+class Sweep(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.cache = tempfile.mkdtemp(prefix="amontons-cache-")   # shared: shapes are made once
+        cls.addClassCleanup(shutil.rmtree, cls.cache)
+        cls.place = {**os.environ, "AMONTONS_CACHE": cls.cache}
+
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="amontons-sweep-"))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def study(self, text=STUDY, name="study.yaml"):
+        path = self.folder / name
+        path.write_text(text)
+        return path
+
+    def call(self, *words):
+        return subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, timeout=200, env=self.place,
+                              cwd=self.folder)
+
+    def sweep(self, *words, study=None, out="out", status=0):
+        done = self.call("sweep", study or self.study(), "-o", self.folder / out, *words)
+        self.assertEqual(done.returncode, status, done.stderr)
+        return done
+
+    def table(self, out="out"):
+        with open(self.folder / out / "sweep.csv", newline="") as file:
+            return list(csv.DictReader(file))
+
+    def without_times(self, out):
+        return [{key: value for key, value in row.items() if key not in TIMES} for row in self.table(out)]
+
+    def test_table_is_what_single_runs_say(self):
+        self.sweep()
+        rows = self.table()
+        self.assertEqual([(float(r["mesh.set.length"]), float(r["load.pressure"]), r["rod.kind"]) for r in rows],
+                         [(L, P, k) for L in (1, 2) for P in (0.003, 0.006) for k in ("push", "bonded")])
+        row = rows[6]
+        done = self.call("run", SOURCE / "validation/paper/fig1.yaml", "-o", "single", "--quiet", "--set",
+                         "mesh.set.nx=10", "mesh.set.nz=10", "mesh.set.length=2", "mesh.set.height=1",
+                         "rod.height=0", "rod.width=0", "time.until.periodic=true", "load.pressure=0.006", "rod.kind=push",
+                         "output.figures=[]", "output.fields=none", "output.history=false")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        run = json.loads((self.folder / "single/run.json").read_text())
+        self.assertEqual(float(row["mu_M"]), run["results"]["mu_M"])
+        self.assertEqual(int(row["steps"]), run["steps"]["accepted"])
+        self.assertEqual(float(row["mesh.set.height"]), 1)
+        self.assertEqual(row["status"], "done")
+        point = json.loads((self.folder / "out" / row["run"] / "run.json").read_text())
+        self.assertEqual(point["results"], run["results"])
+
+    def test_hdf5_holds_the_same(self):
+        self.sweep()
+        rows = self.table()
+        with h5py.File(self.folder / "out/sweep.h5") as file:
+            np.testing.assert_array_equal(file["result/mu_M"][:], [float(row["mu_M"] or "nan") for row in rows])
+            np.testing.assert_array_equal(file["scene/load.pressure"][:], [0.003, 0.003, 0.006, 0.006] * 2)
+            words = file.attrs["rod.kind words"]
+            words = (words.decode() if isinstance(words, bytes) else words).split("|")
+            self.assertEqual([words[int(k)] for k in file["scene/rod.kind"][:]], ["push", "bonded"] * 4)
+            self.assertEqual(set(file["result/status"][:]), {1})
+
+    def test_any_number_of_processes(self):
+        self.sweep("-j", "1", out="one")
+        self.sweep("-j", "5", out="five")
+        self.assertEqual(self.without_times("one"), self.without_times("five"))
+
+    def test_finished_points_stay(self):
+        first = self.sweep()
+        self.assertIn("8 points: 8 computed", first.stdout)
+        before = (self.folder / "out/sweep.csv").read_bytes()
+        stamps = {p: p.stat().st_mtime_ns for p in (self.folder / "out/points").glob("*/run.json")}
+        self.assertEqual(len(stamps), 8)
+        again = self.sweep()
+        self.assertIn("8 points: 0 computed", again.stdout)
+        self.assertIn("8 known before", again.stdout)
+        self.assertEqual((self.folder / "out/sweep.csv").read_bytes(), before)
+        # Another order, a value more: only that is computed.
+        study = self.study(STUDY.replace("[0.003, 0.006]", "[0.006, 0.004, 0.003]"))
+        self.assertIn("12 points: 4 computed", self.sweep(study=study).stdout)
+        self.assertEqual(stamps, {p: p.stat().st_mtime_ns for p in stamps})
+        self.assertIn("8 computed", self.sweep("--fresh").stdout)
+
+    def killed(self, how):
+        """Starts a sweep, stops it when some points are done; returns the points finished."""
+        study = self.study(STUDY.replace("10", "24"))
+        process = subprocess.Popen([PROGRAM, "sweep", study, "-o", self.folder / "out", "-j", "2"], env=self.place,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        points = self.folder / "out/points"
+        while len(list(points.glob("*/run.json"))) < 3 and process.poll() is None:
+            time.sleep(0.005)
+        process.send_signal(how)
+        errors = process.communicate(timeout=60)[1].decode()
+        time.sleep(0.2)
+        found = subprocess.run(["pgrep", "-f", str(self.folder)], capture_output=True, text=True, check=False)
+        self.assertEqual(found.stdout, "", "processes are left")
+        finished = {p for p in points.glob("*/run.json") if json.loads(p.read_text())["status"] == "done"}
+        self.assertGreaterEqual(len(finished), 3)
+        self.assertLess(len(finished), 8)
+        return study, finished, errors, process.returncode
+
+    def resumed(self, study, finished):
+        stamps = {p: p.stat().st_mtime_ns for p in finished}
+        done = self.sweep(study=study)
+        self.assertIn(f"8 points: {8 - len(finished)} computed", done.stdout)
+        self.assertEqual(stamps, {p: p.stat().st_mtime_ns for p in stamps})
+        self.sweep(study=study, out="whole")
+        self.assertEqual(self.without_times("out"), self.without_times("whole"))
+
+    def test_killed_and_resumed(self):
+        study, finished, _, status = self.killed(signal.SIGKILL)
+        self.assertEqual(status, -signal.SIGKILL)
+        self.resumed(study, finished)
+
+    def test_interrupted_and_resumed(self):
+        study, finished, errors, status = self.killed(signal.SIGINT)
+        self.assertEqual(status, 1)
+        self.assertIn("interrupted", errors)
+        states = [row["status"] for row in self.table()]
+        self.assertEqual(states.count("done"), len(finished))
+        self.assertEqual(states.count("pending"), 8 - len(finished))
+        self.resumed(study, finished)
+
+    def test_failing_points(self):
+        study = self.study(STUDY.replace("vary:", "cases: [{groups.top: top}, {groups.top: roof}]\nvary:"))
+        done = self.sweep(study=study, status=1)
+        self.assertIn("8 of 16 points failed", done.stderr)
+        self.assertIn("groups.top=roof", done.stderr)
+        rows = self.table()
+        self.assertEqual([row["status"] for row in rows], ["done"] * 8 + ["failed"] * 8)
+        self.assertTrue(all("has no group 'roof'" in row["message"] for row in rows[8:]))
+        self.assertTrue(all(row["mu_M"] == "" for row in rows[8:]))
+        again = self.sweep(study=study, status=1)
+        self.assertIn("16 points: 0 computed", again.stdout)
+        self.assertIn("16 points: 8 computed", self.sweep("--retry", study=study, status=1).stdout)
+
+    def test_crashing_point(self):
+        """A process that dies by a signal costs its own point only."""
+        study = self.study(STUDY.replace("10", "24"))
+        process = subprocess.Popen([PROGRAM, "sweep", study, "-o", self.folder / "out", "-j", "1"], env=self.place,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        child = ""
+        while not child and process.poll() is None:
+            child = subprocess.run(["pgrep", "-P", str(process.pid)], capture_output=True, text=True,
+                                   check=False).stdout.split("\n")[0]
+        os.kill(int(child), signal.SIGSEGV)
+        process.communicate(timeout=100)
+        self.assertEqual(process.returncode, 1)
+        states = [row["status"] for row in self.table()]
+        self.assertEqual(states, ["failed"] + ["done"] * 7)
+        self.assertIn("signal 11", self.table()[0]["message"])
+
+    def test_equal_points_are_computed_once(self):
+        study = self.study(STUDY.replace("[1, 2]", "[1, 1.0]"))
+        self.assertIn("8 points: 4 computed", self.sweep(study=study).stdout)
+        rows = self.without_times("out")
+        for k in range(4):
+            self.assertEqual({**rows[k], "point": ""}, {**rows[k + 4], "point": ""})
+
+    def test_one_sweep_a_folder(self):
+        import fcntl
+        (self.folder / "out").mkdir()
+        with open(self.folder / "out/lock", "w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            done = self.sweep(status=1)
+        self.assertIn("another sweep is at work", done.stderr)
+
+    def test_settings_and_history(self):
+        self.sweep("--set", "output.history=true", "--set", "mesh.set.nx=6", "mesh.set.nz=6")
+        for row in self.table():
+            run = json.loads((self.folder / "out" / row["run"] / "run.json").read_text())
+            self.assertEqual(run["model"]["contact_nodes"], 7)
+            self.assertTrue((self.folder / "out" / row["run"] / "history.h5").exists())
+
+    def test_wrong_studies(self):
+        for old, new, message in [
+                ("[0.003, 0.006]", "[0.003, -1]", r":7:26: load\.pressure: found `-1`; allowed: a number >= 0"),
+                ("load.pressure", "load.presure", r":7:3: load\.presure: unknown key .* did you mean `load\.pressure`"),
+                ("0.5 *", "0.5 +* 2", r":4:\d+: mesh\.set\.height: `\* 2 mesh"),
+                ("fig1.yaml", "fig9.yaml", r"fig9\.yaml: No such file"),
+                ("vary:", "vary", r"not YAML|study\.yaml:\d+:\d+")]:
+            with self.subTest(new):
+                done = self.sweep(study=self.study(STUDY.replace(old, new)), status=2)
+                self.assertRegex(done.stderr, message)
+                self.assertFalse((self.folder / "out").exists())
+
+    def test_wrong_words(self):
+        for words, message in [((), "needs a study"), (("a", "b"), "one study"), (("a", "-j", "0"), "-j 0"),
+                               (("a", "-j", "x"), "-j x"), (("a", "-o", ""), "no name")]:
+            done = self.call("sweep", *words)
+            self.assertEqual(done.returncode, 2, words)
+            self.assertIn(message, done.stderr)
+
+    def test_help_names_all_records(self):
+        text = re.sub(r"\s+", " ", self.call("sweep", "--help").stdout)
+        names = re.findall(r'X\("(\w+)", "[\w.]+", (?:true|false)', (SOURCE / "src/study/study.h").read_text())
+        self.assertGreater(len(names), 15)
+        for name in names:
+            self.assertRegex(text, rf"\b{name}\b")
+
+    def test_quiet_and_lines(self):
+        done = self.sweep("--quiet")
+        self.assertEqual((done.stdout, done.stderr), ("", ""))
+        done = self.sweep("--fresh")
+        self.assertEqual(len(re.findall(r"^ \d/8 .*mesh\.set\.length=\d load\.pressure=0\.00\d rod\.kind=\w+.* mu_M .*left\)$",
+                                        done.stderr, re.M)), 8)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Values looked up in a text; every text that is cut off or garbled is survived.
+#include "io/json_reader.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static const char TEXT[] =
+    "{\n  \"status\": \"done\", \"odd \\\"key\\\"\": {\"}\": 1},\n"
+    "  \"results\": {\"mu_M\": 0.25, \"none\": null, \"periodic\": true, \"off\": false,\n"
+    "    \"peaks\": [{\"mu\": 0.5, \"U\": 1e-3}, {\"mu\": -2.5e-1}], \"list\": [1, 2.5, 3]},\n"
+    "  \"message\": \"say \\\"no\\\", [not] {this}\\n\\u0041\\u20ac end\", \"last\": 7\n}\n";
+
+static void test_numbers(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *path;
+        double value;
+    } known[] = {{"results.mu_M", 0.25},      {"results.periodic", 1},
+                 {"results.off", 0},          {"results.peaks.0.mu", 0.5},
+                 {"results.peaks.0.U", 1e-3}, {"results.peaks.1.mu", -0.25},
+                 {"results.list.2", 3},       {"last", 7}};
+    double value = 0;
+    for (size_t k = 0; k < sizeof known / sizeof known[0]; k++) {
+        assert_true(json_find_number(TEXT, known[k].path, &value));
+        assert_true(value == known[k].value);
+    }
+    assert_true(json_find_number(TEXT, "results.none", &value));
+    assert_true(isnan(value));
+}
+
+static void test_absent(void **state)
+{
+    (void)state;
+    static const char *const paths[] = {"mu_M",
+                                        "results.mu",
+                                        "results.peaks.2.mu",
+                                        "status",
+                                        "results.list.three",
+                                        "results.list.-1",
+                                        "results.",
+                                        "results.mu_M.x",
+                                        "results.peaks.mu",
+                                        "resultsx",
+                                        "result",
+                                        "results.list.1x"};
+    double value = 0;
+    char text[20];
+    for (size_t k = 0; k < sizeof paths / sizeof paths[0]; k++)
+        assert_false(json_find_number(TEXT, paths[k], &value));
+    assert_false(json_find_text(TEXT, "last", text, sizeof text));
+    assert_false(json_find_text(TEXT, "nothing", text, sizeof text));
+    assert_false(json_find_number("", "last", &value));
+}
+
+static void test_texts(void **state)
+{
+    (void)state;
+    char text[80], few[4];
+    assert_true(json_find_text(TEXT, "status", text, sizeof text));
+    assert_string_equal(text, "done");
+    assert_true(json_find_text(TEXT, "message", text, sizeof text));
+    assert_string_equal(text, "say \"no\", [not] {this}\nA? end");
+    assert_true(json_find_text(TEXT, "status", few, sizeof few));
+    assert_string_equal(few, "don");
+}
+
+// Cut anywhere, or with any byte replaced: an answer or none, and no byte beyond the end is read
+// (the sanitizers say so: the text is copied to where it just fits).
+static void test_damage(void **state)
+{
+    (void)state;
+    enum { SIZE = sizeof TEXT };
+    for (size_t k = 0; k < SIZE; k++) {
+        char cut[SIZE], text[40];
+        double value = 0;
+        memcpy(cut, TEXT, SIZE);
+        cut[k] = 0;
+        json_find_number(cut, "last", &value);
+        for (const char *other = "{}[]\",\\:0"; *other && k + 1 < SIZE; other++) {
+            memcpy(cut, TEXT, SIZE);
+            cut[k] = *other;
+            json_find_number(cut, "results.peaks.1.mu", &value);
+            json_find_text(cut, "message", text, sizeof text);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_numbers),
+                                       cmocka_unit_test(test_absent), cmocka_unit_test(test_texts),
+                                       cmocka_unit_test(test_damage)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
