@@ -232,7 +232,7 @@ def cell(value):
 
 
 def regime(row):
-    return {1: "1", 2: "2 (high and low alternate)", 0: "none found"}.get(int(row["period"]), "-")
+    return {1: "1", 2: "2 (high and low alternate)", 0: "none found"}.get(row["period"], row["status"])
 
 
 def mu_table(rows, fine):
