@@ -56,7 +56,7 @@ class Help(unittest.TestCase):
                          "amontons run validation/paper/fig1.yaml"],
                  "static": ["SCENE", "--output", "--set", "amontons static "],
                  "render": ["RESULT", "--figure", "force, slip-map", "amontons render "],
-                 "info": ["FILE", ".msh", "keys", "amontons info meshes/block.geo"]}
+                 "info": ["FILE", ".msh", "keys", "amontons info meshes/pads.geo"]}
         for command, wanted in words.items():
             first, second = amontons(command, "--help"), amontons("help", command)
             self.assertEqual((first.returncode, first.stderr), (0, ""), command)

@@ -75,8 +75,9 @@ static void test_ramp(void **state)
 static void test_peak(void **state)
 {
     (void)state;
-    const char *explicit_run[4] = {"time.until.U=0.003", "time.scheme=explicit"};
-    const char *implicit_run[4] = {"time.until.U=0.003", "time.scheme=sdirk2"};
+    const char *explicit_run[4] = {"time.until.U=0.0033", "time.scheme=explicit"};
+    const char *implicit_run[4] = {"time.until.U=0.0033", "time.scheme=sdirk2",
+                                   "time.accuracy=fine"};
     RunSummary found = run_scene(explicit_run), wanted = run_scene(implicit_run);
     assert_int_equal(wanted.peaks, 1);
     assert_int_equal(found.peaks, 1);

@@ -134,15 +134,16 @@ static void test_material(void **state)
 static void test_end_and_steps(void **state)
 {
     (void)state;
+    // 0.2 of the slip that the drop of friction drives, 0.28 * 0.003 * 0.5
+    const double slip_step = 0.2 * 0.28 * 0.003 * 0.5 / 1e-5;
     const struct {
         const char *until, *step_max;
         double t_end, longest;
-    } cases[] = {{"time.until={U: 0.001}", "time.step_max=0", 100, 2},
-                 {"time.until={t: 40}", "time.step_max=0", 40, 0.8},
-                 {"time.until={U: 0.001, t: 40}", "time.step_max=0", 40, 0.8},
-                 {"time.until={U: 0.0001, t: 40}", "time.step_max=0", 10, 0.2},
-                 // 0.2 of the slip that the drop of friction drives, 0.28 * 0.003 * 0.5
-                 {"time.until={U: 1}", "time.step_max=0", 1e5, 0.2 * 0.28 * 0.003 * 0.5 / 1e-5},
+    } cases[] = {{"time.until={U: 0.001}", "time.step_max=0", 100, slip_step},
+                 {"time.until={t: 40}", "time.step_max=0", 40, slip_step},
+                 {"time.until={U: 0.001, t: 40}", "time.step_max=0", 40, slip_step},
+                 {"time.until={U: 0.0001, t: 40}", "time.step_max=0", 10, slip_step},
+                 {"time.until={U: 1}", "time.step_max=0", 1e5, slip_step},
                  {"time.until={U: 1}", "time.step_max=0.3", 1e5, 0.3}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         Simulation *simulation =
