@@ -103,6 +103,7 @@ static int32_t next_rung(const StepControl *control, int32_t k, double error, bo
 static int32_t fit_rung(const StepControl *control, int32_t k, double remaining)
 {
     const Ladder *ladder = &control->ladder;
+    remaining *= 1 + 1e-9;   // rounding must not cost the last step
     if (ladder_step(ladder, k) <= remaining) return k;
     for (int32_t fit = k + 1; fit < ladder->rung_count; fit++) {
         if (ladder->rung[fit] && ladder_step(ladder, fit) <= remaining) return fit;
@@ -114,7 +115,7 @@ bool step_control_fits(const StepControl *control, double remaining)
 {
     const Ladder *ladder = &control->ladder;
     for (int32_t k = ladder->rung_count - 1; k >= 0; k--) {
-        if (ladder->rung[k]) return ladder_step(ladder, k) <= remaining;
+        if (ladder->rung[k]) return ladder_step(ladder, k) <= remaining * (1 + 1e-9);
     }
     return remaining > 0;
 }
