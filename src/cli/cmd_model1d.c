@@ -1,26 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cli/commands.h"
 #include "cli/progress.h"
+#include "cli/scene_words.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    OVERRIDES_MAX = 200,
-    OPTION_OVERWRITE = 1000,
-    OPTION_SET,
-    OPTION_ALPHA,
-    OPTION_POINTS,
-    OPTION_THEORY
-};
+enum { OPTION_ALPHA = OPTION_OWN, OPTION_POINTS, OPTION_THEORY };
 
 typedef struct Model1dWords {
-    const char *scene, *folder, *alpha, *points;
-    const char *overrides[OVERRIDES_MAX];
-    int32_t override_count;
-    bool overwrite, quiet, theory_only, too_many_scenes, too_many_overrides;
+    SceneWords common;
+    const char *alpha, *points;
+    bool theory_only;
 } Model1dWords;
 
 // The table goes to standard output, the progress of the simulation to standard error.
@@ -29,35 +21,12 @@ typedef struct Table {
     bool quiet, begun;
 } Table;
 
-static volatile sig_atomic_t stop_wanted = 0;   // a signal can reach nothing else
-
-static void want_stop(int signal_number)
-{
-    (void)signal_number;
-    stop_wanted = 1;
-}
-
-static error_t take_setting(char *word, Model1dWords *words)
-{
-    if (words->override_count == OVERRIDES_MAX)
-        words->too_many_overrides = true;
-    else
-        words->overrides[words->override_count++] = word;
-    return 0;
-}
-
 static error_t take_option(int key, char *word, struct argp_state *state)
 {
     Model1dWords *words = state->input;
     switch (key) {
-    case 'o':
-        words->folder = word;
-        return 0;
-    case 'q':
-        words->quiet = true;
-        return 0;
-    case OPTION_OVERWRITE:
-        words->overwrite = true;
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = &words->common;
         return 0;
     case OPTION_ALPHA:
         words->alpha = word;
@@ -68,13 +37,6 @@ static error_t take_option(int key, char *word, struct argp_state *state)
     case OPTION_THEORY:
         words->theory_only = true;
         return 0;
-    case OPTION_SET:
-        return take_setting(word, words);
-    case ARGP_KEY_ARG:
-        if (words->override_count && strchr(word, '=')) return take_setting(word, words);
-        if (words->scene) words->too_many_scenes = true;
-        words->scene = word;
-        return 0;
     default:
         return ARGP_ERR_UNKNOWN;
     }
@@ -83,22 +45,15 @@ static error_t take_option(int key, char *word, struct argp_state *state)
 static void read_options(int argc, char **argv, Model1dWords *words)
 {
     static const struct argp_option known[] = {
-        {"output", 'o', "DIR", 0,
-         "Leave model1d.json, model1d.h5 and the simulation's history.h5 in DIR (default: no "
-         "files)",
-         0},
-        {"set", OPTION_SET, "KEY=VALUE", 0,
-         "Use this value in the place of the scene's; may be given several times", 0},
         {"theory", OPTION_THEORY, NULL, 0, "Formulas only, no simulation", 0},
         {"alpha", OPTION_ALPHA, "NUMBER", 0,
          "The part of H over which the shear stress varies (default: the paper's 0.2)", 0},
         {"points", OPTION_POINTS, "N", 0, "Nodes of the simulated line (default: 81)", 0},
-        {"overwrite", OPTION_OVERWRITE, NULL, 0, "Replace an earlier result in DIR", 0},
-        {"quiet", 'q', NULL, 0, "Print nothing but errors", 0},
         {0}};
     static const struct argp argp = {
         .options = known,
         .parser = take_option,
+        .children = scene_words_child,
         .args_doc = "SCENE",
         .doc =
             "The paper's effective model in one dimension, with block, material, friction and rod "
@@ -107,7 +62,8 @@ static void read_options(int argc, char **argv, Model1dWords *words)
             "it grow, beside what a simulation of the line shows when its rod has gone as far."
             "\vThe simulation starts where sliding has just stopped (U = 0) and ends with the "
             "scene's time.until. Its steps are those of `amontons run`, and `amontons render` "
-            "draws them. Example:\n\n"
+            "draws them. With -o it leaves model1d.json, model1d.h5 and that history.h5. "
+            "Example:\n\n"
             "  amontons model1d validation/paper/fig1.yaml --set load.pressure=0.03 -o line"};
     options_parse(&argp, argc, argv, "amontons model1d", words);
 }
@@ -115,12 +71,8 @@ static void read_options(int argc, char **argv, Model1dWords *words)
 static int check_words(const Model1dWords *words, Model1dOptions *options)
 {
     char *end = NULL;
-    if (!words->scene)
-        return report_misuse("model1d needs a scene, as in `amontons model1d "
-                             "validation/paper/fig1.yaml`");
-    if (words->too_many_scenes) return report_misuse("model1d takes one scene");
-    if (words->too_many_overrides) return report_misuse("more than 200 settings by --set");
-    if (words->folder && !*words->folder) return report_misuse("-o: the folder has no name");
+    int status = scene_words_check(&words->common, "model1d", "validation/paper/fig1.yaml");
+    if (status != 0) return status;
     if (words->alpha) {
         options->alpha = strtod(words->alpha, &end);
         if (*words->alpha == 0 || *end || !(options->alpha > 0 && options->alpha <= 10))
@@ -234,24 +186,22 @@ int command_model1d(int argc, char **argv)
     Scene *scene = NULL;
     read_options(argc, argv, &words);
     int status = check_words(&words, &options);
+    if (status == 0) status = scene_words_read(&words.common, &scene);
     if (status != 0) return status;
-    if (!amontons_scene_read(words.scene, words.overrides, words.override_count, &scene, &err))
-        return report_error(&err);
-    Table table = {.progress = progress_begin(words.quiet), .quiet = words.quiet};
-    struct sigaction action = {.sa_handler = want_stop, .sa_flags = (int)SA_RESETHAND};
-    sigaction(SIGINT, &action, NULL);
-    options.folder = words.folder;
-    options.overwrite = words.overwrite;
+    bool quiet = words.common.quiet;
+    Table table = {.progress = progress_begin(quiet), .quiet = quiet};
+    options.folder = words.common.folder;
+    options.overwrite = words.common.overwrite;
     options.theory_only = words.theory_only;
     options.on_step = show_step;
     options.on_point = show_point;
     options.context = &table;
-    options.stop = &stop_wanted;
+    options.stop = stop_on_signals();
     bool done = amontons_model1d(scene, &options, &summary, &err);
     progress_end(&table.progress);
     if (!done)
         status = report_error(&err);
-    else if (!words.quiet)
+    else if (!quiet)
         print_answers(&summary);
     amontons_scene_destroy(scene);
     return status;

@@ -1,28 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cli/commands.h"
 #include "cli/progress.h"
+#include "cli/scene_words.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    OVERRIDES_MAX = 200,
-    OPTION_OVERWRITE = 1000,
-    OPTION_SET,
-    OPTION_FROM,
-    OPTION_SLIDINGS,
-    OPTION_WHOLE
-};
+enum { OPTION_FROM = OPTION_OWN, OPTION_SLIDINGS, OPTION_WHOLE };
 
 enum { SLIDINGS_STANDARD = 2 };   // the second peak already belongs to the periodic regime
 
 typedef struct StabilityWords {
-    const char *scene, *folder, *from, *slidings;
-    const char *overrides[OVERRIDES_MAX];
-    int32_t override_count;
-    bool overwrite, quiet, whole, too_many_scenes, too_many_overrides;
+    SceneWords common;
+    const char *from, *slidings;
+    bool whole;
 } StabilityWords;
 
 // The table goes to standard output, the progress of what comes before it to standard error.
@@ -32,26 +24,12 @@ typedef struct Table {
     double length;
 } Table;
 
-static volatile sig_atomic_t stop_wanted = 0;   // a signal can reach nothing else
-
-static void want_stop(int signal_number)
-{
-    (void)signal_number;
-    stop_wanted = 1;
-}
-
 static error_t take_option(int key, char *word, struct argp_state *state)
 {
     StabilityWords *words = state->input;
     switch (key) {
-    case 'o':
-        words->folder = word;
-        return 0;
-    case 'q':
-        words->quiet = true;
-        return 0;
-    case OPTION_OVERWRITE:
-        words->overwrite = true;
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = &words->common;
         return 0;
     case OPTION_FROM:
         words->from = word;
@@ -62,18 +40,6 @@ static error_t take_option(int key, char *word, struct argp_state *state)
     case OPTION_WHOLE:
         words->whole = true;
         return 0;
-    case OPTION_SET:
-        if (words->override_count == OVERRIDES_MAX)
-            words->too_many_overrides = true;
-        else
-            words->overrides[words->override_count++] = word;
-        return 0;
-    case ARGP_KEY_ARG:
-        if (words->override_count && strchr(word, '='))   // --set a=1 b=2
-            return take_option(OPTION_SET, word, state);
-        if (words->scene) words->too_many_scenes = true;
-        words->scene = word;
-        return 0;
     default:
         return ARGP_ERR_UNKNOWN;
     }
@@ -82,10 +48,6 @@ static error_t take_option(int key, char *word, struct argp_state *state)
 static void read_options(int argc, char **argv, StabilityWords *words)
 {
     static const struct argp_option known[] = {
-        {"output", 'o', "DIR", 0,
-         "Leave stability.json and stability.h5 in DIR (default: no files)", 0},
-        {"set", OPTION_SET, "KEY=VALUE", 0,
-         "Use this value in the place of the scene's; may be given several times", 0},
         {"from", OPTION_FROM, "STATE", 0,
          "Where the path begins: `sliding`, when the block has come to rest after sliding (the "
          "default), or `start`, the relaxed block",
@@ -93,19 +55,19 @@ static void read_options(int argc, char **argv, StabilityWords *words)
         {"slidings", OPTION_SLIDINGS, "N", 0,
          "With --from sliding: after the N-th one, computed by time stepping (default: 2)", 0},
         {"whole", OPTION_WHOLE, NULL, 0, "Follow the front to the end of the block, beyond l_c", 0},
-        {"overwrite", OPTION_OVERWRITE, NULL, 0, "Replace an earlier result in DIR", 0},
-        {"quiet", 'q', NULL, 0, "Print nothing but errors", 0},
         {0}};
     static const struct argp argp = {
         .options = known,
         .parser = take_option,
+        .children = scene_words_child,
         .args_doc = "SCENE",
         .doc =
             "Follows the quasi-static slip of the scene file SCENE and prints, for each position "
             "l of the slip front, how fast small disturbances of that state grow. l_sc is where "
             "the first oscillation grows, l_c where the first disturbance grows without "
             "oscillating: there slow slip turns into sliding, and mu is mu_M."
-            "\vThe instability itself is not stepped in time. Example:\n\n"
+            "\vThe instability itself is not stepped in time. With -o it leaves stability.json and "
+            "stability.h5. Example:\n\n"
             "  amontons stability validation/paper/fig1.yaml --set mesh.set.nx=40 "
             "mesh.set.nz=40 -o stable"};
     options_parse(&argp, argc, argv, "amontons stability", words);
@@ -113,12 +75,8 @@ static void read_options(int argc, char **argv, StabilityWords *words)
 
 static int check_options(const StabilityWords *words, StabilityOptions *options)
 {
-    if (!words->scene)
-        return report_misuse("stability needs a scene, as in `amontons stability "
-                             "validation/paper/fig1.yaml`");
-    if (words->too_many_scenes) return report_misuse("stability takes one scene");
-    if (words->too_many_overrides) return report_misuse("more than 200 settings by --set");
-    if (words->folder && !*words->folder) return report_misuse("-o: the folder has no name");
+    int status = scene_words_check(&words->common, "stability", "validation/paper/fig1.yaml");
+    if (status != 0) return status;
     bool start = words->from && strcmp(words->from, "start") == 0;
     if (words->from && !start && strcmp(words->from, "sliding") != 0)
         return report_misuse("--from %s: allowed are sliding and start", words->from);
@@ -194,30 +152,28 @@ static void print_answers(const StabilitySummary *summary)
 int command_stability(int argc, char **argv)
 {
     StabilityWords words = {0};
-    StabilityOptions options = {.stop = &stop_wanted};
+    StabilityOptions options = {0};
     StabilitySummary summary;
     Error err = {0};
     Scene *scene = NULL;
     read_options(argc, argv, &words);
     int status = check_options(&words, &options);
+    if (status == 0) status = scene_words_read(&words.common, &scene);
     if (status != 0) return status;
-    if (!amontons_scene_read(words.scene, words.overrides, words.override_count, &scene, &err))
-        return report_error(&err);
-    Table table = {.progress = progress_begin(words.quiet), .quiet = words.quiet};
-    struct sigaction action = {.sa_handler = want_stop, .sa_flags = (int)SA_RESETHAND};
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-    options.folder = words.folder;
-    options.overwrite = words.overwrite;
+    bool quiet = words.common.quiet;
+    Table table = {.progress = progress_begin(quiet), .quiet = quiet};
+    options.folder = words.common.folder;
+    options.overwrite = words.common.overwrite;
     options.whole = words.whole;
     options.on_step = show_step;
     options.on_point = show_point;
     options.context = &table;
+    options.stop = stop_on_signals();
     bool done = amontons_stability(scene, &options, &summary, &err);
     progress_end(&table.progress);
     if (!done)
         status = report_error(&err);
-    else if (!words.quiet)
+    else if (!quiet)
         print_answers(&summary);
     amontons_scene_destroy(scene);
     return status;

@@ -1,82 +1,30 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cli/commands.h"
+#include "cli/scene_words.h"
 
 #include <stdio.h>
-#include <string.h>
-
-enum { OVERRIDES_MAX = 200, OPTION_OVERWRITE = 1000, OPTION_SET };
-
-typedef struct Options {
-    const char *scene;
-    const char *folder;
-    const char *overrides[OVERRIDES_MAX];
-    int32_t override_count;
-    bool overwrite, quiet, too_many_scenes, too_many_overrides;
-} Options;
-
-static void take_setting(Options *options, const char *word)
-{
-    if (options->override_count == OVERRIDES_MAX)
-        options->too_many_overrides = true;
-    else
-        options->overrides[options->override_count++] = word;
-}
 
 static error_t take_option(int key, char *word, struct argp_state *state)
 {
-    Options *options = state->input;
-    switch (key) {
-    case 'o':
-        options->folder = word;
-        return 0;
-    case OPTION_SET:
-        take_setting(options, word);
-        return 0;
-    case OPTION_OVERWRITE:
-        options->overwrite = true;
-        return 0;
-    case 'q':
-        options->quiet = true;
-        return 0;
-    case ARGP_KEY_ARG:
-        if (options->scene) options->too_many_scenes = true;
-        options->scene = word;
-        return 0;
-    default:
-        return ARGP_ERR_UNKNOWN;
-    }
+    (void)word;
+    if (key != ARGP_KEY_INIT) return ARGP_ERR_UNKNOWN;
+    state->child_inputs[0] = state->input;
+    return 0;
 }
 
-static void read_options(int argc, char **argv, Options *options)
+static void read_options(int argc, char **argv, SceneWords *words)
 {
-    static const struct argp_option known[] = {
-        {"output", 'o', "DIR", 0, "Write static.json, static.h5 and static.vtu into DIR", 0},
-        {"set", OPTION_SET, "KEY=VALUE", 0,
-         "Use this value in the place of the scene's; may be given several times", 0},
-        {"overwrite", OPTION_OVERWRITE, NULL, 0, "Replace an earlier result in DIR", 0},
-        {"quiet", 'q', NULL, 0, "Print nothing but errors", 0},
-        {0}};
     static const struct argp argp = {
-        .options = known,
         .parser = take_option,
+        .children = scene_words_child,
         .args_doc = "SCENE",
         .doc = "Finds the equilibrium of the block under the scene's load, rod.displacement and "
                "load.supports: unilateral contact, Coulomb friction with friction.mu_static, stick "
                "relative to the undeformed block."
-               "\vWithout -o nothing is written. Example:\n\n"
+               "\vWith -o it leaves static.json, static.h5 and static.vtu; without nothing is "
+               "written. "
+               "Example:\n\n"
                "  amontons static validation/freefem/friction.yaml -o friction"};
-    options_parse(&argp, argc, argv, "amontons static", options);
-}
-
-static int check_options(const Options *options)
-{
-    if (!options->scene)
-        return report_misuse("static needs a scene, as in `amontons static "
-                             "validation/freefem/friction.yaml`");
-    if (options->too_many_scenes) return report_misuse("static takes one scene");
-    if (options->too_many_overrides) return report_misuse("more than 200 settings by --set");
-    if (options->folder && !*options->folder) return report_misuse("-o: the folder has no name");
-    return 0;
+    options_parse(&argp, argc, argv, "amontons static", words);
 }
 
 static void print_summary(const char *title, const StaticSummary *summary)
@@ -98,20 +46,18 @@ static void print_summary(const char *title, const StaticSummary *summary)
 
 int command_static(int argc, char **argv)
 {
-    Options options = {0};
+    SceneWords words = {0};
     Error err = {0};
     Scene *scene = NULL;
     StaticSummary summary;
-    read_options(argc, argv, &options);
-    int status = check_options(&options);
+    read_options(argc, argv, &words);
+    int status = scene_words_check(&words, "static", "validation/freefem/friction.yaml");
+    if (status == 0) status = scene_words_read(&words, &scene);
     if (status != 0) return status;
-    if (!amontons_scene_read(options.scene, options.overrides, options.override_count, &scene,
-                             &err))
-        return report_error(&err);
-    bool done = amontons_static(scene, options.folder, options.overwrite, &summary, &err);
-    if (done && !options.quiet) {
+    bool done = amontons_static(scene, words.folder, words.overwrite, &summary, &err);
+    if (done && !words.quiet) {
         print_summary(amontons_scene_title(scene), &summary);
-        if (options.folder) printf("  results        %s\n", options.folder);
+        if (words.folder) printf("  results        %s\n", words.folder);
     }
     amontons_scene_destroy(scene);
     return done ? 0 : report_error(&err);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cli/commands.h"
+#include "cli/scene_words.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -7,11 +7,11 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { OVERRIDES_MAX = 180, FAILURES_SHOWN = 10, OPTION_SET = 1000, OPTION_RETRY, OPTION_FRESH };
+enum { SETTINGS_MAX = 180, FAILURES_SHOWN = 10, OPTION_SET = 1000, OPTION_RETRY, OPTION_FRESH };
 
 typedef struct SweepWords {
     const char *study, *folder, *jobs;
-    const char *overrides[OVERRIDES_MAX];
+    const char *overrides[SETTINGS_MAX];
     int32_t override_count;
     bool retry, fresh, quiet, too_many_studies, too_many_overrides;
 } SweepWords;
@@ -23,14 +23,6 @@ typedef struct SweepDisplay {
 } SweepDisplay;
 
 // A signal can reach nothing but a variable of the file.
-static volatile sig_atomic_t stop_wanted = 0;
-
-static void want_stop(int signal_number)
-{
-    (void)signal_number;
-    stop_wanted = 1;
-}
-
 static error_t take_option(int key, char *word, struct argp_state *state)
 {
     SweepWords *words = state->input;
@@ -51,7 +43,7 @@ static error_t take_option(int key, char *word, struct argp_state *state)
         words->fresh = true;
         return 0;
     case OPTION_SET:
-        if (words->override_count == OVERRIDES_MAX)
+        if (words->override_count == SETTINGS_MAX)
             words->too_many_overrides = true;
         else
             words->overrides[words->override_count++] = word;
@@ -195,7 +187,7 @@ static int close_sweep(const SweepDisplay *display, const char *folder, const Sw
 int command_sweep(int argc, char **argv)
 {
     SweepWords words = {0};
-    SweepOptions options = {.stop = &stop_wanted, .on_point = show_point};
+    SweepOptions options = {.stop = stop_on_signals(), .on_point = show_point};
     SweepSummary summary;
     Error err = {0};
     char folder[256];
@@ -210,9 +202,6 @@ int command_sweep(int argc, char **argv)
     options.fresh = words.fresh;
     SweepDisplay display = {.quiet = words.quiet, .bar = isatty(STDERR_FILENO)};
     options.context = &display;
-    struct sigaction action = {.sa_handler = want_stop, .sa_flags = (int)SA_RESETHAND};
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
     bool done = amontons_sweep(words.study, &options, &summary, &err);
     if (display.bar && !display.quiet) fprintf(stderr, "\r\033[K");
     if (!done) return report_error(&err);
