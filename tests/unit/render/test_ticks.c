@@ -43,6 +43,33 @@ static void small_and_large_numbers_have_a_power(void **state)
     assert_int_equal(ticks_choose(0, 0.01, 5).exponent, 0);
 }
 
+static void assert_powers(double low, double high, int32_t wanted, const char *expected)
+{
+    char all[400] = "", label[TICK_LABEL_SIZE];
+    Ticks ticks = ticks_choose_log(low, high, wanted);
+    for (int32_t k = 0; k < ticks.count; ++k) {
+        tick_label(&ticks, k, label);
+        strcat(strcat(all, label), " ");
+        assert_true(tick_value(&ticks, k) >= low * (1 - 1e-5));
+        assert_true(tick_value(&ticks, k) <= high * (1 + 1e-5));
+    }
+    assert_string_equal(all, expected);
+}
+
+static void logarithmic_ticks_are_powers_of_ten(void **state)
+{
+    (void)state;
+    assert_powers(1e-3, 1e-1, 7, "10^{-3} 10^{-2} 10^{-1} ");
+    assert_powers(8e-4, 1.3, 7, "10^{-3} 10^{-2} 10^{-1} 10^{0} ");
+    assert_powers(1e-6, 1e6, 7, "10^{-6} 10^{-4} 10^{-2} 10^{0} 10^{2} 10^{4} 10^{6} ");
+    assert_powers(2, 8, 7, "");
+    assert_powers(0, 8, 7, "");
+    assert_powers(10, 1, 7, "");
+    assert_int_equal(ticks_choose_log(1e-3, 1e-1, 7).minor, 9);
+    assert_int_equal(ticks_choose_log(1e-6, 1e6, 7).minor, 1);
+    assert_true(tick_value(&(Ticks){.is_log = true, .first = -3, .step = 1}, 1) == 1e-2);
+}
+
 // Whatever the range: inside it, in equal steps of 1, 2 or 5, and neither too few nor too many.
 static void any_range_gets_ticks(void **state)
 {
@@ -80,6 +107,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(labels_are_handy_numbers),
                                        cmocka_unit_test(small_and_large_numbers_have_a_power),
+                                       cmocka_unit_test(logarithmic_ticks_are_powers_of_ten),
                                        cmocka_unit_test(any_range_gets_ticks),
                                        cmocka_unit_test(no_range_no_ticks)};
     return cmocka_run_group_tests(tests, NULL, NULL);
