@@ -31,6 +31,7 @@ class Place:
         root = HERE.parents[1]
         self.program = Path(os.environ.get("AMONTONS_BIN", root / "build" / "bin")) / "amontons"
         self.folder, self.quick, self.jobs = Path(options.output), options.quick, options.jobs
+        self.fresh = ["--fresh"] if options.fresh else []
         self.figures = self.folder / "figures"
         self.figures.mkdir(parents=True, exist_ok=True)
         self.seconds, self.pictures = {}, []
@@ -45,7 +46,7 @@ class Place:
         if self.quick and label == name:
             settings = [*settings, *COARSE]
         folder = self.folder / label
-        words = ["sweep", HERE / f"{name}.yaml", "-o", folder, "-j", self.jobs]
+        words = ["sweep", HERE / f"{name}.yaml", "-o", folder, "-j", self.jobs, *self.fresh]
         for setting in settings:
             words += ["--set", setting]
         print(f"--- {label}", flush=True)
@@ -259,8 +260,8 @@ def agreement(pairs):
     return (f"The two meshes agree within 1 % at {sum(d <= 0.01 for d in differences)} of {len(pairs)} points, within 2 % at "
             f"{sum(d <= 0.02 for d in differences)}. Where l_c is at least four cells of the coarser mesh and the peaks lie "
             f"within 5 % of each other, they differ by {100 * np.median(resolved):.2g} % (median; largest "
-            f"{100 * max(resolved):.2g} %). Beyond that either l_c is not resolved, or the last peaks are one of several "
-            "branches: `low` and `high` say how far apart these lie.\n")
+            f"{100 * max(resolved):.2g} %). Where they differ by more, l_c is not resolved, or the last peaks are one of several "
+            "branches (`low` and `high` say how far apart these lie), or l_c is about to reach L.\n")
 
 
 def line_words(parts):
@@ -397,6 +398,7 @@ def main():
     parser.add_argument("-o", "--output", default="results/paper", help="the folder (default: results/paper)")
     parser.add_argument("-j", "--jobs", type=int, default=os.cpu_count() or 1, help="points computed at a time")
     parser.add_argument("--quick", action="store_true", help="20 cells, and nothing finer: a look, in a minute")
+    parser.add_argument("--fresh", action="store_true", help="compute again what an earlier call (of another build) left")
     place = Place(parser.parse_args())
     record = {"a": place.sweep("fig2a"), "b": place.sweep("fig2b")}
     fine = record if place.quick else {
