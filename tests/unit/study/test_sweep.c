@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A sweep in this process: what the caller is told, memory running out while planning and writing
+// the table, and a stop. What its users see is in end_to_end/test_sweep.py.
+#include "amontons.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+enum { PATH_SIZE = 200, FAULTS_MAX = 4000 };
+
+static char place[] = "/tmp/amontons_sweep_XXXXXX", study[PATH_SIZE], folder[PATH_SIZE];
+
+typedef struct Told {
+    int32_t calls, failed, reused;
+    double mu, left;
+    char words[300];
+} Told;
+
+static void note(const SweepView *view, void *context)
+{
+    Told *told = context;
+    told->calls++;
+    told->failed = view->failed;
+    told->reused += view->reused;
+    told->mu = view->mu_M;
+    told->left = view->seconds_left;
+    snprintf(told->words, sizeof told->words, "%s", view->words);
+    assert_int_equal(view->finished, told->calls);
+    assert_int_equal(view->points, 2);
+}
+
+static SweepOptions options_with(Told *told)
+{
+    return (SweepOptions){.folder = folder, .jobs = 1, .on_point = note, .context = told};
+}
+
+static void tells_of_each_point(void **state)
+{
+    (void)state;
+    Error err = {0};
+    Told told = {0};
+    SweepSummary summary;
+    SweepOptions options = options_with(&told);
+    int64_t live = memory_counters().live;
+    if (!amontons_sweep(study, &options, &summary, &err)) fail_msg("%s", err.message);
+    assert_int_equal(told.calls, 2);
+    assert_int_equal(told.reused, 0);
+    assert_string_equal(told.words, "load.pressure=0.006");
+    assert_true(told.mu > 0.1 && told.mu < 0.38 && told.left == 0);
+    assert_int_equal(summary.computed, 2);
+    assert_int_equal(summary.failed + summary.pending + summary.reused, 0);
+    assert_int_equal(memory_counters().live, live);
+}
+
+// All points finished: nothing is forked, so the fault is met here and nowhere else.
+static void frees_all_when_memory_fails(void **state)
+{
+    (void)state;
+    Told told = {0};
+    SweepSummary summary;
+    SweepOptions options = options_with(&told);
+    int64_t live = memory_counters().live, k = 0;
+    for (bool done = false; !done; k++) {
+        Error err = {0};
+        told = (Told){0};
+        memory_fail_after(k);
+        done = amontons_sweep(study, &options, &summary, &err);
+        memory_fail_after(-1);
+        if (!done) assert_int_equal(err.code, ERROR_MEMORY);
+        assert_int_equal(memory_counters().live, live);
+        assert_true(k < FAULTS_MAX);
+    }
+    assert_true(k > 50);
+    assert_int_equal(summary.reused, 2);
+    assert_int_equal(told.reused, 2);
+}
+
+static void stops_when_told(void **state)
+{
+    (void)state;
+    Error err = {0};
+    Told told = {0};
+    SweepSummary summary;
+    SweepOptions options = options_with(&told);
+    volatile sig_atomic_t stop = 1;
+    options.stop = &stop;
+    options.fresh = true;
+    assert_false(amontons_sweep(study, &options, &summary, &err));
+    assert_int_equal(err.code, ERROR_INTERRUPT);
+    assert_int_equal(summary.pending, 2);
+}
+
+static int place_make(void **state)
+{
+    (void)state;
+    const char *source = getenv("AMONTONS_SOURCE") ? getenv("AMONTONS_SOURCE") : "../..";
+    if (!mkdtemp(place)) return -1;
+    snprintf(study, sizeof study, "%s/study.yaml", place);
+    snprintf(folder, sizeof folder, "%s/a/b", place);
+    FILE *file = fopen(study, "w");
+    if (!file) return -1;
+    fprintf(file,
+            "scene: %s/validation/paper/fig1.yaml\nset: {mesh.set.nx: 8, mesh.set.nz: 8, "
+            "rod.height: 0, rod.width: 0, reduction.cache: false}\n"
+            "vary: {load.pressure: [0.003, 0.006]}\n",
+            source);
+    return fclose(file);
+}
+
+static int place_remove(void **state)
+{
+    (void)state;
+    char command[PATH_SIZE + 20];
+    snprintf(command, sizeof command, "rm -rf '%s'", place);
+    return system(command);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(tells_of_each_point),
+                                       cmocka_unit_test(frees_all_when_memory_fails),
+                                       cmocka_unit_test(stops_when_told)};
+    return cmocka_run_group_tests(tests, place_make, place_remove);
+}
