@@ -16,6 +16,9 @@ SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents
 PROGRAM = Path(os.environ.get("AMONTONS_BIN", SOURCE / "build/bin")) / "amontons"
 README = (SOURCE / "README.md").read_text()
 SCENE = SOURCE / "validation/paper/fig1.yaml"
+SCRIPTS = {   # words of the launcher that are no commands of the program
+    "reproduce": [sys.executable, SOURCE / "validation/paper/reproduce.py"],
+    "validate": [sys.executable, SOURCE / "validation/run"]}
 SMALL = ["mesh.set.nx=12", "mesh.set.nz=12", "time.until.U=4e-4", "output.fields.every_U=2e-4",
          "output.figures=[]"]
 
@@ -61,7 +64,8 @@ class Program(unittest.TestCase):
         self.assertGreaterEqual(len(rows), 3)
         for command, usage in rows:
             with self.subTest(command):
-                done = subprocess.run([PROGRAM, command, "--help"], capture_output=True, text=True)
+                told = SCRIPTS.get(command, [PROGRAM, command])
+                done = subprocess.run([*told, "--help"], capture_output=True, text=True)
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
                 for option in re.findall(r"--?[a-z]+", usage):
                     self.assertRegex(done.stdout, rf"(?m)(?<!\w){option}\b")
