@@ -62,7 +62,8 @@ def write_report(study, folder, how):
              f"{len(study.invariants)} checks of invariants, {len(broken)} broken; "
              f"{len(study.controls)} deliberate mistakes, {len(missed)} missed.", "",
              "The reference of each row comes from outside: FreeFem++ run now on the same mesh, an "
-             "exact solution, a published value. Errors are relative where not said otherwise.", ""]
+             "exact solution, a published value; only rows marked `consistency` compare two methods of "
+             "amontons itself. Errors are relative where not said otherwise.", ""]
     for group in dict.fromkeys(r.group for r in study.rows):
         lines += [f"## {group[0].upper()}{group[1:]}", "",
                   *row_lines(r for r in study.rows if r.group == group), ""]

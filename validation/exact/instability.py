@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Velocity-weakening friction against its exact growth rates, by time stepping. (The command
-`stability` does not exist yet: its rows are missing here.)"""
+"""Velocity-weakening friction against its exact growth rates, by time stepping (the command
+`stability`: growth.py)."""
 from pathlib import Path
 
 import numpy as np
