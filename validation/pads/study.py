@@ -132,7 +132,7 @@ def study_count_b(study, points):
                 ["n", "mu_M", "period", "force falls at", "l_c/L"],
                 [[p.n, p.mu, p.period, f"{low_of(p):.3f} – {high_of(p):.3f}", p.l_c] for p in points])
     study.plot("count-b", title="mu_M against the number of pads, set B", height=0.7,
-               x={"label": "pads ~{n}", "range": [0.4, 12.6]}, y={"label": MU}, legend="none",
+               x={"label": "pads ~{n}", "range": [0.4, 10.6]}, y={"label": MU}, legend="none",
                series=[series("", points, lambda p: p.n, 1)])
 
 
