@@ -34,7 +34,8 @@ class Suite(unittest.TestCase):
         self.assertGreaterEqual(text.count("| caught |"), 6)
 
     def test_exact(self):
-        text = self.run_groups("bulk", "statics", "instability", "growth", "impact", "orders")
+        text = self.run_groups("bulk", "speeds", "statics", "instability", "growth", "impact",
+                               "orders")
         self.assertGreaterEqual(text.count("| pass |"), 60)
         self.assertGreaterEqual(text.count("| caught |"), 9)
 
