@@ -65,7 +65,13 @@ typedef struct RunPhase {
     char note[96];          // "Newton steps"; or why it was skipped
 } RunPhase;
 
-enum { RUN_PHASES_MAX = 16 };
+enum { RUN_PHASES_MAX = 16, RUN_WARNINGS_MAX = 4, RUN_WARNING_SIZE = 400 };
+
+// What makes an answer doubtful though it was computed, a sentence each.
+typedef struct RunWarnings {
+    int32_t count;
+    char text[RUN_WARNINGS_MAX][RUN_WARNING_SIZE];
+} RunWarnings;
 
 typedef struct RunSummary {
     double mu_low, mu_high;        // smallest and largest peak, the first left out
@@ -79,6 +85,7 @@ typedef struct RunSummary {
     RunCounters counters;
     int32_t field_files;   // VTU files written
     int32_t figures;   // pictures drawn
+    RunWarnings warnings;   // also where the run failed
     int32_t phase_count;
     // Rungs, contact, certificate and bulk are parts of relax and solve.
     RunPhase phases[RUN_PHASES_MAX];

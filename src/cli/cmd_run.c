@@ -74,6 +74,7 @@ static int run_scene(const Scene *scene, const Options *options, const char *fol
     if (warning && !options->words.quiet) fprintf(stderr, "amontons: warning: %s\n", warning);
     bool done = amontons_run(scene, &run, &summary, &err);
     progress_end(&progress);
+    report_warnings(&summary.warnings);
     if (!done) return report_error(&err);
     if (!options->words.quiet) closing_print(amontons_scene_title(scene), &summary);
     if (options->profile) closing_print_profile(&summary);

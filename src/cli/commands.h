@@ -21,6 +21,7 @@ void options_parse(const struct argp *argp, int argc, char **argv, const char *n
 
 // Prints "amontons: error: ..." and gives the exit status that belongs to it.
 int report_error(const Error *err);
+void report_warnings(const RunWarnings *warnings);   // "amontons: warning: ...", a line each
 int report_misuse(const char *format, ...) __attribute__((format(printf, 1, 2)));   // status 2
 
 #endif

@@ -19,6 +19,13 @@ int report_error(const Error *err)
     return error_exit_status(err->code);
 }
 
+void report_warnings(const RunWarnings *warnings)
+{
+    fflush(stdout);
+    for (int32_t k = 0; k < warnings->count; k++)
+        fprintf(stderr, "amontons: warning: %s\n", warnings->text[k]);
+}
+
 int report_misuse(const char *format, ...)
 {
     va_list arguments;

@@ -40,14 +40,17 @@ bool model_prepare_steps(Simulation *simulation, Error *err)
     StepControlDef def = {.tolerance = tolerance * slip,
                           .step_max = driven ? STEP_MAX_SLIP * slip / velocity
                                              : simulation->t_end / STEPS_AT_LEAST,
+                          .relax_step = simulation->scales.time,
+                          .energy_tolerance = scene->time.energy_tolerance,
                           .growth_max = 2,
                           .use_certificate = scene->time.certificate};
     bool implicit = scene->time.scheme == SCHEME_SDIRK2;   // the keys mean the scheme named
     if (implicit && scene->time.step_max > 0) def.step_max = scene->time.step_max;
-    def.step_min = implicit && scene->time.step_min > 0 ? scene->time.step_min
-                                                        : STEP_RANGE * def.step_max;
     def.wave_step = scene->time.wave_step * simulation->model.length /
                     material_speeds(&simulation->material).longitudinal;
+    def.step_min = implicit && scene->time.step_min > 0
+                       ? scene->time.step_min
+                       : STEP_RANGE * fmin(def.step_max, def.wave_step);
     RodKind kind = scene->start.rod == START_ROD_HELD && scene->rod.kind != ROD_NONE
                        ? (scene->rod.kind == ROD_PUSH ? ROD_PUSHES : ROD_IS_BONDED)
                        : ROD_AWAY;

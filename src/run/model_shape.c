@@ -265,10 +265,29 @@ cleanup:
     return error_is_clean(err);
 }
 
+static bool rod_leads(const Simulation *simulation)
+{
+    const Interface *interface = &simulation->interface;
+    const Mesh *mesh = &simulation->mesh;
+    double middle = 0.5 * (mesh->x_min + mesh->x_max);
+    for (int32_t j = 0; j < interface->rod_count; j++)
+        if (mesh->position[2 * interface->rod_node[j]] > middle) return true;
+    return false;
+}
+
 static bool assemble_operator(Simulation *simulation, const char *key, Error *err)
 {
     const Interface *interface = &simulation->interface;
     TRY(model_build_bulk(simulation, err));
+    // A pushing rod comes from behind: on the leading face it would have to stand inside the block.
+    bool leads = rod_leads(simulation);
+    if (leads && simulation->scene.rod.kind == ROD_PUSH)
+        FAIL(err, ERROR_INPUT,
+             "%s: rod.kind: push, but group `%s` is on the leading half of the block, which a rod "
+             "that moves along +x cannot push; let it pull there (rod.kind: bonded) or name the "
+             "trailing face (groups.rod)",
+             simulation->scene.path, simulation->scene.groups.rod);
+    if (leads) key = "";   // a push must not find it in the cache
     TRY(model_hold_supports(simulation, err));
     if (is_reducible(&simulation->scene) && reduction_pays(simulation))
         TRY(reduce_bulk(simulation, key, err));

@@ -84,6 +84,13 @@ static void write_events(JsonWriter *json, const Events *events)
     json_end(json);
 }
 
+static void write_warnings(JsonWriter *json, const RunWarnings *warnings)
+{
+    json_begin_list(json, "warnings");
+    for (int32_t k = 0; k < warnings->count; k++) json_text(json, NULL, warnings->text[k]);
+    json_end(json);
+}
+
 static void write_results(JsonWriter *json, const RunReport *report)
 {
     const PeaksSummary *summary = report->summary;
@@ -112,6 +119,7 @@ static void write_results(JsonWriter *json, const RunReport *report)
         json_end(json);
     }
     json_end(json);
+    write_warnings(json, report->warnings);
     pads_write_json(report->pads, json);
     write_events(json, report->events);
     json_end(json);

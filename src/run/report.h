@@ -40,6 +40,7 @@ typedef struct RunReport {
     const Pads *pads;
     const PeaksSummary *summary;
     const Events *events;
+    const RunWarnings *warnings;
     const char *cache_note;   // empty: nothing to say
 } RunReport;
 

@@ -42,6 +42,7 @@ struct Simulation {
     RunTiming timing;
     RunModel model;
     RunErrors errors;
+    RunWarnings warnings;
     double last_unquiet;   // when slip was last rapid or not certified, time
     double started;   // wall clock, s
     int64_t allocations_before;   // memory_counters() when the time loop began

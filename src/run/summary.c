@@ -59,8 +59,9 @@ RunCounters summary_count(const Simulation *simulation)
     const StepControl *control = &simulation->control;
     const StepCounters *steps = &control->counters;
     const ContactSolver *solver = &control->scheme.solver;
+    int64_t rejected = steps->rejected_error + steps->rejected_energy + steps->rejected_uncertified;
     return (RunCounters){.accepted = steps->accepted,
-                         .rejected = steps->rejected_error + steps->rejected_uncertified,
+                         .rejected = rejected,
                          .rejected_uncertified = steps->rejected_uncertified,
                          .unsolved_retries = steps->unsolved,
                          .factorisations = simulation->system.factorisations,
@@ -97,6 +98,7 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters,
                             .seconds_output = simulation->timing.output,
                             .seconds_total = simulation->timing.total,
                             .counters = *counters,
+                            .warnings = simulation->warnings,
                             .field_files = simulation->fields.written,
                             .figures = simulation->figures};
     snprintf(summary->folder, sizeof summary->folder, "%s", simulation->folder);

@@ -46,3 +46,10 @@ double energy_turnover(const EnergyLedger *ledger)
     return fabs(ledger->rod_work) + fabs(ledger->load_work) + ledger->viscous + ledger->frictional +
            ledger->elastic + ledger->kinetic + ledger->stored_at_start;
 }
+
+double energy_turned_over(const EnergyLedger *before, const EnergyLedger *after)
+{
+    return fabs(after->rod_work - before->rod_work) + fabs(after->load_work - before->load_work) +
+           fabs(after->viscous - before->viscous) + fabs(after->frictional - before->frictional) +
+           fabs(after->elastic - before->elastic) + fabs(after->kinetic - before->kinetic);
+}

@@ -32,5 +32,7 @@ StagePower energy_stage(const Interface *interface, const double *velocity,
 double energy_imbalance(const EnergyLedger *ledger);   // work - stored - dissipated
 // Of the imbalance: everything that was moved, summed by magnitude.
 double energy_turnover(const EnergyLedger *ledger);
+// What was moved between two times, summed by magnitude.
+double energy_turned_over(const EnergyLedger *before, const EnergyLedger *after);
 
 #endif

@@ -6,7 +6,7 @@
 
 #include "bulk/interface_operator.h"
 
-enum { LADDER_RUNGS_MAX = 48 };
+enum { LADDER_RUNGS_MAX = 128 };
 
 // gamma = 1 - 1/sqrt(2): the two-stage scheme is then of order 2 and L-stable.
 extern const double SDIRK2_GAMMA;

@@ -16,7 +16,9 @@ static double fastest(const StepControl *control)
 
 bool relax(StepControl *control, const RelaxationDef *def, int64_t *steps, Error *err)
 {
-    double speed = INFINITY;
+    double speed = INFINITY, energy_tolerance = control->def.energy_tolerance;
+    control->def.energy_tolerance = 0;   // the state it ends in is asked for, not the way there
+    control->coarsest = 0;
     for (*steps = 0; speed > def->speed_max; (*steps)++) {
         if (control->now.time > def->duration_max)
             FAIL(
@@ -29,6 +31,7 @@ bool relax(StepControl *control, const RelaxationDef *def, int64_t *steps, Error
         speed = fastest(control);
     }
 cleanup:
+    control->def.energy_tolerance = energy_tolerance;
     if (!error_is_clean(err)) error_context(err, "while relaxing before the rod moves");
     return error_is_clean(err);
 }

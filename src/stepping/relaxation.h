@@ -11,7 +11,8 @@ typedef struct RelaxationDef {
     double duration_max;   // ERROR_COMPUTE beyond it, time
 } RelaxationDef;
 
-// Steps `control` with the rod as it stands until it has settled. steps: how many it took.
+// Steps `control` with the rod as it stands until it has settled; step_control_restart after it
+// forbids again steps longer than step_max. steps: how many it took.
 bool relax(StepControl *control, const RelaxationDef *def, int64_t *steps, Error *err);
 
 #endif

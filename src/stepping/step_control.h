@@ -2,7 +2,8 @@
 // Chooses the rung, tries it, and accepts a step only when
 //   1. both its contact problems were solved,
 //   2. the estimated local error is within tolerance,
-//   3. its end state is certified dissipative, or the step resolves waves (dt <= wave_step) and no
+//   3. its energies balance: numerics take or give only a small part of what the step turned over,
+//   4. its end state is certified dissipative, or the step resolves waves (dt <= wave_step) and no
 //      growth faster than 1/(gamma dt) is left in the slip set (stepping/certificate).
 // Otherwise it goes back to the old state with a smaller rung. Used by stepping/relaxation and
 // run/simulation.
@@ -14,15 +15,17 @@
 
 typedef struct StepControlDef {
     double tolerance;   // of the local error of u in one step, length
-    double step_max;   // rung 0, time
+    double step_max;   // longest, time
+    double relax_step;   // while relaxing steps may be so long, also where step_max is less, time
     double step_min;   // below it the run stops with an error, time
     double wave_step;   // largest step while not certified, time
+    double energy_tolerance;   // of the energy ledger, relative to what was turned over; 0: not asked
     double growth_max;   // a step's successor may be at most this many times longer: 2
     bool use_certificate;   // off only to study what it prevents
 } StepControlDef;
 
 typedef struct StepCounters {
-    int64_t accepted, rejected_error, rejected_uncertified, unsolved;
+    int64_t accepted, rejected_error, rejected_energy, rejected_uncertified, unsolved;
 } StepCounters;
 
 typedef struct StepControl {
@@ -40,6 +43,7 @@ typedef struct StepControl {
         // 1/(gamma dt); looked at when more nodes slip than ever since it was certified
     int32_t scanned;   // nodes that slipped then
     int32_t rung;   // to try next
+    int32_t coarsest;   // rung of the longest step allowed
     int64_t hold;   // steps for which no longer one is tried, after growth was met
     int64_t hold_end;   // accepted steps when that is over
     StepCounters counters;

@@ -196,7 +196,8 @@ static void summarise_steps(Model1dSimulation *simulation, Model1dSummary *summa
     summary->energy_error = simulation->energy_error;
     summary->contact_error = simulation->contact_error;
     summary->accepted = steps->accepted;
-    summary->rejected = steps->rejected_error + steps->rejected_uncertified + steps->unsolved;
+    summary->rejected = steps->rejected_error + steps->rejected_energy +
+                        steps->rejected_uncertified + steps->unsolved;
 }
 
 static void simulation_destroy(Model1dSimulation *simulation)

@@ -172,6 +172,25 @@ static void test_until_periodic(void **state)
     assert_near("mu_M", summary[1].mu_M, summary[0].mu_M, 0.03 * summary[0].mu_M);
 }
 
+// A free run of 1e-7 time units takes steps of 2e-9, and yet relaxes in a few dozen steps; a rod that
+// hardly moves leaves a shortest step far below the waves'.
+static void test_extreme_speeds(void **state)
+{
+    (void)state;
+    Simulation *simulation =
+        simulation_of((const char *const[]){"time.until={t: 1e-7}", "rod.kind=none", NULL});
+    assert_true(simulation->model.relaxation_steps < 200);
+    const StepControl *control = &simulation->control;
+    assert_near("longest step", ladder_step(&control->ladder, control->coarsest), 2e-9, 1e-20);
+    amontons_simulation_destroy(simulation);
+    simulation = simulation_of((const char *const[]){"rod.velocity=1e-16", NULL});
+    assert_true(simulation->control.def.step_min < 1e-9 * simulation->control.def.wave_step);
+    assert_near("shortest rung",
+                ladder_step(&simulation->control.ladder, simulation->control.ladder.rung_count - 1),
+                simulation->control.def.step_min, simulation->control.def.step_min);
+    amontons_simulation_destroy(simulation);
+}
+
 static void test_refused(void **state)
 {
     (void)state;
@@ -183,6 +202,7 @@ static void test_refused(void **state)
         {"groups.top=rood", "did you mean 'rod'?"},
         {"groups.contact=leading", "z = 0"},
         {"rod.height=0.26", "no node of group \"rod\""},
+        {"groups.rod=leading", "cannot push"},
         {"mesh.set.nx=0", "nx"},
     };
     int64_t live = memory_counters().live;
@@ -209,6 +229,7 @@ int main(void)
         cmocka_unit_test(test_material),
         cmocka_unit_test(test_end_and_steps),
         cmocka_unit_test(test_until_periodic),
+        cmocka_unit_test(test_extreme_speeds),
         cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

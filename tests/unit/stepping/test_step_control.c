@@ -229,6 +229,40 @@ static void test_gives_up(void **state)
     }
 }
 
+// Steps as long as the error allows lose energy; asked to balance, each long one does: what is
+// missing goes down with what is allowed, at no more than some further steps.
+static void test_energy_balance(void **state)
+{
+    (void)state;
+    RigDef def = pushed_def();
+    double missing[2];
+    int64_t accepted[2];
+    for (int strict = 0; strict < 2; strict++) {
+        StepControlDef steps = control_def();
+        steps.tolerance = 4e-4;
+        steps.energy_tolerance = strict ? 1e-4 : 0;
+        Run run;
+        run_build(&def, &steps, &run);
+        StepControl *control = &run.control;
+        while (control->now.time < 450) {
+            EnergyLedger before = control->ledger;
+            advance(&run, INFINITY);
+            double left = fabs(energy_imbalance(&control->ledger) - energy_imbalance(&before));
+            bool asked = strict && control->last_step > steps.wave_step;
+            double allowed = fmax(0.5 * energy_turned_over(&before, &control->ledger),
+                                  1e-4 * energy_turnover(&control->ledger));
+            if (asked) assert_true(left <= 1e-4 * allowed);
+        }
+        missing[strict] = fabs(energy_imbalance(&control->ledger)) /
+                          energy_turnover(&control->ledger);
+        accepted[strict] = control->counters.accepted;
+        assert_true((control->counters.rejected_energy > 0) == (strict == 1));
+        run_destroy(&run);
+    }
+    assert_true(missing[1] < 0.5 * missing[0]);
+    assert_true(accepted[1] > accepted[0] && accepted[1] < 5 * accepted[0]);
+}
+
 // In the loop nothing is allocated but new rungs.
 static void test_allocations(void **state)
 {
@@ -276,6 +310,7 @@ int main(void)
         cmocka_unit_test(test_tolerance),
         cmocka_unit_test(test_remaining),
         cmocka_unit_test(test_gives_up),
+        cmocka_unit_test(test_energy_balance),
         cmocka_unit_test(test_allocations),
         cmocka_unit_test(test_memory_faults),
     };

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Which scenes are warned of: by theory the viscosity of one node does not depend on the mesh and
+// its weakening is as its weight, so the ratio of both follows pressure, v_c, eta and element size.
+#include "run/warnings.h"
+
+#include "run/simulation.h"
+#include "small_scene.h"
+
+#include <string.h>
+
+static RunWarnings warnings_of(const char *setting, const char *more)
+{
+    Error err = {0};
+    RunOptions options = {0};
+    Simulation *simulation = NULL;
+    Scene *scene =
+        small_scene((const char *const[]){"start.state=undeformed", setting, more, NULL});
+    if (!amontons_simulation_create(scene, &options, &simulation, &err))
+        fail_msg("%s", err.message);
+    RunWarnings found = simulation->warnings;
+    amontons_simulation_destroy(simulation);
+    amontons_scene_destroy(scene);
+    return found;
+}
+
+// The factor by which elements should be shorter; 1 where nothing was said.
+static double factor_of(const char *setting, const char *more)
+{
+    RunWarnings found = warnings_of(setting, more);
+    if (found.count == 0) return 1;
+    assert_int_equal(found.count, 1);
+    const char *words = strstr(found.text[0], "elements ");
+    if (!words) fail_msg("%s", found.text[0]);
+    return strtod(words + strlen("elements "), NULL);
+}
+
+static void test_resolution(void **state)
+{
+    (void)state;
+    assert_int_equal(warnings_of("load.pressure=0.003", NULL).count, 0);
+    double hundred = factor_of("load.pressure=0.3", NULL);
+    assert_true(hundred < 0.2);
+    // Ten times: the pressure, the weakening, the thinness.
+    assert_near("P", factor_of("load.pressure=3", NULL), 0.1 * hundred, 0.006 * hundred);
+    assert_near("v_c", factor_of("load.pressure=0.3", "friction.critical_velocity=3.4e-5"),
+                0.1 * hundred, 0.006 * hundred);
+    assert_near("law", factor_of("load.pressure=0.3", "friction.law=exponential-weakening"),
+                hundred, 0.06 * hundred);
+    // On elements a fourth as long each node bears about four times as much.
+    double finer =
+        factor_of("load.pressure=0.3", "mesh.set={length: 1, height: 0.5, nx: 40, nz: 40}");
+    assert_true(finer > 2.5 * hundred && finer < 6 * hundred);
+}
+
+static void test_without_viscosity(void **state)
+{
+    (void)state;
+    RunWarnings found = warnings_of("material.eta1=0", "material.eta2=1");
+    assert_int_equal(found.count, 1);
+    assert_non_null(strstr(found.text[0], "ill-posed"));
+    // What does not weaken has an answer also without viscosity.
+    assert_int_equal(
+        warnings_of("material.eta1=0", "friction={law: coulomb, mu_static: 0.3}").count, 0);
+}
+
+static void test_list_is_bounded(void **state)
+{
+    (void)state;
+    RunWarnings warnings = {0};
+    for (int k = 0; k < RUN_WARNINGS_MAX + 3; k++) warnings_add(&warnings, "%d %600d", k, k);
+    assert_int_equal(warnings.count, RUN_WARNINGS_MAX);
+    assert_int_equal(strlen(warnings.text[RUN_WARNINGS_MAX - 1]), RUN_WARNING_SIZE - 1);
+    assert_true(warnings.text[1][0] == '1');
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_resolution),
+        cmocka_unit_test(test_without_viscosity),
+        cmocka_unit_test(test_list_is_bounded),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

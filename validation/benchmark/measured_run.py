@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""One run of the built program, measured: how it ended, what it said, what it cost. Used by
+stress.py and precision.py. Costs are processor time and counts, which a busy machine does not
+change."""
+import json
+import math
+import os
+import resource
+import signal
+import subprocess
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+import h5py
+import numpy
+
+ROOT = Path(__file__).resolve().parents[2]
+PROGRAM = Path(os.environ.get("AMONTONS_BIN", ROOT / "build/bin"), "amontons")
+
+
+@dataclass
+class Measured:
+    """What is left of one run."""
+    status: int            # exit status; below 0: ended by that signal
+    timed_out: bool
+    seconds: float         # processor time, user and system
+    memory: float          # largest resident size, MB
+    said: str              # standard error, its progress lines left out
+    report: dict           # run.json; empty: none was written
+    late_mu: float         # mean of mu over the second half of the time; NaN: no history
+
+
+def is_message(line):
+    """Progress lines on standard error begin with a percentage; messages do not."""
+    return line.startswith("amontons:") or line.startswith(" ") and "%" not in line[:6]
+
+
+def late_mean(path):
+    """Mean of mu over the second half of the history's time."""
+    if not path.exists():
+        return math.nan
+    with h5py.File(path) as history:
+        time, mu = history["series/time"][:], history["series/mu"][:]
+    late = time >= time[-1] / 2
+    if late.sum() < 2:
+        return math.nan
+    return float(numpy.trapz(mu[late], time[late]) / numpy.ptp(time[late]))
+
+
+def run(scene, settings, cpu_limit=60, into=None):
+    """Runs `scene` with `settings` ("key=value"), at most `cpu_limit` seconds of processor time.
+    into: a folder that keeps the result; None: thrown away."""
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = Path(into or f"{scratch}/result")
+        words = [PROGRAM, "run", scene, "-o", folder, "--quiet", "--overwrite"]
+        for setting in settings:
+            words += ["--set", setting]
+
+        def limit():
+            resource.setrlimit(resource.RLIMIT_CPU, (cpu_limit, cpu_limit + 5))
+
+        with open(f"{scratch}/said", "w+") as said:
+            process = subprocess.Popen([str(word) for word in words], stdout=subprocess.DEVNULL,
+                                       stderr=said, stdin=subprocess.DEVNULL, preexec_fn=limit)
+            _, status, usage = os.wait4(process.pid, 0)
+            said.seek(0)
+            text = "\n".join(line for line in said.read().splitlines() if is_message(line))
+        status = os.waitstatus_to_exitcode(status)
+        process.returncode = status
+        written = folder / "run.json"
+        report = json.loads(written.read_text()) if written.exists() else {}
+        late = late_mean(folder / "history.h5")
+        seconds = usage.ru_utime + usage.ru_stime
+    return Measured(status, status == -signal.SIGXCPU, seconds,
+                    usage.ru_maxrss / 1024, text, report, late)
+
+
+def commit():
+    """Which version was measured."""
+    found = subprocess.run(["git", "-C", str(ROOT), "describe", "--always", "--dirty"],
+                           capture_output=True, text=True)
+    return found.stdout.strip() or "unknown"
+
+
+def markdown_row(cells):
+    return "| " + " | ".join(str(cell).replace("|", "/") for cell in cells) + " |"
+
+
+def markdown_table(head, rows):
+    return "\n".join([markdown_row(head), "|" + "---|" * len(head), *map(markdown_row, rows)])
