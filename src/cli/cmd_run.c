@@ -70,8 +70,6 @@ static int run_scene(const Scene *scene, const Options *options, const char *fol
                       .on_step = progress_step,
                       .context = &progress,
                       .stop = stop_on_signals()};
-    const char *warning = amontons_scene_warning(scene);
-    if (warning && !options->words.quiet) fprintf(stderr, "amontons: warning: %s\n", warning);
     bool done = amontons_run(scene, &run, &summary, &err);
     progress_end(&progress);
     report_warnings(&summary.warnings);

@@ -55,7 +55,7 @@ static const struct argp_option known[] = {
     {"set", OPTION_SET, "KEY=VALUE", 0,
      "Use this value in the place of the scene's; may be given several times", 0},
     {"overwrite", OPTION_OVERWRITE, NULL, 0, "Replace an earlier result in DIR", 0},
-    {"quiet", 'q', NULL, 0, "Print nothing but errors", 0},
+    {"quiet", 'q', NULL, 0, "Print nothing but warnings and errors", 0},
     {0}};
 static const struct argp scene_words_argp = {.options = known, .parser = take_option};
 const struct argp_child scene_words_child[] = {{&scene_words_argp, 0, NULL, 0}, {0}};

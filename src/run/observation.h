@@ -21,8 +21,9 @@ typedef struct Observation {
     bool certified;
     bool grows;   // slip runs away, as step_control saw it
     double energy_imbalance;   // energy/width, since the start
-    double energy_error;   // the same, relative to the energy turned over, or to the block's kinetic
-                           // energy at the rod's speed if that is more
+    // The same, relative to the energy turned over, or to the block's kinetic energy at the rod's
+    // speed if that is more.
+    double energy_error;
     double moment_error;   // of all forces and inertia about the origin, relative to F_N L
     double moment_static_error;   // the same without inertia
     double contact_error;   // largest violation of the contact conditions, relative

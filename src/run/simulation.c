@@ -134,8 +134,10 @@ bool amontons_simulation_create(const Scene *scene, const RunOptions *options, S
              scene->path);
     TRY(model_obtain(simulation, err));
     TRY(model_prepare_steps(simulation, err));
+    const char *warning = amontons_scene_warning(scene);
+    if (warning) warnings_add(&simulation->warnings, "%s", warning);
     warnings_of_resolution(&simulation->control.certificate, simulation->scales.load,
-                           scene->material.eta1, &simulation->warnings);
+                           &simulation->warnings);
     TRY(model_relax(simulation, err));
     TRY(explicit_loop_prepare(simulation, err));
     TRY(open_recorders(simulation, err));

@@ -4,8 +4,7 @@
 //     -mu'(0) p w_i  >  S_C[t_i, t_i],     p the mean pressure, w_i the node's weight.
 //
 // S_C of one node hardly depends on the mesh and w_i shrinks with it, so this is a matter of
-// element size: above it l_sc is shorter than an element. Without viscosity S_C = 0 on any mesh:
-// the shorter a disturbance the faster it grows, and there is no answer to converge to.
+// element size: above it l_sc is shorter than an element.
 #include "run/warnings.h"
 
 #include <stdarg.h>
@@ -20,17 +19,11 @@ void warnings_add(RunWarnings *warnings, const char *format, ...)
     va_end(arguments);
 }
 
-void warnings_of_resolution(const Certificate *certificate, double load, double eta1,
-                            RunWarnings *warnings)
+void warnings_of_resolution(const Certificate *certificate, double load, RunWarnings *warnings)
 {
     const Interface *interface = certificate->interface;
     double slope = -friction_slope(certificate->law, 0), length = 0;
-    if (!(slope > 0)) return;
-    if (!(eta1 > 0) || !certificate->damping) {
-        warnings_add(warnings, "friction weakens and shear has no viscosity (material.eta1 = 0): "
-                               "the problem is ill-posed, and what comes out depends on the mesh");
-        return;
-    }
+    if (!(slope > 0) || !certificate->damping) return;   // no damping: the scene was warned of
     const double *schur = interface_operator_schur(certificate->damping);
     int32_t unstable = 0;
     double worst = 0;

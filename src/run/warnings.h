@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What makes a scene's answer doubtful though it can be computed: weakening friction without
-// viscosity, or with too little of it for the mesh. Written to run.json (results.warnings), handed
-// to the caller in RunSummary. Called by run/simulation once its model stands.
+// What makes a scene's answer doubtful though it can be computed: what the scene alone tells
+// (amontons_scene_warning), and weakening that is too fast for viscosity and mesh. Written to
+// run.json (results.warnings), handed to the caller in RunSummary. Called by run/simulation once
+// its model stands.
 #ifndef AMONTONS_RUN_WARNINGS_H
 #define AMONTONS_RUN_WARNINGS_H
 
@@ -9,10 +10,9 @@
 #include "contact/friction_law.h"
 #include "stepping/certificate.h"
 
-// Looks at law, damping and interface; load: F_N, force/width, taken as evenly spread; eta1: the
-// viscosity of shear, stress times time. Appends to `warnings`.
-void warnings_of_resolution(const Certificate *certificate, double load, double eta1,
-                            RunWarnings *warnings);
+// Looks at law, damping and interface; load: F_N, force/width, taken as evenly spread.
+// Appends to `warnings`.
+void warnings_of_resolution(const Certificate *certificate, double load, RunWarnings *warnings);
 
 void warnings_add(RunWarnings *warnings, const char *format, ...)
     __attribute__((format(printf, 2, 3)));   // what does not fit is left out

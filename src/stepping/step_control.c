@@ -9,14 +9,14 @@
 static const double SAFETY = 0.5;
 static const double ESTIMATE_ORDER = 3;
 
-// A rung that slip outgrew is not tried again for a while, twice as long each time: it would fail
-// again. Without this half of all steps were repeated where growth limits the step (set B).
-// A step may leave this part of what it turned over unaccounted, in units of the ledger's tolerance;
-// or that part of all that was turned over before, whatever its own. Nothing is asked of steps below
-// the last fraction of the wave step: what hits something loses the energy of the nodes that hit,
+// A step may leave the first part of what it turned over unaccounted, in units of the ledger's
+// tolerance; or the second part of all that was turned over so far. Nothing is asked of steps below
+// the third part of the wave step: what hits something loses the energy of the nodes that hit,
 // however short the step, and shorter ones only drive the force of the blow up.
 static const double STEP_BALANCE = 0.5, TOTAL_BALANCE = 1e-4, SHORTEST_BALANCED = 0.25;
 
+// A rung that slip outgrew is not tried again for a while, twice as long each time: it would fail
+// again. Without this half of all steps were repeated where growth limits the step (set B).
 enum { HOLD_FIRST = 4, HOLD_MAX = 256 };
 
 bool step_control_create(const Block *block, const StepControlDef *def, StepControl *control,

@@ -19,7 +19,7 @@ typedef struct StepControlDef {
     double relax_step;   // while relaxing steps may be so long, also where step_max is less, time
     double step_min;   // below it the run stops with an error, time
     double wave_step;   // largest step while not certified, time
-    double energy_tolerance;   // of the energy ledger, relative to what was turned over; 0: not asked
+    double energy_tolerance;   // of the ledger, relative to what was turned over; 0: not asked
     double growth_max;   // a step's successor may be at most this many times longer: 2
     bool use_certificate;   // off only to study what it prevents
 } StepControlDef;

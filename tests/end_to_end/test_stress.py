@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The quick part of the stress matrix: each extreme ends in a right answer or an honest refusal; and
-the matrix is seen to notice what is wrong."""
+"""The quick part of the stress matrix: each extreme ends in a right answer or an honest refusal;
+and the matrix is seen to notice what is wrong."""
 import os
 import subprocess
 import sys

@@ -22,7 +22,8 @@ from measured_run import ROOT, commit, markdown_table, run
 
 SCENE = Path(__file__).resolve().parent / "stress.yaml"
 FINER = ["time.tolerance=1e-4", "time.wave_step=0.05"]
-# Largest violations allowed; of energy the scene says. Contact is measured against the mean nodal force and against V.
+# Largest violations allowed; of energy the scene says. Contact is measured against the mean nodal
+# force and against V.
 BOUNDS = {"complementarity": 1e-6, "moment": 1e-8, "equation": 1e-8}
 HEAD = ["group", "case", "ended", "steps", "rejected", "unsolved", "mu, largest", "peaks",
         "twin differs by", "energy", "contact", "moment", "equation", "cpu s", "MB", "what it said"]
@@ -32,7 +33,8 @@ def answer(case, ended):
     """What twins compare: the first peak of mu; where there is none, or the rod's impact stands out
     of mu, the mean of mu over the second half of the run."""
     peaks = ended.report.get("results", {}).get("peaks") or []
-    return peaks[0]["mu"] if peaks and not case.late else ended.late_mu
+    return (peaks[0]["mu"] if peaks and not case.late else
+            ended.late_mu if math.isfinite(ended.late_mu) else ended.report["results"]["mu_max"])
 
 
 def is_number(value):
@@ -97,7 +99,8 @@ def row(case, ended, word, faults, difference):
     said = " ".join(ended.said.split()) or "; ".join(warned)
     bad = f"**WRONG**: {'; '.join(faults)}. " if faults else ""
     return [case.group, case.name, word, steps.get("accepted", "-"), steps.get("rejected", "-"),
-            steps.get("unsolved_retries", "-"), show(report.get("results", {}).get("mu_max"), ".4f"),
+            steps.get("unsolved_retries", "-"),
+            show(report.get("results", {}).get("mu_max"), ".4f"),
             len(report.get("results", {}).get("peaks") or []), show(difference),
             show(errors.get("energy")), show(errors.get("complementarity")),
             show(errors.get("moment")), show(errors.get("equation")), f"{ended.seconds:.2f}",
@@ -144,7 +147,7 @@ def write(folder, rows):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("-o", "--output", type=Path, default=ROOT / "results/stress")
-    parser.add_argument("--only", nargs="*", help="cases whose group or name has one of these words")
+    parser.add_argument("--only", nargs="*", help="cases with one of these words in group or name")
     parser.add_argument("--quick", action="store_true", help="some dozen cases, no long run")
     parser.add_argument("--no-cycles", action="store_true", help="no long run")
     parser.add_argument("--cpu", type=int, default=60, help="processor seconds a run may take")

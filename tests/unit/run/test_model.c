@@ -172,7 +172,7 @@ static void test_until_periodic(void **state)
     assert_near("mu_M", summary[1].mu_M, summary[0].mu_M, 0.03 * summary[0].mu_M);
 }
 
-// A free run of 1e-7 time units takes steps of 2e-9, and yet relaxes in a few dozen steps; a rod that
+// A free run of 1e-7 time units takes steps of 2e-9 and yet relaxes in a few dozen; a rod that
 // hardly moves leaves a shortest step far below the waves'.
 static void test_extreme_speeds(void **state)
 {
