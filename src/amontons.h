@@ -29,16 +29,14 @@ enum { AMONTONS_PATH_SIZE = 1024 };
 
 // One accepted step, as shown to the caller.
 typedef struct StepView {
-    double t;   // time, 0 when the rod starts
-    double U;   // displacement of the rod, length
+    double t, U;   // time, 0 when the rod starts; displacement of the rod, length
     double mu;   // F_T / F_N
     double step_size;   // of this step, time
     double front;   // l, how far slip has grown from the trailing edge, length
     double max_slip_rate;   // largest |slip rate| on the interface, velocity
     double fraction;   // of the way to `time.until`, 0 to 1
     bool certified;   // the slip set cannot grow on its own: large steps are allowed
-    int32_t events;   // precursors and slidings seen so far
-    int32_t slidings;   // leading events (the whole interface slipped) among them
+    int32_t events, slidings;   // seen so far: rapid ones; those that crossed the interface
 } StepView;
 
 // What was done, counted: a benchmark prints these, run.json holds them.
@@ -47,16 +45,13 @@ typedef struct RunCounters {
     int64_t rejected;   // steps undone by error control or by the certificate
     int64_t rejected_uncertified;   // of these: a large step that led to an uncertified state
     int64_t unsolved_retries;   // steps undone because the contact problem had no solution
-    int64_t factorisations;   // sparse
-    int64_t solves;   // sparse, forward plus backward
-    int64_t contact_solves;   // contact problems, two a step
-    int64_t contact_iterations;   // active-set iterations over all of them
+    int64_t factorisations, solves;   // sparse; a solve is forward plus backward
+    int64_t contact_solves, contact_iterations;   // contact problems, two a step; over all
     int64_t contact_fallbacks;   // contact problems that the plain iteration did not settle
     int64_t certificates;   // dissipativity checks
     int64_t loop_allocations;   // arrays allocated in the time loop (0 but new rungs, output)
 } RunCounters;
 
-// What a run came to, for the closing lines; run.json holds more.
 // One phase of a run, for --profile.
 typedef struct RunPhase {
     const char *name;       // "contact"; static storage
@@ -67,12 +62,12 @@ typedef struct RunPhase {
 
 enum { RUN_PHASES_MAX = 16, RUN_WARNINGS_MAX = 4, RUN_WARNING_SIZE = 400 };
 
-// What makes an answer doubtful though it was computed, a sentence each.
-typedef struct RunWarnings {
+typedef struct RunWarnings {   // what makes an answer doubtful, a sentence each
     int32_t count;
     char text[RUN_WARNINGS_MAX][RUN_WARNING_SIZE];
 } RunWarnings;
 
+// What a run came to, for the closing lines; run.json holds more.
 typedef struct RunSummary {
     double mu_low, mu_high;        // smallest and largest peak, the first left out
     int32_t period;                // 1: the last peaks agree; 2: every second one; 0: neither
@@ -83,8 +78,7 @@ typedef struct RunSummary {
     double energy_error, moment_error, complementarity_error;   // the largest, relative
     double seconds_solve, seconds_output, seconds_total;   // wall time
     RunCounters counters;
-    int32_t field_files;   // VTU files written
-    int32_t figures;   // pictures drawn
+    int32_t field_files, figures;   // VTU files written, pictures drawn
     RunWarnings warnings;   // also where the run failed
     int32_t phase_count;
     // Rungs, contact, certificate and bulk are parts of relax and solve.
