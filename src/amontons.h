@@ -61,7 +61,6 @@ typedef struct RunPhase {
 } RunPhase;
 
 enum { RUN_PHASES_MAX = 16, RUN_WARNINGS_MAX = 4, RUN_WARNING_SIZE = 400 };
-
 typedef struct RunWarnings {   // what makes an answer doubtful, a sentence each
     int32_t count;
     char text[RUN_WARNINGS_MAX][RUN_WARNING_SIZE];
