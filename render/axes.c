@@ -12,6 +12,8 @@ static const double TICK_LENGTH = 2.6;   // points
 static const double MINOR_LENGTH = 1.5;   // points
 static const double NUMBER_GAP = 1.6;   // points: tick to number
 static const double LABEL_GAP = 3.2;   // points: numbers to name
+static const double NUMBER_PITCH = 1.5;   // a number's share of the axis over its width ...
+static const double LOG_PITCH = 1.15;   // ... and of a power of ten, of which two must be seen
 static const double EDGE_GAP = 1.5;   // points: name to the picture's edge
 
 // 0 at the low end of the axis, 1 at the high one; what a logarithmic axis cannot show is NaN.
@@ -55,7 +57,8 @@ static Ticks ticks_along_x(const Page *page, const Axes *axes)
     Ticks ticks = {0};
     for (int32_t wanted = TICKS_X_MAX; wanted >= TICKS_MIN; --wanted) {
         ticks = axis_ticks(&axes->x, wanted);
-        if (1.5 * ticks.count * number_width(page, axes, &ticks) <= room) break;
+        double pitch = ticks.is_log ? LOG_PITCH : NUMBER_PITCH;
+        if (pitch * ticks.count * number_width(page, axes, &ticks) <= room) break;
     }
     return ticks;
 }

@@ -147,8 +147,8 @@ def figure_3a(place, a_rows, b_rows):
         "title": "mu_M against the critical length", "height": 0.85,
         "x": {"label": "~{l}_{c} / ~{L}", "range": [0, 1.02]}, "y": {"label": MU_LABEL, "range": [0, 1.5]},
         "legend": "upper-left", "series": series,
-        "inset": {"place": [0.29, 0.015, 0.66, 0.40], "legend": "none",
-                  "x": {"label": P_LABEL, "scale": "log"},
+        "inset": {"place": [0.29, 0.015, 0.68, 0.38], "legend": "none",
+                  "x": {"label": P_LABEL, "scale": "log", "range": [8e-4, 0.13]},
                   "y": {"label": "~{l}_{c} / ~{L}", "scale": "log"}, "series": inset}})
 
 
@@ -374,7 +374,8 @@ authors later corrected v_c, V and eta1 in the 3D follow-up.
              picture(place, "velocity-b", "mu_M against V/v_c"), parts["adiabatic"],
              "\n## Precursors and the rod's velocity, set A, L = 1, P = 0.003\n\n",
              picture(place, "velocity-a", "slip rates against V"), parts["velocity"],
-             "\nThe paper: the slip rate of bounded precursors falls with V, that of leading ones does not.\n",
+             "\nThe paper: the slip rate of bounded precursors falls with V, that of leading ones does not. (A mean front "
+             "speed above c_L = 1.06 is no rupture: at such V the block begins to slip at many places at once.)\n",
              "\n## What mu_M depends on, set A, L = 1\n\n", parts["depends"],
              "\n## Time\n\n",
              table(["sweep", "wall time, s"], [(k, round(v, 1)) for k, v in place.seconds.items()])]
