@@ -14,7 +14,7 @@ from pathlib import Path
 
 SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
 FILE_LINES, FUNCTION_LINES, ARGUMENTS, COLUMNS = 700, 90, 6, 100
-HEADER_LINES = {"amontons.h": 250}   # the public header; every other header: below 150
+HEADER_LINES = {"amontons.h": 270}   # the public header; every other header: below 150
 HEADER_LINES_MAX = 150
 CLANG_FORMAT = "14"                  # Debian 12's; another major version formats otherwise
 LICENCE = "SPDX-License-Identifier: GPL-2.0-or-later"
