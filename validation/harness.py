@@ -30,12 +30,22 @@ class Row:
     ours: object
     error: float
     tolerance: float
-    order: str = ""        # expected and observed, of a convergence study
+    order: str = ""        # of a convergence study: what is expected, and why
+    seen: float = None     # order observed
+    least: float = None    # order below which the row fails; None: shown for information only
     note: str = ""
 
     @property
     def passed(self):
-        return bool(np.isfinite(self.error)) and self.error <= self.tolerance
+        rises = self.least is None or self.seen >= self.least
+        return bool(np.isfinite(self.error)) and self.error <= self.tolerance and rises
+
+    @property
+    def order_text(self):
+        if self.seen is None:
+            return self.order
+        checked = "not checked" if self.least is None else f"at least {self.least:g} required"
+        return f"{self.order}{', ' if self.order else ''}{self.seen:.2f} observed, {checked}"
 
 
 @dataclass

@@ -17,7 +17,7 @@ def row_lines(rows):
     for r in rows:
         note = f" ({r.note})" if r.note else ""
         yield (f"| {r.case} | {r.quantity}{note} | {shown(r.reference)} | {shown(r.ours)} | "
-               f"{r.error:.1e} | {r.tolerance:.0e} | {r.order} | {verdict(r.passed)} |")
+               f"{r.error:.1e} | {r.tolerance:.0e} | {r.order_text} | {verdict(r.passed)} |")
 
 
 def invariant_lines(invariants):
@@ -43,11 +43,12 @@ def control_lines(controls):
 
 
 def order_lines(rows):
-    yield "| case | order |"
-    yield "|---|---|"
+    yield "| case | order | |"
+    yield "|---|---|---|"
     for r in rows:
-        if r.order:
-            yield f"| {r.case}, {r.quantity} | {r.order} |"
+        if r.seen is not None:
+            yield (f"| {r.case}, {r.quantity} | {r.order_text} | "
+                   f"{'information only' if r.least is None else verdict(r.seen >= r.least)} |")
 
 
 def write_report(study, folder, how):
@@ -78,7 +79,7 @@ def write_report(study, folder, how):
     (folder / "report.md").write_text("\n".join(lines))
     for r in failed:
         print(f"FAIL {r.group}: {r.case}: {r.quantity}: {shown(r.ours)} against {shown(r.reference)}, "
-              f"error {r.error:.2e}, allowed {r.tolerance:.0e}")
+              f"error {r.error:.2e}, allowed {r.tolerance:.0e} {r.order_text}")
     for case, name, value, tolerance in broken:
         print(f"FAIL invariant: {case}: {name} {value:.2e}, allowed {tolerance:.0e}")
     for c in missed:

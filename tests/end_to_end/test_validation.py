@@ -53,13 +53,17 @@ class Verdicts(unittest.TestCase):
             finally:
                 sys.stdout = shown
 
-    def row(self, error):
-        return Row("group", "case", "quantity", 1.0, 1.0 + error, error, 1e-3)
+    def row(self, error, **order):
+        return Row("group", "case", "quantity", 1.0, 1.0 + error, error, 1e-3, **order)
 
     def test_each_kind_of_failure_counts(self):
         self.assertTrue(self.verdict(rows=[self.row(1e-4)]))
         self.assertFalse(self.verdict(rows=[self.row(1e-4), self.row(1e-2)]))
         self.assertFalse(self.verdict(rows=[self.row(float("nan"))]))
+        self.assertTrue(self.verdict(rows=[self.row(1e-4, seen=1.9, least=1.8)]))
+        self.assertFalse(self.verdict(rows=[self.row(1e-4, seen=1.7, least=1.8)]))
+        self.assertFalse(self.verdict(rows=[self.row(1e-4, seen=float("nan"), least=1.8)]))
+        self.assertIn("not checked", self.row(1e-4, seen=0.3).order_text)
         self.assertTrue(self.verdict(invariants=[("run", "energy", 1e-5, 1e-3)]))
         self.assertFalse(self.verdict(invariants=[("run", "energy", 1e-2, 1e-3)]))
         self.assertFalse(self.verdict(invariants=[("run", "energy", float("nan"), 1e-3)]))

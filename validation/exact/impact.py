@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from harness import Chart, Control, Row, Run, observed_order
+from harness import Chart, Control, Row, Run
 
 HERE = Path(__file__).resolve().parent
 GROUP = "unilateral dynamics"
@@ -40,13 +40,18 @@ def run(study):
     texts = {"duration": "duration of contact 2 L/c", "stress": "contact stress v0 sqrt(E rho)",
              "speed": "mean speed after the rebound", "impulse": "impulse 2 rho L v0"}
     limits = {"duration": 0.02, "stress": 5e-3, "speed": 2e-2, "impulse": 1e-2}
-    curves = {}
+    # A scheme of order 2 carries a jump with an error over a width of about h^(2/3) (Hedstrom, Math.
+    # Comp. 29, 1975), and so do means over it. The end of contact falls between two steps, early or
+    # late: an order of it says nothing, its error is what is checked.
+    notes, curves = {"duration": "no order is required of a moment between two steps"}, {}
     for name, value in exact.items():
         errors = [abs(r[name] / value - 1) for r in results]
+        order = np.log(errors[0] / errors[-1]) / np.log(cells[-1] / cells[0])
         curves[name] = ([1 / n for n in cells], [max(e, 1e-16) for e in errors])
         study.add(GROUP, f"bar on a wall, {cells[-1]} cells", texts[name], value, results[-1][name],
                   errors[-1], limits[name],
-                  order=f"at most 1 expected (a shock), {observed_order([1 / n for n in cells], curves[name][1]):.2f} observed")
+                  order="" if name == "duration" else "2/3 expected (a jump)", seen=order,
+                  least=None if name == "duration" else 0.5, note=notes.get(name, ""))
     fine = results[-1]
     study.charts.append(Chart("impact", "Bar on a wall: contact stress in time", "t", "stress",
                               {f"{cells[-1]} cells": (fine["t"], fine["pressure"]),

@@ -37,7 +37,7 @@ def in_space(study):
                 study.add(GROUP, f"manufactured solution, {element}, {layout}", name,
                           f"order {expected}", f"error {table[-1, column]:.2e}",
                           max(0, expected - seen), 0.25,
-                          order=f"{expected} expected, {seen:.2f} observed")
+                          order=f"{expected} expected", seen=seen, least=expected - 0.25)
             curves[element] = (sizes, table[:, 1])
         study.charts.append(Chart(f"manufactured-{layout}",
                                   f"Manufactured solution on {layout} meshes: L2 error of u", "h",
@@ -51,7 +51,8 @@ def in_space(study):
 def with_events(study):
     """The first peak of F_T/F_N in a stick-slip run, with all step sizes halved again and again. The
     peak is where slip runs away: what remains is not a power of the step but the moment at which a
-    step happens to end, so no order is claimed."""
+    step happens to end, so no order is claimed: the steps must matter less than a tenth of the 0.5 %
+    to which mu_M is promised."""
     steps, peaks = [], []
     for k in range(5):
         run = Run(study, SOURCE / "validation/paper/fig1.yaml", "fig1", {
@@ -64,7 +65,8 @@ def with_events(study):
     spread = max(peaks) / min(peaks) - 1
     study.add(GROUP, "stick-slip, Figure 1 on 16 x 16", "first peak of F_T/F_N, steps halved four times",
               "no change", ", ".join(f"{p:.6f}" for p in peaks), spread, 3e-4,
-              note="no order: events; steps " + ", ".join(map(str, steps)))
+              note="no order: events; allowed: under a tenth of the 0.5 % promised for mu_M; steps "
+              + ", ".join(map(str, steps)))
     study.charts.append(Chart("order-events", "Stick-slip: first peak against steps", "steps",
                               "F_T/F_N", {"SDIRK2": (steps, peaks)}))
 

@@ -127,7 +127,7 @@ def line_contact(study):
               f"exact {2 * FORCE / np.pi / a:.5f}")
     study.add(GROUP, "Cattaneo-Mindlin, Q = mu P'/2", "stick half-width c (second moment of tau)", c,
               ours_c, errors["c"][-1], 1e-2,
-              order=f"{observed_order([1 / n for n in cells], errors['c']):.2f} observed")
+              seen=observed_order([1 / n for n in cells], errors["c"]))
     stick = np.abs(x[sheared.status == 1]).max()
     slip = np.abs(x[sheared.status >= 2]).min()
     study.add(GROUP, "Cattaneo-Mindlin, Q = mu P'/2", "outermost sticking, innermost slipping node",
