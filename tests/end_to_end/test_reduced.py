@@ -77,11 +77,14 @@ class BothPaths(Runs):
         common, mine, its = np.intersect1d(reduced[0]["time"], full[0]["time"],
                                            return_indices=True)
         self.assertGreater(len(common), 0.3 * len(full[0]["time"]))
-        # But for nodes on the edge between two statuses: an instant early or late.
         different = reduced[1]["status"][mine] != full[1]["status"][its]
-        self.assertLess(different.mean(), 2e-3)
-        self.assertGreater(len(np.unique(full[1]["status"][its])), 2)
         still = common < 0.9 * full[2]["results"]["peaks"][0]["U"] / 1e-5
+        self.assertLess(different[still].mean(), 1e-3)
+        # Later the two no longer take the same steps (each measures its error in its own unknowns),
+        # so a node at the edge between two statuses changes up to a step early or late: one node in
+        # 17 during one step in ten.
+        self.assertLess(different.mean(), 6e-3)
+        self.assertGreater(len(np.unique(full[1]["status"][its])), 2)
         np.testing.assert_allclose(reduced[0]["mu"][mine][still], full[0]["mu"][its][still],
                                    atol=1e-5)
         return reduced, full
