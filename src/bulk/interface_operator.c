@@ -75,7 +75,6 @@ static void apply_reduced(const ReducedBulk *reduced, BulkTerm term, const doubl
 {
     const BulkScales *scales = &reduced->scales;
     double factor = scales->stiffness;
-    int32_t scaled = reduced->count;
     if (term == BULK_STIFFNESS) {
         dense_symmetric_apply(reduced->stiffness, reduced->interface_count, x, y);
         memcpy(y + reduced->interface_count, x + reduced->interface_count,
@@ -85,7 +84,7 @@ static void apply_reduced(const ReducedBulk *reduced, BulkTerm term, const doubl
         dense_symmetric_apply(term == BULK_MASS ? reduced->mass : reduced->damping, reduced->count,
                               x, y);
     }
-    for (int32_t k = 0; k < scaled; k++) y[k] *= factor;
+    for (int32_t k = 0; k < reduced->count; k++) y[k] *= factor;
 }
 
 void bulk_operator_apply(const BulkOperator *system, BulkTerm term, const double *x, double *y)

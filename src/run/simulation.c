@@ -9,6 +9,7 @@
 #include "run/model.h"
 #include "run/output.h"
 #include "run/result_folder.h"
+#include "run/step_view.h"
 #include "run/summary.h"
 #include "run/warnings.h"
 
@@ -31,17 +32,7 @@ static bool report_step(void *self, const Observation *seen, Error *err)
     (void)err;
     Simulation *simulation = self;
     if (!simulation->options.on_step) return true;
-    const int32_t *kinds = simulation->events.kinds;
-    StepView view = {.t = seen->t,
-                     .U = seen->U,
-                     .mu = seen->mu,
-                     .step_size = seen->step_size,
-                     .front = seen->front,
-                     .max_slip_rate = seen->max_slip_rate,
-                     .fraction = fmin(seen->t / simulation->t_end, 1),
-                     .certified = seen->certified,
-                     .events = kinds[EVENT_BOUNDED] + kinds[EVENT_LEADING],
-                     .slidings = kinds[EVENT_LEADING]};
+    StepView view = step_view(seen, &simulation->events, simulation->t_end);
     simulation->options.on_step(&view, simulation->options.context);
     return true;
 }
@@ -165,16 +156,7 @@ bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *fini
                 (implicit && !step_control_fits(control, remaining));
     if (simulation->scene.time.until_periodic && simulation->events.crossed)
         *finished = *finished || peaks_summarise(&simulation->peaks).period > 0;
-    const Observation *seen = &simulation->seen;
-    if (view)
-        *view = (StepView){.t = seen->t,
-                           .U = seen->U,
-                           .mu = seen->mu,
-                           .step_size = seen->step_size,
-                           .front = seen->front,
-                           .max_slip_rate = seen->max_slip_rate,
-                           .fraction = fmin(seen->t / simulation->t_end, 1),
-                           .certified = seen->certified};
+    if (view) *view = step_view(&simulation->seen, &simulation->events, simulation->t_end);
 cleanup:
     return error_is_clean(err);
 }

@@ -4,6 +4,7 @@
 #include "study/model1d.h"
 
 #include "run/recorder.h"
+#include "run/step_view.h"
 
 #include <math.h>
 
@@ -121,17 +122,7 @@ static void compare_step(Model1dSimulation *simulation, const Observation *seen)
 static void report_step(const Model1dSimulation *simulation, const Observation *seen)
 {
     const Model1dOptions *options = simulation->options;
-    const int32_t *kinds = simulation->events.kinds;
-    StepView view = {.t = seen->t,
-                     .U = seen->U,
-                     .mu = seen->mu,
-                     .step_size = seen->step_size,
-                     .front = seen->front,
-                     .max_slip_rate = seen->max_slip_rate,
-                     .fraction = fmin(seen->t / simulation->t_end, 1),
-                     .certified = seen->certified,
-                     .events = kinds[EVENT_BOUNDED] + kinds[EVENT_LEADING],
-                     .slidings = kinds[EVENT_LEADING]};
+    StepView view = step_view(seen, &simulation->events, simulation->t_end);
     if (options->on_step) options->on_step(&view, options->context);
 }
 
