@@ -89,11 +89,19 @@ cleanup:
     return error_is_clean(err);
 }
 
+static void take_result(Sweep *sweep, const Worker *worker, const char *report)
+{
+    SweepPoint *point = &sweep->points[worker->point];
+    point->status = point_status(report);
+    point->seconds = clock_seconds() - worker->started;
+    sweep->computed++;
+    sweep_tell(sweep, worker->point, report);
+}
+
 // What the child left, or else why it left nothing.
 static bool note_result(Pool *pool, Worker *worker, int ending, Error *err)
 {
     Sweep *sweep = pool->sweep;
-    SweepPoint *point = &sweep->points[worker->point];
     char *report = point_report(sweep, worker->point, err), message[ERROR_MESSAGE_SIZE];
     TRY(error_is_clean(err));
     if (point_status(report) == POINT_PENDING) {
@@ -115,10 +123,7 @@ static bool note_result(Pool *pool, Worker *worker, int ending, Error *err)
         memory_free(report);
         TRY((report = point_report(sweep, worker->point, err)));
     }
-    point->status = point_status(report);
-    point->seconds = clock_seconds() - worker->started;
-    sweep->computed++;
-    sweep_tell(sweep, worker->point, report);
+    take_result(sweep, worker, report);
 cleanup:
     memory_free(report);
     return error_is_clean(err);
@@ -189,13 +194,18 @@ cleanup:
     return error_is_clean(err);
 }
 
+// A point that was written before the signal came is finished like any other.
 static void end_workers(Pool *pool)
 {
+    Error ignored = {0};   // the caller tells why the pool ends
     for (int32_t k = 0; k < pool->size; k++) {
         Worker *worker = &pool->workers[k];
         if (!worker->process) continue;
         kill(worker->process, SIGTERM);
         reap(worker);
+        char *report = point_report(pool->sweep, worker->point, &ignored);
+        if (point_status(report) != POINT_PENDING) take_result(pool->sweep, worker, report);
+        memory_free(report);
     }
 }
 

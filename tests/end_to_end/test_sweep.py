@@ -152,6 +152,29 @@ class Sweep(unittest.TestCase):
         self.assertEqual(states.count("pending"), 8 - len(finished))
         self.resumed(study, finished)
 
+    def test_points_that_finish_as_the_signal_comes(self):
+        """The pool asleep, both its points finish; then the signal: the table must know them."""
+        study = self.study(STUDY.replace("10", "24"))
+        process = subprocess.Popen([PROGRAM, "sweep", study, "-o", self.folder / "out", "-j", "2"], env=self.place,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+
+        def children():
+            return subprocess.run(["pgrep", "-P", str(process.pid)], capture_output=True, text=True,
+                                  check=False).stdout.split()
+
+        while len(children()) < 2 and process.poll() is None:
+            time.sleep(0.002)
+        process.send_signal(signal.SIGSTOP)
+        while any(Path(f"/proc/{child}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z" for child in children()):
+            time.sleep(0.005)
+        process.send_signal(signal.SIGINT)
+        process.send_signal(signal.SIGCONT)
+        process.communicate(timeout=60)
+        states = [row["status"] for row in self.table()]
+        found = [json.loads(p.read_text())["status"] for p in (self.folder / "out/points").glob("*/run.json")]
+        self.assertGreaterEqual(found.count("done"), 2)
+        self.assertEqual(states.count("done"), found.count("done"))
+
     def test_failing_points(self):
         study = self.study(STUDY.replace("vary:", "cases: [{groups.top: top}, {groups.top: roof}]\nvary:"))
         done = self.sweep(study=study, status=1)
