@@ -71,6 +71,8 @@ typedef struct RunSummary {
     double mu_low, mu_high;        // smallest and largest peak, the first left out
     int32_t period;                // 1: the last peaks agree; 2: every second one; 0: neither
     double mu_M, mu_M_spread;   // of the periodic peaks; NaN: no peak seen
+    double mu_trusted;   // of the periodic falls of the force, all sliding or not, the lowest; NaN
+    int32_t falls, fall_period;   // counted for it; after how many they repeat, 0: they do not
     int32_t peaks, peaks_counted;   // seen, and belonging to the periodic regime
     int32_t quasi_static, bounded, leading;   // events by kind
     double critical_length;   // l_c / L seen in the dynamics; NaN: none

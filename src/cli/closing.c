@@ -8,10 +8,25 @@
 #include <string.h>
 #include <unistd.h>
 
+// Where parts of the block slide on their own, the force may fall below mu_M.
+static void print_falls(const RunSummary *summary)
+{
+    const double same = 0.01;
+    if (isnan(summary->mu_trusted) || summary->mu_trusted > (1 - same) * summary->mu_M) return;
+    printf("  to trust        %.4f: here the force falls by 5 %% or more, though not all slides;\n",
+           summary->mu_trusted);
+    if (summary->fall_period > 0)
+        printf("                  the lowest of %d falls that repeat after %d\n", summary->falls,
+               summary->fall_period);
+    else
+        printf("                  the lowest of the last %d falls, which do not repeat\n",
+               summary->falls);
+}
+
 static void print_answers(const RunSummary *summary)
 {
     if (isnan(summary->mu_M))
-        printf("  mu_M            none: mu had no peak in this run\n");
+        printf("  mu_M            none: the block as a whole did not slide in this run\n");
     else if (isnan(summary->mu_M_spread))
         printf("  mu_M            %.4f, from one of %d peaks: spread not known\n", summary->mu_M,
                summary->peaks);
@@ -24,6 +39,7 @@ static void print_answers(const RunSummary *summary)
     if (summary->period == 2)
         printf("                  high and low peaks take turns: %.4f to %.4f\n", summary->mu_low,
                summary->mu_high);
+    print_falls(summary);
     printf("  precursors      %d quasi-static, %d bounded rapid, %d leading rapid\n",
            summary->quasi_static, summary->bounded, summary->leading);
     if (isnan(summary->critical_length))

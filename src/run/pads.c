@@ -161,8 +161,8 @@ static bool follow_slidings(Pads *pads, const Observation *seen, Error *err)
 {
     const Events *events = pads->events;
     if (events->ended) {
-        int32_t slid = count_slid(pads, seen->interface);
-        if (slid > 0) TRY(push_sliding(pads, slid, err));
+        pads->slid = count_slid(pads, seen->interface);
+        if (pads->slid > 0) TRY(push_sliding(pads, pads->slid, err));
     }
     if (events->rapid < 0 && seen->mu > pads->rising.mu) {
         pads->rising.mu = seen->mu;
@@ -197,22 +197,17 @@ cleanup:
 }
 
 // Of the later half of the slidings: what the start left is gone by then.
-static void write_falls(const Pads *pads, JsonWriter *json)
+static double lowest_sliding(const Pads *pads)
 {
-    double low = INFINITY, high = -INFINITY;
-    int32_t first = pads->sliding_count / 2;
-    for (int32_t k = first; k < pads->sliding_count; k++) {
-        low = fmin(low, pads->slidings[k].mu);
-        high = fmax(high, pads->slidings[k].mu);
-    }
-    bool any = pads->sliding_count > 0;
-    json_number(json, "mu_falls_low", any ? low : NAN);
-    json_number(json, "mu_falls_high", any ? high : NAN);
+    double low = NAN;
+    for (int32_t k = pads->sliding_count / 2; k < pads->sliding_count; k++)
+        low = fmin(low, pads->slidings[k].mu);   // fmin of NaN and a number is the number
+    return low;
 }
 
 void pads_write_json(const Pads *pads, JsonWriter *json)
 {
-    write_falls(pads, json);
+    json_number(json, "mu_first_pad", lowest_sliding(pads));
     json_begin_list(json, "pads");
     for (int32_t p = 0; p < pads->count; p++) {
         const Pad *pad = &pads->list[p];

@@ -20,8 +20,8 @@ typedef struct PadCycle {
     double slow_length;   // how much of it slipped just before: l_c of the pad, length
 } PadCycle;
 
-// A rapid event in which some pads slipped over all their length: the force falls, also where not
-// all of them did and the block as a whole has not slid.
+// A rapid event in which some pads slipped over all their length, also where the others held and
+// the force hardly fell (run/falls has those in which it did).
 typedef struct PadSliding {
     double U, mu;   // the largest mu since the one before, and where it was; length, 1
     int32_t pads;   // that slid
@@ -50,6 +50,7 @@ typedef struct Pads {
     int32_t cycles;   // that ended in sliding
     double mu;   // the largest of this cycle
     bool started;   // the first step was seen
+    int32_t slid;   // pads that slid in the rapid event that ended last
     PadSliding rising;   // the largest mu since the last sliding of any pad
     int32_t sliding_count, sliding_room;
     PadSliding *slidings;   // [sliding_count]; owned
@@ -59,8 +60,7 @@ bool pads_create(const Interface *interface, const Events *events, Pads *pads, E
 void pads_destroy(Pads *pads);
 bool pads_record(void *self, const Observation *seen, Error *err);   // a Recorder
 
-// results.pads, results.pad_slidings, and of the later half of those mu_falls_low and _high: the
-// smallest and the largest mu at which the force fell.
+// results.pads, results.pad_slidings; results.mu_first_pad: of their later half, the smallest mu.
 void pads_write_json(const Pads *pads, JsonWriter *json);
 
 #endif

@@ -120,6 +120,7 @@ static void write_results(JsonWriter *json, const RunReport *report)
     }
     json_end(json);
     write_warnings(json, report->warnings);
+    falls_write_json(report->falls, json);
     pads_write_json(report->pads, json);
     write_events(json, report->events);
     json_end(json);

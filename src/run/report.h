@@ -5,7 +5,7 @@
 #define AMONTONS_RUN_REPORT_H
 
 #include "amontons.h"
-#include "run/pads.h"
+#include "run/falls.h"
 #include "run/peaks.h"
 #include "run/scene.h"
 
@@ -38,6 +38,7 @@ typedef struct RunReport {
     const RunErrors *errors;
     const Peaks *peaks;
     const Pads *pads;
+    const Falls *falls;
     const PeaksSummary *summary;
     const Events *events;
     const RunWarnings *warnings;

@@ -48,6 +48,9 @@ static bool open_recorders(Simulation *simulation, Error *err)
     recorders_add(&simulation->recorders, &simulation->peaks, peaks_record);
     TRY(pads_create(&simulation->interface, &simulation->events, &simulation->pads, err));
     recorders_add(&simulation->recorders, &simulation->pads, pads_record);
+    TRY(falls_create(&simulation->events, &simulation->pads, scene->time.periodic_tolerance,
+                     &simulation->falls, err));
+    recorders_add(&simulation->recorders, &simulation->falls, falls_record);
     if (writes_results(simulation) && scene->output.history)
         TRY(output_open_history(simulation, err));
     if (writes_results(simulation) && scene->output.fields)
@@ -138,6 +141,13 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Falls repeat, and with them the peaks of the whole block, where it has any.
+static bool is_periodic(Simulation *simulation)
+{
+    if (simulation->falls.count == 0) return peaks_summarise(&simulation->peaks).period > 0;
+    return falls_summarise(&simulation->falls).period > 0;
+}
+
 bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *finished, Error *err)
 {
     StepControl *control = &simulation->control;
@@ -154,8 +164,8 @@ bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *fini
     bool implicit = simulation->scene.time.scheme == SCHEME_SDIRK2;
     *finished = remaining <= 1e-9 * simulation->t_end ||
                 (implicit && !step_control_fits(control, remaining));
-    if (simulation->scene.time.until_periodic && simulation->events.crossed)
-        *finished = *finished || peaks_summarise(&simulation->peaks).period > 0;
+    if (simulation->scene.time.until_periodic && simulation->events.ended)
+        *finished = *finished || is_periodic(simulation);
     if (view) *view = step_view(&simulation->seen, &simulation->events, simulation->t_end);
 cleanup:
     return error_is_clean(err);
@@ -188,6 +198,7 @@ static bool finish_run(Simulation *simulation, const Error *failure, RunSummary 
                             .errors = &simulation->errors,
                             .peaks = &simulation->peaks,
                             .pads = &simulation->pads,
+                            .falls = &simulation->falls,
                             .summary = &peaks,
                             .events = &simulation->events,
                             .warnings = &simulation->warnings,
@@ -209,6 +220,7 @@ void amontons_simulation_destroy(Simulation *simulation)
     if (!simulation) return;
     fields_destroy(&simulation->fields);
     history_destroy(&simulation->history);
+    falls_destroy(&simulation->falls);
     pads_destroy(&simulation->pads);
     peaks_destroy(&simulation->peaks);
     events_destroy(&simulation->events);

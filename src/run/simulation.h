@@ -5,9 +5,9 @@
 #define AMONTONS_RUN_SIMULATION_H
 
 #include "amontons.h"
+#include "run/falls.h"
 #include "run/fields.h"
 #include "run/history.h"
-#include "run/pads.h"
 #include "run/recorder.h"
 #include "run/report.h"
 #include "run/scene.h"
@@ -35,6 +35,7 @@ struct Simulation {
     Events events;
     Peaks peaks;
     Pads pads;
+    Falls falls;
     History history;
     Fields fields;
     Recorders recorders;

@@ -80,8 +80,12 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters,
                   const PeaksSummary *peaks, RunSummary *summary)
 {
     const int32_t *kinds = simulation->events.kinds;
+    FallsSummary falls = falls_summarise(&simulation->falls);
     *summary = (RunSummary){.mu_M = peaks->mu_M,
                             .mu_M_spread = peaks->spread,
+                            .mu_trusted = falls.low,
+                            .falls = falls.counted,
+                            .fall_period = falls.period,
                             .mu_low = peaks->low,
                             .mu_high = peaks->high,
                             .period = peaks->period,

@@ -52,7 +52,7 @@ class PadsStudy(unittest.TestCase):
     def test_stability(self):
         run = self.run_program("run", 0.006, 11, "run.json")
         path = self.run_program("stability", 0.006, 11, "stability.json")
-        self.assertAlmostEqual(path["mu_M"] / run["mu_falls_low"], 1, delta=0.03)
+        self.assertAlmostEqual(path["mu_M"] / run["mu_first_pad"], 1, delta=0.03)
         self.assertGreater(run["mu_M"], 1.05 * path["mu_M"])   # the first fall is arrested at a gap
         slid = [event["pads"] for event in run["pad_slidings"]]
         self.assertIn(1, slid, "the trailing pad slides alone")
@@ -70,7 +70,12 @@ class PadsStudy(unittest.TestCase):
         slid = [event["pads"] for event in run["pad_slidings"]][-8:]
         self.assertEqual(sorted(slid), [7] * 4 + [8] * 4)
         self.assertTrue(all(a != b for a, b in zip(slid, slid[1:])))
-        self.assertGreater(run["mu_falls_high"], 1.1 * run["mu_falls_low"])
+        falls = run["falls"]
+        self.assertEqual((falls["period"], [branch["pads"] for branch in falls["branches"]]), (2, [7, 8]))
+        low, high = (branch["mu"] for branch in falls["branches"])
+        self.assertGreater(high, 1.1 * low)
+        self.assertAlmostEqual(run["mu_trusted"] / low, 1, delta=0.01)
+        self.assertAlmostEqual(run["mu_M"] / high, 1, delta=0.01)
 
 
 if __name__ == "__main__":

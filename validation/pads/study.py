@@ -42,8 +42,8 @@ class Point:
         self.n = int(self.mesh["n"])
         self.mu, self.period = number(row["mu_M"]), int(row["period"] or 0)
         self.l_c = number(row["l_c"])
-        self.fall_low = number(row["results.mu_falls_low"])
-        self.fall_high = number(row["results.mu_falls_high"])
+        self.fall_low = number(row["results.mu_trusted"])
+        self.fall_high = number(row["results.falls.mu_high"])
         self.load = sum(pad["normal_force_start"] for pad in self.pads)
 
 
