@@ -45,9 +45,12 @@ bool model_prepare_steps(Simulation *simulation, Error *err)
                           .growth_max = 2,
                           .use_certificate = scene->time.certificate};
     bool implicit = scene->time.scheme == SCHEME_SDIRK2;   // the keys mean the scheme named
-    if (implicit && scene->time.step_max > 0) def.step_max = scene->time.step_max;
     def.wave_step = scene->time.wave_step * simulation->model.length /
                     material_speeds(&simulation->material).longitudinal;
+    // Rungs are halvings of the longest step: it is raised so that the wave step, at which most
+    // steps are taken, is a rung and not up to twice as long as the next one.
+    if (driven) def.step_max = def.wave_step * exp2(ceil(log2(def.step_max / def.wave_step)));
+    if (implicit && scene->time.step_max > 0) def.step_max = scene->time.step_max;
     def.step_min = implicit && scene->time.step_min > 0
                        ? scene->time.step_min
                        : STEP_RANGE * fmin(def.step_max, def.wave_step);

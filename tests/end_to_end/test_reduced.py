@@ -76,7 +76,8 @@ class BothPaths(Runs):
         # Where both stand at the same time, the same nodes stick, slip and lift off.
         common, mine, its = np.intersect1d(reduced[0]["time"], full[0]["time"],
                                            return_indices=True)
-        self.assertGreater(len(common), 0.3 * len(full[0]["time"]))
+        # Once steps differ the two meet only now and then.
+        self.assertGreater(len(common), 0.2 * len(full[0]["time"]))
         different = reduced[1]["status"][mine] != full[1]["status"][its]
         still = common < 0.9 * full[2]["results"]["peaks"][0]["U"] / 1e-5
         self.assertLess(different[still].mean(), 1e-3)

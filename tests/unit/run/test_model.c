@@ -134,8 +134,9 @@ static void test_material(void **state)
 static void test_end_and_steps(void **state)
 {
     (void)state;
-    // 0.2 of the slip that the drop of friction drives, 0.28 * 0.003 * 0.5
-    const double slip_step = 0.2 * 0.28 * 0.003 * 0.5 / 1e-5;
+    // 0.2 of the slip that the drop of friction drives, 0.28 * 0.003 * 0.5, are 8.4 time units; the
+    // next 2^k times the wave step, 0.2 L / c_L with c_L^2 = 1 / (1 - 0.34^2), k = 6:
+    const double slip_step = 64 * 0.2 * sqrt(1 - 0.34 * 0.34);
     const struct {
         const char *until, *step_max;
         double t_end, longest;
