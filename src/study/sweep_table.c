@@ -5,11 +5,10 @@
 
 #include "base/memory.h"
 #include "io/array_file.h"
+#include "io/csv_writer.h"
 #include "io/json_reader.h"
-#include "io/part_file.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { CELL_SIZE = 2 * ERROR_MESSAGE_SIZE, WORDS_MAX = 64, WORD_SIZE = 64 };
@@ -22,8 +21,8 @@ typedef struct WordList {
 
 typedef struct Table {
     const Sweep *sweep;
-    PartFile csv;
-    double *keys;   // [column_count][point_count]; owned, like the next three
+    CsvWriter *csv;   // owned, like all below
+    double *keys;   // [column_count][point_count]
     double *records;   // [record_count][point_count]
     double *status;   // [point_count]
     WordList *words;   // [column_count]
@@ -38,52 +37,16 @@ static const char *status_name(PointStatus status)
 
 // --- sweep.csv ----------------------------------------------------------------------------------
 
-static bool write_text(Table *table, const char *text, Error *err)
-{
-    return part_file_write(&table->csv, text, (int64_t)strlen(text), err);
-}
-
-// Quoted where it must be.
-static bool write_cell(Table *table, const char *text, Error *err)
-{
-    if (!strpbrk(text, ",\"\n\r")) return write_text(table, text, err);
-    char quoted[CELL_SIZE];
-    size_t used = 0;
-    quoted[used++] = '"';
-    for (; *text && used + 4 < sizeof quoted; text++) {
-        if (*text == '"') quoted[used++] = '"';
-        quoted[used++] = *text;
-    }
-    quoted[used++] = '"';
-    quoted[used] = 0;
-    return write_text(table, quoted, err);
-}
-
-static bool write_number(Table *table, double value, Error *err)
-{
-    char digits[40] = "";
-    for (int precision = 6; isfinite(value) && precision <= 17; precision++) {
-        snprintf(digits, sizeof digits, "%.*g", precision, value);
-        if (strtod(digits, NULL) == value) break;
-    }
-    return write_text(table, digits, err);
-}
-
-static bool write_head(Table *table, Error *err)
+static void write_head(Table *table)
 {
     const Study *study = &table->sweep->study;
-    TRY(write_text(table, "point", err));
-    for (int32_t k = 0; k < study->column_count; k++) {
-        TRY(write_text(table, ",", err));
-        TRY(write_cell(table, study->columns[k], err));
-    }
-    for (int32_t k = 0; k < study->record_count; k++) {
-        TRY(write_text(table, ",", err));
-        TRY(write_cell(table, study->records[k].name, err));
-    }
-    TRY(write_text(table, ",status,message,run\n", err));
-cleanup:
-    return error_is_clean(err);
+    csv_text(table->csv, "point");
+    for (int32_t k = 0; k < study->column_count; k++) csv_text(table->csv, study->columns[k]);
+    for (int32_t k = 0; k < study->record_count; k++) csv_text(table->csv, study->records[k].name);
+    csv_text(table->csv, "status");
+    csv_text(table->csv, "message");
+    csv_text(table->csv, "run");
+    csv_end_row(table->csv);
 }
 
 // --- rows ---------------------------------------------------------------------------------------
@@ -97,60 +60,54 @@ static double word_index(WordList *list, const char *word)
     return list->count++;
 }
 
-static bool write_keys(Table *table, int32_t point, const Scene *scene, Error *err)
+static void write_keys(Table *table, int32_t point, const Scene *scene)
 {
     const Study *study = &table->sweep->study;
     for (int32_t k = 0; k < study->column_count; k++) {
         double number = NAN;
         study_scene_value(scene, study->columns[k], table->cell, CELL_SIZE, &number);
-        TRY(write_text(table, ",", err));
-        TRY(write_cell(table, table->cell, err));
+        csv_text(table->csv, table->cell);
         if (isnan(number)) number = word_index(&table->words[k], table->cell);
         table->keys[k * study->point_count + point] = number;
     }
-cleanup:
-    return error_is_clean(err);
 }
 
-static bool write_records(Table *table, int32_t point, const char *report, Error *err)
+// report: of a finished point, or NULL.
+static void write_records(Table *table, int32_t point, const char *report)
 {
     const Study *study = &table->sweep->study;
     for (int32_t k = 0; k < study->record_count; k++) {
         const char *path = study->records[k].path;
         double number = NAN;
-        TRY(write_text(table, ",", err));
-        if (report && json_find_number(report, path, &number))
-            TRY(write_number(table, number, err));
-        else if (report && json_find_text(report, path, table->cell, CELL_SIZE))
-            TRY(write_cell(table, table->cell, err));
+        if (report && !json_find_number(report, path, &number) &&
+            json_find_text(report, path, table->cell, CELL_SIZE))
+            csv_text(table->csv, table->cell);
+        else
+            csv_number(table->csv, number);
         table->records[k * study->point_count + point] = number;
     }
-cleanup:
-    return error_is_clean(err);
 }
 
 static bool write_row(Table *table, int32_t point, Scene *scene, Error *err)
 {
     const Sweep *sweep = table->sweep;
     const SweepPoint *at = &sweep->points[point];
-    char digits[16], *report = NULL;
+    char run[HASH_TEXT_SIZE + 8], *report = NULL;
     TRY(study_point_scene(&sweep->study, point, scene, err));
     if (at->status != POINT_PENDING) report = point_report(sweep, point, err);
     TRY(error_is_clean(err));
-    snprintf(digits, sizeof digits, "%d", point);
-    TRY(write_text(table, digits, err));
-    TRY(write_keys(table, point, scene, err));
+    csv_number(table->csv, point);
+    write_keys(table, point, scene);
     // What a failed point came to before it failed is no result.
-    TRY(write_records(table, point, at->status == POINT_DONE ? report : NULL, err));
-    TRY(write_text(table, ",", err));
-    TRY(write_text(table, status_name(at->status), err));
-    TRY(write_text(table, ",", err));
-    if (at->status == POINT_FAILED && report &&
-        json_find_text(report, "message", table->cell, ERROR_MESSAGE_SIZE))
-        TRY(write_cell(table, table->cell, err));
-    TRY(write_text(table, ",points/", err));
-    TRY(write_text(table, at->hash, err));
-    TRY(write_text(table, "\n", err));
+    write_records(table, point, at->status == POINT_DONE ? report : NULL);
+    csv_text(table->csv, status_name(at->status));
+    *table->cell = 0;
+    if (at->status == POINT_FAILED && report)
+        json_find_text(report, "message", table->cell, ERROR_MESSAGE_SIZE);
+    csv_text(table->csv, table->cell);
+    snprintf(run, sizeof run, "points/%s", at->hash);
+    csv_text(table->csv, run);
+    csv_end_row(table->csv);
     table->status[point] = at->status;
 cleanup:
     memory_free(report);
@@ -236,13 +193,15 @@ bool table_write(const Sweep *sweep, Error *err)
     TRY((table.words = NEW_ARRAY(WordList, study->column_count, err)));
     TRY((table.cell = NEW_ARRAY(char, CELL_SIZE, err)));
     snprintf(path, sizeof path, "%s/sweep.csv", sweep->folder);
-    TRY(part_file_create(&table.csv, path, err));
-    TRY(write_head(&table, err));
+    TRY((table.csv = csv_create(path, err)));
+    write_head(&table);
     for (int32_t k = 0; k < study->point_count; k++) TRY(write_row(&table, k, scene, err));
-    TRY(part_file_commit(&table.csv, err));
+    CsvWriter *closing = table.csv;
+    table.csv = NULL;
+    TRY(csv_finish(closing, err));
     TRY(write_h5(&table, err));
 cleanup:
-    part_file_discard(&table.csv);
+    csv_abandon(table.csv);
     memory_free(table.cell);
     memory_free(table.words);
     memory_free(table.status);
