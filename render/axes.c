@@ -43,10 +43,13 @@ static double number_width(const Page *page, const Axes *axes, const Ticks *tick
     return widest;
 }
 
-// Ticks are chosen for the numbers shown, that is, in the unit of the axis.
+// Ticks are chosen for the numbers shown, that is, in the unit of the axis. A logarithmic axis so
+// short that it has no two powers of ten gets plain numbers at their logarithmic places.
 static Ticks axis_ticks(const Axis *axis, int32_t wanted)
 {
-    if (axis->is_log) return ticks_choose_log(axis->low, axis->high, wanted);
+    Ticks powers = {0};
+    if (axis->is_log) powers = ticks_choose_log(axis->low, axis->high, wanted);
+    if (powers.count >= TICKS_MIN) return powers;
     return ticks_choose(axis->low * axis->factor, axis->high * axis->factor, wanted);
 }
 
@@ -77,10 +80,20 @@ static Ticks ticks_along_y(const Page *page, const Axes *axes)
     return ticks;
 }
 
-double axes_left_margin(const Page *page, const Axes *axes)
+// The widest number or name beside the y axis, pixels.
+static double left_width(const Page *page, const Axes *axes)
 {
     Ticks ticks = ticks_along_y(page, axes);
-    double numbers = number_width(page, axes, &ticks) / page->point;
+    double widest = 0, size = axes->number_size * page->point;
+    if (!axes->y.names) return number_width(page, axes, &ticks);
+    for (int32_t k = 0; k < axes->y.name_count; ++k)
+        widest = fmax(widest, text_width(page->text, size, axes->y.names[k]));
+    return widest;
+}
+
+double axes_left_margin(const Page *page, const Axes *axes)
+{
+    double numbers = left_width(page, axes) / page->point;
     double name = axes->y.label[0] ? LABEL_GAP + LABEL_SIZE + EDGE_GAP : 0;
     return TICK_LENGTH + NUMBER_GAP + numbers + name;
 }
@@ -95,7 +108,7 @@ double axes_bottom_margin(const Axes *axes)
 double axes_top_margin(const Axes *axes)
 {
     Ticks ticks = axis_ticks(&axes->y, TICKS_Y_MAX);
-    return ticks.exponent == 0 ? axes->number_size * 0.6 : axes->number_size * 1.8;
+    return ticks.exponent == 0 || axes->y.names ? axes->number_size * 0.6 : axes->number_size * 1.8;
 }
 
 // The power of ten that all numbers of an axis are to be multiplied by, where there is one.
@@ -162,28 +175,45 @@ static void draw_below(const Page *page, const Axes *axes)
               axes->x.label);
 }
 
-static void draw_left(const Page *page, const Axes *axes)
+static void left_numbers(const Page *page, const Axes *axes, const TextStyle *style, double edge)
 {
     Ticks ticks = ticks_along_y(page, axes);
-    TextStyle style = {
-        .size = axes->number_size * page->point, .color = INK, .across = 1, .up = 0.5};
-    double edge = axes->box.left - (TICK_LENGTH + NUMBER_GAP) * page->point;
     char label[TICK_LABEL_SIZE];
     minor_marks(page, axes, &ticks, false);
     for (int32_t k = 0; k < ticks.count; ++k) {
         Point foot = axes_place(axes, axes->x.low, tick_value(&ticks, k) / axes->y.factor);
         tick_mark(page, axes, foot, false, TICK_LENGTH);
         tick_label(&ticks, k, label);
-        text_draw(page->text, &style, (Point){edge, foot.y}, label);
+        text_draw(page->text, style, (Point){edge, foot.y}, label);
     }
-    style.across = 0;
-    style.up = 0;
-    exponent_write(page, &style, (Point){axes->box.left, axes->box.top - NUMBER_GAP * page->point},
+    TextStyle above = *style;
+    above.across = above.up = 0;
+    exponent_write(page, &above, (Point){axes->box.left, axes->box.top - NUMBER_GAP * page->point},
                    &ticks);
+}
+
+static void left_names(const Page *page, const Axes *axes, const TextStyle *style, double edge)
+{
+    for (int32_t k = 0; k < axes->y.name_count; ++k) {
+        Point foot = axes_place(axes, axes->x.low, k + 1);
+        tick_mark(page, axes, foot, false, TICK_LENGTH);
+        text_draw(page->text, style, (Point){edge, foot.y}, axes->y.names[k]);
+    }
+}
+
+static void draw_left(const Page *page, const Axes *axes)
+{
+    TextStyle style = {
+        .size = axes->number_size * page->point, .color = INK, .across = 1, .up = 0.5};
+    double edge = axes->box.left - (TICK_LENGTH + NUMBER_GAP) * page->point;
+    if (axes->y.names)
+        left_names(page, axes, &style, edge);
+    else
+        left_numbers(page, axes, &style, edge);
     if (!axes->y.label[0]) return;
     style =
         (TextStyle){.size = LABEL_SIZE * page->point, .color = INK, .across = 0.5, .rising = true};
-    edge -= number_width(page, axes, &ticks) + LABEL_GAP * page->point;
+    edge -= left_width(page, axes) + LABEL_GAP * page->point;
     text_draw(page->text, &style, (Point){edge, (axes->box.top + axes->box.bottom) / 2},
               axes->y.label);
 }

@@ -72,21 +72,24 @@ cleanup:
     return error_is_clean(err);
 }
 
-// From low to high with caps; nothing where they agree within a mark.
+// From low to high with caps: upright, or lying where the y axis has names.
 static void bars_draw(const Page *page, const Axes *axes, const PlotSeries *series)
 {
     Stroke stroke = {.color = COLORS[series->color], .width = BAR_WIDTH * page->point};
-    double cap = BAR_CAP * page->point;
+    bool lying = axes->y.names != NULL;
+    double cap_x = lying ? 0 : BAR_CAP * page->point, cap_y = lying ? BAR_CAP * page->point : 0;
     if (!series->low || !series->high) return;
     for (int32_t k = 0; k < series->count; ++k) {
-        Point low = axes_place(axes, series->x[k], series->low[k]);
-        Point high = axes_place(axes, series->x[k], series->high[k]);
-        if (!isfinite(low.x) || !isfinite(low.y) || !isfinite(high.y)) continue;
+        Point low = axes_place(axes, lying ? series->low[k] : series->x[k],
+                               lying ? series->y[k] : series->low[k]);
+        Point high = axes_place(axes, lying ? series->high[k] : series->x[k],
+                                lying ? series->y[k] : series->high[k]);
+        if (!isfinite(low.x + low.y + high.x + high.y)) continue;
         shape_segment(page->canvas, &stroke, low, high);
-        shape_segment(page->canvas, &stroke, (Point){low.x - cap, low.y},
-                      (Point){low.x + cap, low.y});
-        shape_segment(page->canvas, &stroke, (Point){high.x - cap, high.y},
-                      (Point){high.x + cap, high.y});
+        shape_segment(page->canvas, &stroke, (Point){low.x - cap_x, low.y - cap_y},
+                      (Point){low.x + cap_x, low.y + cap_y});
+        shape_segment(page->canvas, &stroke, (Point){high.x - cap_x, high.y - cap_y},
+                      (Point){high.x + cap_x, high.y + cap_y});
     }
 }
 

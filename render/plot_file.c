@@ -154,13 +154,31 @@ static bool read_series(const PlotReader *reader, YamlNode map, PlotSeries *seri
     return true;
 }
 
-static bool read_axis(const PlotReader *reader, YamlNode panel, const char *name, Axis *axis)
+// What stands at y = 1, 2, ...
+static bool read_names(const PlotReader *reader, YamlNode list, PlotPanel *panel)
+{
+    int32_t count = yaml_count(reader->file, list), k = 0;
+    if (yaml_kind(reader->file, list) != YAML_LIST || count == 0 || count > PLOT_NAMES_MAX)
+        return refuse(reader, list, "names", "a list of at most 100 texts");
+    panel->names = memory_array(count, sizeof *panel->names, reader->err);
+    if (!panel->names) return false;
+    for (YamlNode item = yaml_first(reader->file, list); item != YAML_NO_NODE;
+         item = yaml_next(reader->file, item))
+        snprintf(panel->names[k++], AXIS_LABEL_SIZE, "%s", yaml_text(reader->file, item));
+    panel->y.names = (const char(*)[AXIS_LABEL_SIZE])panel->names;
+    panel->y.name_count = count;
+    return true;
+}
+
+// known: as in check_keys.
+static bool read_axis(const PlotReader *reader, YamlNode panel, const char *name, const char *known,
+                      Axis *axis)
 {
     int32_t scale = 0;
     YamlNode map = child(reader, panel, name);
     *axis = (Axis){.low = NAN, .high = NAN, .factor = 1};
     if (map == YAML_NO_NODE) return true;
-    if (!check_keys(reader, map, name, "label scale range ") ||
+    if (!check_keys(reader, map, name, known) ||
         !read_text(reader, map, "label", axis->label, sizeof axis->label) ||
         !read_choice(reader, map, "scale", SCALES, &scale))
         return false;
@@ -192,12 +210,18 @@ static void widen(const Axis *axis, const double *values, int32_t count, double 
 static void fit_axis(const PlotPanel *panel, bool is_x, Axis *axis)
 {
     double ends[2] = {INFINITY, -INFINITY};
+    bool has_bars = is_x == (panel->y.names != NULL);
     if (isfinite(axis->low)) return;
+    if (axis->names) {
+        axis->low = 0.5;
+        axis->high = axis->name_count + 0.5;
+        return;
+    }
     for (int32_t k = 0; k < panel->series_count; k++) {
         const PlotSeries *series = &panel->series[k];
         widen(axis, is_x ? series->x : series->y, series->count, ends);
-        if (!is_x) widen(axis, series->low, series->count, ends);
-        if (!is_x) widen(axis, series->high, series->count, ends);
+        if (has_bars) widen(axis, series->low, series->count, ends);
+        if (has_bars) widen(axis, series->high, series->count, ends);
     }
     if (!(ends[1] >= ends[0])) ends[0] = ends[1] = 0;
     double margin = MARGIN * (ends[1] - ends[0]);
@@ -212,9 +236,13 @@ static bool read_panel(const PlotReader *reader, YamlNode map, PlotPanel *panel)
 {
     YamlNode list = child(reader, map, "series");
     int32_t corner = CORNER_UPPER_RIGHT;
-    if (!read_axis(reader, map, "x", &panel->x) || !read_axis(reader, map, "y", &panel->y) ||
+    if (!read_axis(reader, map, "x", "label scale range ", &panel->x) ||
+        !read_axis(reader, map, "y", "label scale range names ", &panel->y) ||
         !read_choice(reader, map, "legend", CORNERS, &corner))
         return false;
+    YamlNode y = child(reader, map, "y");
+    YamlNode names = y == YAML_NO_NODE ? y : child(reader, y, "names");
+    if (names != YAML_NO_NODE && !read_names(reader, names, panel)) return false;
     panel->legend = (PlotCorner)corner;
     if (list == YAML_NO_NODE) {
         yaml_error(reader->file, map, reader->err, "a plot needs `series`");
@@ -277,6 +305,7 @@ cleanup:
 
 static void panel_destroy(PlotPanel *panel)
 {
+    memory_free(panel->names);
     for (int32_t k = 0; k < PLOT_SERIES_MAX; k++) {
         memory_free(panel->series[k].x);
         memory_free(panel->series[k].y);

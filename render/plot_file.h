@@ -5,13 +5,13 @@
 //     title: mu_M against pressure            # stored in the PNG
 //     height: 0.75                            # over the width; default 0.75
 //     x: {label: "~{P}_{ext}", scale: log, range: [1e-3, 1e-1]}   # linear; the data's
-//     y: {label: "~{\u03bc}_{M}"}
+//     y: {label: "~{\u03bc}_{M}"}          # or {names: [a, b]}: these stand at y = 1, 2, ...
 //     legend: upper-right                     # or upper-left, lower-left, lower-right, none
 //     series:
 //       - label: "~{L} = 1"                   # none: not in the legend
 //         x: [0.001, 0.01]
 //         y: [0.38, 0.24]                     # null: a gap
-//         low: [0.37, 0.23]                   # with `high`: error bars
+//         low: [0.37, 0.23]                   # with `high`: error bars, along x where y has names
 //         high: [0.38, 0.25]
 //         color: 1                            # of seven; 0: ink
 //         marker: circle                      # or square, triangle, down, none
@@ -23,7 +23,7 @@
 
 #include "render/axes.h"
 
-enum { PLOT_SERIES_MAX = 32, PLOT_COLORS = 8, PLOT_LABEL_SIZE = 96 };
+enum { PLOT_SERIES_MAX = 32, PLOT_NAMES_MAX = 100, PLOT_COLORS = 8, PLOT_LABEL_SIZE = 96 };
 
 typedef enum PlotMarker {
     MARKER_NONE,
@@ -56,6 +56,7 @@ typedef struct PlotSeries {
 
 typedef struct PlotPanel {
     Axis x, y;   // ends fit the data where the file gives none
+    char (*names)[AXIS_LABEL_SIZE];   // of y.names; owned
     PlotCorner legend;
     int32_t series_count;
     PlotSeries series[PLOT_SERIES_MAX];

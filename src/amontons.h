@@ -215,6 +215,7 @@ typedef struct SweepOptions {
     bool fresh;                    // compute all points again
     SweepCallback on_point;        // NULL: none
     void *context;
+    FILE *out;                     // for the ranked table that the study asks for; NULL: not shown
     const volatile sig_atomic_t *stop;   // non-zero: stop the points under way; they count as not
                                          // begun when the sweep is taken up again
 } SweepOptions;

@@ -85,6 +85,8 @@ static void read_options(int argc, char **argv, SweepWords *words)
             "    mesh.set.length: [0.25, 1, 4]\n"
             "    load.pressure: {log: [1e-4, 1e-2], points: 7}\n"
             "  record: [mu_M, period, results.mu_max]\n"
+            "  rank: {by: mu_M, order: highest, top: 10, against: {mesh.set.length: 1}}\n"
+            "  plot: {x: load.pressure, y: mu_M, series: mesh.set.length, log: x}\n"
             "\vFinished points are kept in DIR/points, one by one: the same command goes on where "
             "an interrupted one stopped, and computes only what is new when the study has "
             "changed. Each point ends when its peaks are periodic; no history is kept and no "
@@ -94,6 +96,15 @@ static void read_options(int argc, char **argv, SweepWords *words)
             "beside paths in run.json: mu_M, spread, period, low, high, peaks, l_c, l_sc, steps, "
             "unsolved, solve_s, total_s, energy_error, contact_error, moment_error, "
             "reduction_error, mu_max, first_mu, contact_nodes, reduced_dofs.\n\n"
+            "`rank` ends the sweep with its best points, here and in DIR/ranking.csv, and with "
+            "DIR/figures/ranking.png: `by` names a result as `record` does, `order` is highest "
+            "or lowest, `top` how many are shown, `against` what a gain is measured from: first "
+            "(the study's first point), best, or keys, which name the same point with these "
+            "values. `low` and `high` bound mu_M: its own peaks, or all but the first where they "
+            "do not repeat; who is as good as the first lies within the first's bounds. `plot` "
+            "draws "
+            "DIR/figures/plot.png: `x` and `y` each a result or a key that varies, `series` a key, "
+            "`log`: x, y, both or none.\n\n"
             "Exit status: 0 all points done, 1 some failed (listed; the others are in the table), "
             "2 the study is wrong. Example:\n\n"
             "  amontons sweep validation/paper/fig2a.yaml -j 2 -o fig2a"};
@@ -165,7 +176,8 @@ static void show_point(const SweepView *view, void *context)
     }
 }
 
-static int close_sweep(const SweepDisplay *display, const char *folder, const SweepSummary *summary)
+static int close_sweep(const SweepDisplay *display, const char *folder, const char *ranked,
+                       const SweepSummary *summary)
 {
     if (!display->quiet) {
         printf("%d points: %d computed in %.1f s", summary->points, summary->computed,
@@ -173,6 +185,7 @@ static int close_sweep(const SweepDisplay *display, const char *folder, const Sw
         if (summary->reused) printf(", %d known before", summary->reused);
         if (summary->failed) printf(", %d failed", summary->failed);
         printf("\nTable in %s: sweep.csv and sweep.h5; each point's run.json in points/\n", folder);
+        if (ranked) fputs(ranked, stdout);
     }
     if (summary->failed == 0) return 0;
     fflush(stdout);
@@ -202,8 +215,13 @@ int command_sweep(int argc, char **argv)
     options.fresh = words.fresh;
     SweepDisplay display = {.quiet = words.quiet, .bar = isatty(STDERR_FILENO)};
     options.context = &display;
+    char *ranked = NULL;   // shown below the line that is written over
+    size_t size = 0;
+    if (!words.quiet) options.out = open_memstream(&ranked, &size);
     bool done = amontons_sweep(words.study, &options, &summary, &err);
+    if (options.out) fclose(options.out);
     if (display.bar && !display.quiet) fprintf(stderr, "\r\033[K");
-    if (!done) return report_error(&err);
-    return close_sweep(&display, options.folder, &summary);
+    status = done ? close_sweep(&display, options.folder, ranked, &summary) : report_error(&err);
+    free(ranked);
+    return status;
 }

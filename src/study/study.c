@@ -11,22 +11,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define KEYS(X) X("title") X("scene") X("set") X("cases") X("vary") X("record")
-
-static const struct {
-    const char *name, *path;
-    bool standard;
-} KNOWN_RECORDS[] = {
-#define X(name, path, standard, meaning) {name, path, standard},
-    STUDY_RECORDS(X)
-#undef X
-};
-enum { KNOWN_RECORD_COUNT = sizeof KNOWN_RECORDS / sizeof KNOWN_RECORDS[0] };
+#define KEYS(X) X("title") X("scene") X("set") X("cases") X("vary") X("record") X("rank") X("plot")
 
 // --- what stands in the file --------------------------------------------------------------------
 
-static bool refuse(const Study *study, YamlNode node, const char *name, const char *allowed,
-                   Error *err)
+bool study_refuse(const Study *study, YamlNode node, const char *name, const char *allowed,
+                  Error *err)
 {
     char found[100];
     yaml_describe(study->file, node, found, sizeof found);
@@ -56,7 +46,7 @@ static bool check_keys(const Study *study, Error *err)
         else
             yaml_key_error(study->file, item, err,
                            "%.60s: unknown key of a study; allowed: title, scene, set, cases, "
-                           "vary, record",
+                           "vary, record, rank, plot",
                            key);
         return false;
     }
@@ -69,7 +59,7 @@ static bool read_text(const Study *study, const char *key, char text[SCENE_TEXT_
     if (node == YAML_NO_NODE) return true;
     const char *value = yaml_text(study->file, node);
     bool fits = yaml_kind(study->file, node) == YAML_SCALAR && strlen(value) < SCENE_TEXT_SIZE;
-    if (!fits) return refuse(study, node, key, "a text of at most 511 bytes", err);
+    if (!fits) return study_refuse(study, node, key, "a text of at most 511 bytes", err);
     memcpy(text, value, strlen(value) + 1);
     return true;
 }
@@ -153,7 +143,7 @@ static bool read_set(Study *study, Error *err)
     study->set = yaml_look_up(study->file, "set");
     if (study->set == YAML_NO_NODE) return true;
     if (yaml_kind(study->file, study->set) != YAML_MAP)
-        return refuse(study, study->set, "set", "a map of the scene's keys", err);
+        return study_refuse(study, study->set, "set", "a map of the scene's keys", err);
     for (YamlNode item = yaml_first(study->file, study->set); item != YAML_NO_NODE;
          item = yaml_next(study->file, item)) {
         TRY(check_key(study, item, err));
@@ -170,11 +160,12 @@ static bool read_cases(Study *study, Error *err)
     if (study->cases == YAML_NO_NODE) return true;
     study->case_count = yaml_count(study->file, study->cases);
     if (yaml_kind(study->file, study->cases) != YAML_LIST || study->case_count == 0)
-        return refuse(study, study->cases, "cases", "a list of maps of the scene's keys", err);
+        return study_refuse(study, study->cases, "cases", "a list of maps of the scene's keys",
+                            err);
     for (YamlNode one = yaml_first(study->file, study->cases); one != YAML_NO_NODE;
          one = yaml_next(study->file, one)) {
         if (yaml_kind(study->file, one) != YAML_MAP)
-            return refuse(study, one, "cases", "a map of the scene's keys", err);
+            return study_refuse(study, one, "cases", "a map of the scene's keys", err);
         for (YamlNode item = yaml_first(study->file, one); item != YAML_NO_NODE;
              item = yaml_next(study->file, item)) {
             TRY(check_key(study, item, err));
@@ -187,7 +178,7 @@ cleanup:
 
 // --- ranges -------------------------------------------------------------------------------------
 
-static bool read_plain_number(const Study *study, YamlNode node, double *value)
+bool study_plain_number(const Study *study, YamlNode node, double *value)
 {
     const char *text = yaml_text(study->file, node);
     char *end = NULL;
@@ -246,17 +237,19 @@ static bool read_range(Study *study, YamlNode node, StudyAxis *axis, Error *err)
         }
     }
     if (!is_known || ends == YAML_NO_NODE || points == YAML_NO_NODE)
-        return refuse(study, node, axis->key, allowed, err);
+        return study_refuse(study, node, axis->key, allowed, err);
     YamlNode first = yaml_first(study->file, ends);
     bool good = yaml_kind(study->file, ends) == YAML_LIST && yaml_count(study->file, ends) == 2 &&
-                read_plain_number(study, first, &bounds[0]) &&
-                read_plain_number(study, yaml_next(study->file, first), &bounds[1]);
-    if (!good) return refuse(study, ends, axis->key, "two numbers, [from, to]", err);
+                study_plain_number(study, first, &bounds[0]) &&
+                study_plain_number(study, yaml_next(study->file, first), &bounds[1]);
+    if (!good) return study_refuse(study, ends, axis->key, "two numbers, [from, to]", err);
     if (is_log && !(bounds[0] > 0 && bounds[1] > 0))
-        return refuse(study, ends, axis->key, "two numbers > 0 in a range of logarithms", err);
-    if (!read_plain_number(study, points, &count) || count != floor(count) || count < 1 ||
+        return study_refuse(study, ends, axis->key, "two numbers > 0 in a range of logarithms",
+                            err);
+    if (!study_plain_number(study, points, &count) || count != floor(count) || count < 1 ||
         count > STUDY_RANGE_MAX)
-        return refuse(study, points, axis->key, "a whole number of points, from 1 to 10000", err);
+        return study_refuse(study, points, axis->key, "a whole number of points, from 1 to 10000",
+                            err);
     TRY(write_range(bounds, is_log, (int32_t)count, &text, err));
     snprintf(name, sizeof name, "%s:%d:%d, values of the range", study->path,
              yaml_line(study->file, node), yaml_column(study->file, node));
@@ -279,10 +272,10 @@ static bool read_axis(Study *study, YamlNode item, Error *err)
     if (kind == YAML_MAP) TRY(read_range(study, item, axis, err));
     axis->count = yaml_count(axis->document, axis->list);
     if ((kind != YAML_MAP && kind != YAML_LIST) || axis->count == 0)
-        return refuse(study, item, axis->key,
-                      "a list of values, {log: [from, to], points: n} or "
-                      "{linear: [from, to], points: n}",
-                      err);
+        return study_refuse(study, item, axis->key,
+                            "a list of values, {log: [from, to], points: n} or "
+                            "{linear: [from, to], points: n}",
+                            err);
     study->axis_count++;
     for (YamlNode value = yaml_first(axis->document, axis->list); value != YAML_NO_NODE;
          value = yaml_next(axis->document, value))
@@ -296,63 +289,10 @@ static bool read_vary(Study *study, Error *err)
     YamlNode vary = yaml_look_up(study->file, "vary");
     if (vary == YAML_NO_NODE) return true;
     if (yaml_kind(study->file, vary) != YAML_MAP || yaml_count(study->file, vary) > STUDY_AXES_MAX)
-        return refuse(study, vary, "vary", "a map of at most 16 keys of the scene", err);
+        return study_refuse(study, vary, "vary", "a map of at most 16 keys of the scene", err);
     for (YamlNode item = yaml_first(study->file, vary); item != YAML_NO_NODE;
          item = yaml_next(study->file, item))
         TRY(read_axis(study, item, err));
-cleanup:
-    return error_is_clean(err);
-}
-
-// --- what is recorded ---------------------------------------------------------------------------
-
-static void add_record(Study *study, const char *name, const char *path)
-{
-    StudyRecord *record = &study->records[study->record_count++];
-    snprintf(record->name, sizeof record->name, "%s", name);
-    snprintf(record->path, sizeof record->path, "%s", path);
-}
-
-static bool read_record(Study *study, YamlNode node, Error *err)
-{
-    const char *name = yaml_text(study->file, node), *names[KNOWN_RECORD_COUNT];
-    for (int32_t k = 0; k < KNOWN_RECORD_COUNT; k++) {
-        names[k] = KNOWN_RECORDS[k].name;
-        if (strcmp(name, names[k]) != 0) continue;
-        add_record(study, name, KNOWN_RECORDS[k].path);
-        return true;
-    }
-    if (strchr(name, '.') && strlen(name) < STUDY_NAME_SIZE) {
-        add_record(study, name, name);
-        return true;
-    }
-    int32_t nearest = text_nearest(name, names, KNOWN_RECORD_COUNT);
-    if (nearest >= 0)
-        yaml_error(study->file, node, err, "record: unknown name `%.60s`; did you mean `%s`?", name,
-                   names[nearest]);
-    else
-        yaml_error(study->file, node, err,
-                   "record: unknown name `%.60s`; allowed: a name that `amontons sweep --help` "
-                   "lists, or a path in run.json, as in results.mu_max",
-                   name);
-    return false;
-}
-
-static bool read_records(Study *study, Error *err)
-{
-    YamlNode list = yaml_look_up(study->file, "record");
-    if (list == YAML_NO_NODE) {
-        for (int32_t k = 0; k < KNOWN_RECORD_COUNT; k++)
-            if (KNOWN_RECORDS[k].standard)
-                add_record(study, KNOWN_RECORDS[k].name, KNOWN_RECORDS[k].path);
-        return true;
-    }
-    int32_t count = yaml_count(study->file, list);
-    if (yaml_kind(study->file, list) != YAML_LIST || count == 0 || count > STUDY_RECORDS_MAX)
-        return refuse(study, list, "record", "a list of at most 64 names", err);
-    for (YamlNode item = yaml_first(study->file, list); item != YAML_NO_NODE;
-         item = yaml_next(study->file, item))
-        TRY(read_record(study, item, err));
 cleanup:
     return error_is_clean(err);
 }
@@ -395,7 +335,7 @@ cleanup:
 bool study_read(const char *path, const char *const *overrides, int32_t override_count,
                 Study *study, Error *err)
 {
-    *study = (Study){.set = YAML_NO_NODE, .cases = YAML_NO_NODE};
+    *study = (Study){.set = YAML_NO_NODE, .cases = YAML_NO_NODE, .rank.baseline = YAML_NO_NODE};
     if (strlen(path) >= sizeof study->path)
         FAIL(err, ERROR_INPUT, "%.80s...: a path of more than 511 bytes", path);
     memcpy(study->path, path, strlen(path) + 1);
@@ -417,7 +357,7 @@ bool study_read(const char *path, const char *const *overrides, int32_t override
     TRY(read_vary(study, err));
     for (int32_t i = 0; i < override_count; i++) TRY(read_override(study, overrides[i], err));
     TRY(read_set(study, err));   // after --set, which may replace a formula
-    TRY(read_records(study, err));
+    TRY(study_read_wanted(study, err));
     TRY(count_points(study, err));
 cleanup:
     return error_is_clean(err);
@@ -427,5 +367,5 @@ void study_destroy(Study *study)
 {
     for (int32_t k = 0; k < study->made_count; k++) yaml_destroy(study->made[k]);
     yaml_destroy(study->file);
-    *study = (Study){.set = YAML_NO_NODE, .cases = YAML_NO_NODE};
+    *study = (Study){.set = YAML_NO_NODE, .cases = YAML_NO_NODE, .rank.baseline = YAML_NO_NODE};
 }

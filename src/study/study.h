@@ -10,6 +10,8 @@
 //       mesh.set.length: [0.25, 1, 4]
 //       load.pressure: {log: [1e-4, 1e-2], points: 7}
 //     record: [mu_M, period, results.mu_max]
+//     rank: {by: mu_M, order: highest, top: 10, against: {rod.kind: push}}
+//     plot: {x: load.pressure, y: mu_M, series: mesh.set.length, log: x}
 //
 // A value that begins with `=` is a formula (study/formula) over the numbers of the scene; formulas
 // are worked out last, in the order of the file. Later ones win: the base scene, what every sweep
@@ -70,6 +72,29 @@ typedef struct StudyAxis {
     int32_t count;
 } StudyAxis;
 
+typedef enum RankAgainst { AGAINST_FIRST, AGAINST_BEST, AGAINST_KEYS } RankAgainst;
+
+typedef struct StudyRank {
+    bool wanted;
+    int32_t record;   // ranked by this column of `records`
+    bool lowest;   // is best
+    int32_t top;   // rows to show
+    RankAgainst against;   // what a gain is measured from: the first point, the best, or ...
+    YamlNode baseline;   // ... the same point with these keys, a map; YAML_NO_NODE else
+} StudyRank;
+
+typedef struct StudyAxisData {
+    bool is_record;   // of `records`; else of `columns`
+    int32_t index;
+} StudyAxisData;
+
+typedef struct StudyPlot {
+    bool wanted;
+    StudyAxisData x, y;
+    int32_t series;   // of `columns`: a curve for each of its values; -1: one curve
+    bool log_x, log_y;
+} StudyPlot;
+
 typedef struct Study {
     char path[SCENE_TEXT_SIZE], title[SCENE_TEXT_SIZE];
     char scene[SCENE_TEXT_SIZE];   // path of the base scene
@@ -89,6 +114,8 @@ typedef struct Study {
     int32_t record_count;
     StudyRecord records[STUDY_RECORDS_MAX];
     int32_t point_count;
+    StudyRank rank;
+    StudyPlot plot;
 } Study;
 
 // overrides: "key=value" as after --set, for every point; a key that is varied is refused.
@@ -99,9 +126,21 @@ void study_destroy(Study *study);
 
 // The scene of `point`, 0 to point_count - 1: cases outermost, then the keys of `vary` in order.
 bool study_point_scene(const Study *study, int32_t point, Scene *scene, Error *err);
+// The scene that is measured against: `point` with the keys of rank.baseline.
+bool study_baseline_scene(const Study *study, int32_t point, Scene *scene, Error *err);
 
 // The value of a column's key in a scene, as text; *number is NaN where it is no number.
 void study_scene_value(const Scene *scene, const char *key, char *words, int32_t size,
                        double *number);
+
+// A key that `vary` or `cases` sets, alone or in a map; not one that follows by a formula of `set`.
+bool study_is_chosen(const Study *study, const char *key);
+
+// --- shared by the files that read a study
+bool study_read_wanted(Study *study, Error *err);   // record, rank, plot
+bool study_plain_number(const Study *study, YamlNode node, double *value);   // false: is none
+// Sets ERROR_INPUT: "NAME: found ...; allowed: ..."; false.
+bool study_refuse(const Study *study, YamlNode node, const char *name, const char *allowed,
+                  Error *err);
 
 #endif

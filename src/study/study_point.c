@@ -115,7 +115,9 @@ static void drop_replaced(const Study *study, PointSettings *settings)
     settings->formula_count = kept;
 }
 
-static bool gather(const Study *study, int32_t point, PointSettings *settings, Error *err)
+// changes: a map of the study's file that replaces what varies; YAML_NO_NODE: none.
+static bool gather(const Study *study, int32_t point, YamlNode changes, PointSettings *settings,
+                   Error *err)
 {
     int32_t index[STUDY_AXES_MAX];
     for (int32_t k = study->axis_count - 1; k >= 0; k--) {
@@ -136,6 +138,7 @@ static bool gather(const Study *study, int32_t point, PointSettings *settings, E
                                 .node = child_at(axis->document, axis->list, index[k])};
         TRY(add(settings, &setting, err));
     }
+    TRY(add_map(settings, study->file, changes, err));
 cleanup:
     return error_is_clean(err);
 }
@@ -165,11 +168,12 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool study_point_scene(const Study *study, int32_t point, Scene *scene, Error *err)
+static bool make_scene(const Study *study, int32_t point, YamlNode changes, Scene *scene,
+                       Error *err)
 {
     PointSettings *settings = NEW_ARRAY(PointSettings, 1, err);
     TRY(settings);
-    TRY(gather(study, point, settings, err));
+    TRY(gather(study, point, changes, settings, err));
     TRY(scene_read_settings(study->scene, settings->list, settings->count, scene, err));
     for (int32_t k = 0; k < settings->formula_count; k++) {
         TRY(work_out(study, settings, k, scene, err));
@@ -180,4 +184,14 @@ cleanup:
         yaml_destroy(settings->values[k]);
     memory_free(settings);
     return error_is_clean(err);
+}
+
+bool study_point_scene(const Study *study, int32_t point, Scene *scene, Error *err)
+{
+    return make_scene(study, point, YAML_NO_NODE, scene, err);
+}
+
+bool study_baseline_scene(const Study *study, int32_t point, Scene *scene, Error *err)
+{
+    return make_scene(study, point, study->rank.baseline, scene, err);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // study read -> every scene checked and hashed -> finished points found -> the rest computed ->
-// table.
+// table, and what the study wants shown of it.
 #include "study/sweep.h"
 
 #include "base/clock.h"
@@ -53,21 +53,49 @@ cleanup:
     return error_is_clean(err);
 }
 
+// baseline of point `k`: the point whose scene is its own with the keys of `rank.against`.
+static bool find_baseline(Sweep *sweep, int32_t k, PointMesh *mesh, Scene *scene, Error *err)
+{
+    char hash[HASH_TEXT_SIZE];
+    int32_t at = 0, count = sweep->study.point_count;
+    TRY(study_baseline_scene(&sweep->study, k, scene, err));
+    TRY(point_hash(scene, mesh, hash, err));
+    while (at < count && strcmp(sweep->points[at].hash, hash) != 0) at++;
+    sweep->points[k].baseline = at < count ? at : -1;
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool find_baselines(Sweep *sweep, PointMesh *mesh, Scene *scene, Error *err)
+{
+    const Study *study = &sweep->study;
+    bool found = study->rank.against != AGAINST_KEYS;
+    for (int32_t k = 0; k < study->point_count; k++) {
+        if (study->rank.against == AGAINST_KEYS) TRY(find_baseline(sweep, k, mesh, scene, err));
+        found = found || sweep->points[k].baseline >= 0;
+    }
+    if (!found)
+        yaml_error(study->file, study->rank.baseline, err,
+                   "against: no point of the study has these values");
+cleanup:
+    return error_is_clean(err);
+}
+
 // Scenes and hashes of all points: what is wrong with any of them shows before the first is run.
 static bool plan_points(Sweep *sweep, Error *err)
 {
-    Hash mesh = {0};
-    char mesh_path[SCENE_TEXT_SIZE] = "";
+    PointMesh mesh = {0};
     Scene *scene = NEW_ARRAY(Scene, 1, err);
     TRY(scene);
     TRY((sweep->points = NEW_ARRAY(SweepPoint, sweep->study.point_count, err)));
     for (int32_t k = 0; k < sweep->study.point_count; k++) {
         SweepPoint *point = &sweep->points[k];
         TRY(study_point_scene(&sweep->study, k, scene, err));
-        TRY(point_hash(scene, &mesh, mesh_path, point->hash, err));
+        TRY(point_hash(scene, &mesh, point->hash, err));
         for (point->same_as = 0; point->same_as < k; point->same_as++)
             if (strcmp(sweep->points[point->same_as].hash, point->hash) == 0) break;
     }
+    TRY(find_baselines(sweep, &mesh, scene, err));
 cleanup:
     memory_free(scene);
     return error_is_clean(err);
@@ -140,6 +168,26 @@ void sweep_tell(Sweep *sweep, int32_t k, const char *report)
     sweep->options->on_point(&view, sweep->options->context);
 }
 
+// The ranked table and the figures that the study asks for; those of a sweep that was stopped are
+// not drawn.
+static bool show_results(const Sweep *sweep, bool whole, Error *err)
+{
+    SweepTable table = {0};
+    Ranking ranking = {0};
+    TRY(table_write(sweep, &table, err));
+    if (sweep->study.rank.wanted) {
+        TRY(ranking_make(sweep, &table, &ranking, err));
+        TRY(ranking_write(sweep, &table, &ranking, err));
+        if (whole) TRY(ranking_print(sweep, &table, &ranking, err));
+        if (whole) TRY(figure_of_ranking(sweep, &table, &ranking, err));
+    }
+    if (sweep->study.plot.wanted && whole) TRY(figure_of_plot(sweep, &table, err));
+cleanup:
+    ranking_destroy(&ranking);
+    table_destroy(&table);
+    return error_is_clean(err);
+}
+
 static void summarise(const Sweep *sweep, SweepSummary *summary)
 {
     *summary = (SweepSummary){.points = sweep->study.point_count,
@@ -175,7 +223,7 @@ bool amontons_sweep(const char *path, const SweepOptions *options, SweepSummary 
         *err = stopped;
         goto cleanup;
     }
-    TRY(table_write(sweep, err));
+    TRY(show_results(sweep, whole, err));
     if (!whole) *err = stopped;
 cleanup:
     if (sweep) {

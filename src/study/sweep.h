@@ -4,6 +4,8 @@
 //
 //     DIR/points/<hash>/run.json   one finished point, under a hash of its full scene
 //     DIR/sweep.csv, DIR/sweep.h5  the table, a row a point in the study's order
+//     DIR/ranking.csv              the same points, the best first, where the study asks (`rank`)
+//     DIR/figures/*.png            pictures of the ranking and of the study's `plot`
 //     DIR/lock                     one sweep at a time
 //
 // A point is an ordinary run: with `output.history: true` in the study its folder holds all of a
@@ -21,6 +23,7 @@ typedef struct SweepPoint {
     PointStatus status;
     char hash[HASH_TEXT_SIZE];
     int32_t same_as;   // an earlier point with the same scene; its own index: none
+    int32_t baseline;   // the point that `rank` measures it against; -1: none
     bool reused;   // was finished when the sweep began
     double seconds;   // in this sweep
 } SweepPoint;
@@ -38,8 +41,14 @@ typedef struct Sweep {
 
 // --- sweep_point: what stands on disk of a point
 enum { POINT_PATH_SIZE = AMONTONS_PATH_SIZE + 64, POINT_WORDS_SIZE = 512 };
-bool point_hash(const Scene *scene, Hash *mesh, char mesh_path[SCENE_TEXT_SIZE],
-                char hash[HASH_TEXT_SIZE], Error *err);
+// The mesh file hashed last: one shared by all points is read once. Begins zeroed.
+typedef struct PointMesh {
+    Hash hash;
+    char path[SCENE_TEXT_SIZE];
+} PointMesh;
+
+// A name for all that decides what a point comes to: version, mesh file, every key but the title.
+bool point_hash(const Scene *scene, PointMesh *mesh, char hash[HASH_TEXT_SIZE], Error *err);
 void point_folder(const Sweep *sweep, int32_t point, char folder[POINT_PATH_SIZE]);
 // run.json of the point (memory_free); NULL without an error when there is none.
 char *point_report(const Sweep *sweep, int32_t point, Error *err);
@@ -56,6 +65,50 @@ bool pool_run(Sweep *sweep, Error *err);
 void sweep_tell(Sweep *sweep, int32_t point, const char *report);   // the callback
 
 // --- sweep_table: sweep.csv and sweep.h5
-bool table_write(const Sweep *sweep, Error *err);
+enum { WORDS_MAX = 64, WORD_SIZE = 64 };
+
+// Words in a column of keys that are no numbers; the table holds their index.
+typedef struct WordList {
+    int32_t count;
+    char words[WORDS_MAX][WORD_SIZE];
+} WordList;
+
+// The numbers of the table, column after column; NaN where there is none.
+typedef struct SweepTable {
+    double *keys;   // [column_count][point_count]; owned, like all below
+    double *records;   // [record_count][point_count]
+    double *status;   // [point_count] a PointStatus
+    double *period;   // [point_count] of the peaks; 0: not periodic
+    double *low, *high;   // [point_count] bounds of mu_M: of its own peaks where they are
+        // periodic, of all peaks but the first where not
+    WordList *words;   // [column_count]
+} SweepTable;
+
+bool table_write(const Sweep *sweep, SweepTable *table, Error *err);
+void table_destroy(SweepTable *table);   // zeroed is fine
+
+// --- sweep_rank: ranking.csv
+typedef struct RankRow {
+    int32_t point;
+    double value, low, high;   // what it is ranked by; bounds where that is mu_M, else NaN
+    double gain;   // over the baseline, 1; NaN: there is none
+    bool as_good;   // its bounds meet those of the best
+} RankRow;
+
+typedef struct Ranking {
+    RankRow *rows;   // [count] the best first; points without a value last; owned
+    int32_t count, ranked;   // all points; those with a value
+} Ranking;
+
+bool ranking_make(const Sweep *sweep, const SweepTable *table, Ranking *ranking, Error *err);
+bool ranking_write(const Sweep *sweep, const SweepTable *table, const Ranking *ranking, Error *err);
+// The first rows, as many as `rank` says, to options->out.
+bool ranking_print(const Sweep *sweep, const SweepTable *table, const Ranking *ranking, Error *err);
+void ranking_destroy(Ranking *ranking);   // zeroed is fine
+
+// --- sweep_figures: figures/ranking.png and figures/plot.png, by the module `render`
+bool figure_of_ranking(const Sweep *sweep, const SweepTable *table, const Ranking *ranking,
+                       Error *err);
+bool figure_of_plot(const Sweep *sweep, const SweepTable *table, Error *err);
 
 #endif

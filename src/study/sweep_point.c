@@ -27,21 +27,19 @@ cleanup:
     return error_is_clean(err);
 }
 
-// mesh, mesh_path: the mesh file hashed last, so that one shared by all points is read once.
-bool point_hash(const Scene *scene, Hash *mesh, char mesh_path[SCENE_TEXT_SIZE],
-                char text[HASH_TEXT_SIZE], Error *err)
+bool point_hash(const Scene *scene, PointMesh *mesh, char text[HASH_TEXT_SIZE], Error *err)
 {
     int32_t count = 0;
     const SceneKey *keys = scene_keys(&count);
     Hash hash = hash_start();
     char *words = NEW_ARRAY(char, VALUE_SIZE, err);
     TRY(words);
-    if (strcmp(mesh_path, scene->mesh.file) != 0) {
-        TRY(hash_mesh_file(scene->mesh.file, mesh, err));
-        memcpy(mesh_path, scene->mesh.file, SCENE_TEXT_SIZE);
+    if (strcmp(mesh->path, scene->mesh.file) != 0) {
+        TRY(hash_mesh_file(scene->mesh.file, &mesh->hash, err));
+        memcpy(mesh->path, scene->mesh.file, SCENE_TEXT_SIZE);
     }
     hash_text(&hash, AMONTONS_VERSION);
-    hash_bytes(&hash, mesh, sizeof *mesh);
+    hash_bytes(&hash, &mesh->hash, sizeof mesh->hash);
     for (int32_t k = 0; k < count; k++) {
         const void *field = (const char *)scene + keys[k].offset;
         bool counts = strcmp(keys[k].name, "title") != 0 && strcmp(keys[k].name, "mesh.file") != 0;

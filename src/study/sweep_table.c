@@ -11,23 +11,14 @@
 #include <math.h>
 #include <string.h>
 
-enum { CELL_SIZE = 2 * ERROR_MESSAGE_SIZE, WORDS_MAX = 64, WORD_SIZE = 64 };
+enum { CELL_SIZE = 2 * ERROR_MESSAGE_SIZE };
 
-// Words in a column of keys that are no numbers; sweep.h5 stores their index.
-typedef struct WordList {
-    int32_t count;
-    char words[WORDS_MAX][WORD_SIZE];
-} WordList;
-
-typedef struct Table {
+typedef struct TableWriter {
     const Sweep *sweep;
-    CsvWriter *csv;   // owned, like all below
-    double *keys;   // [column_count][point_count]
-    double *records;   // [record_count][point_count]
-    double *status;   // [point_count]
-    WordList *words;   // [column_count]
+    SweepTable *table;   // filled row by row
+    CsvWriter *csv;   // owned, like the next
     char *cell;   // [CELL_SIZE] work
-} Table;
+} TableWriter;
 
 static const char *status_name(PointStatus status)
 {
@@ -37,16 +28,16 @@ static const char *status_name(PointStatus status)
 
 // --- sweep.csv ----------------------------------------------------------------------------------
 
-static void write_head(Table *table)
+static void write_head(TableWriter *writer)
 {
-    const Study *study = &table->sweep->study;
-    csv_text(table->csv, "point");
-    for (int32_t k = 0; k < study->column_count; k++) csv_text(table->csv, study->columns[k]);
-    for (int32_t k = 0; k < study->record_count; k++) csv_text(table->csv, study->records[k].name);
-    csv_text(table->csv, "status");
-    csv_text(table->csv, "message");
-    csv_text(table->csv, "run");
-    csv_end_row(table->csv);
+    const Study *study = &writer->sweep->study;
+    csv_text(writer->csv, "point");
+    for (int32_t k = 0; k < study->column_count; k++) csv_text(writer->csv, study->columns[k]);
+    for (int32_t k = 0; k < study->record_count; k++) csv_text(writer->csv, study->records[k].name);
+    csv_text(writer->csv, "status");
+    csv_text(writer->csv, "message");
+    csv_text(writer->csv, "run");
+    csv_end_row(writer->csv);
 }
 
 // --- rows ---------------------------------------------------------------------------------------
@@ -60,55 +51,76 @@ static double word_index(WordList *list, const char *word)
     return list->count++;
 }
 
-static void write_keys(Table *table, int32_t point, const Scene *scene)
+static void write_keys(TableWriter *writer, int32_t point, const Scene *scene)
 {
-    const Study *study = &table->sweep->study;
+    const Study *study = &writer->sweep->study;
     for (int32_t k = 0; k < study->column_count; k++) {
         double number = NAN;
-        study_scene_value(scene, study->columns[k], table->cell, CELL_SIZE, &number);
-        csv_text(table->csv, table->cell);
-        if (isnan(number)) number = word_index(&table->words[k], table->cell);
-        table->keys[k * study->point_count + point] = number;
+        study_scene_value(scene, study->columns[k], writer->cell, CELL_SIZE, &number);
+        csv_text(writer->csv, writer->cell);
+        if (isnan(number)) number = word_index(&writer->table->words[k], writer->cell);
+        writer->table->keys[k * study->point_count + point] = number;
     }
 }
 
 // report: of a finished point, or NULL.
-static void write_records(Table *table, int32_t point, const char *report)
+static void write_records(TableWriter *writer, int32_t point, const char *report)
 {
-    const Study *study = &table->sweep->study;
+    const Study *study = &writer->sweep->study;
     for (int32_t k = 0; k < study->record_count; k++) {
         const char *path = study->records[k].path;
         double number = NAN;
         if (report && !json_find_number(report, path, &number) &&
-            json_find_text(report, path, table->cell, CELL_SIZE))
-            csv_text(table->csv, table->cell);
+            json_find_text(report, path, writer->cell, CELL_SIZE))
+            csv_text(writer->csv, writer->cell);
         else
-            csv_number(table->csv, number);
-        table->records[k * study->point_count + point] = number;
+            csv_number(writer->csv, number);
+        writer->table->records[k * study->point_count + point] = number;
     }
 }
 
-static bool write_row(Table *table, int32_t point, Scene *scene, Error *err)
+// report: of a finished point. What mu_M may be: the range of the peaks that count where they
+// repeat, else of all peaks but the first.
+static void note_bounds(SweepTable *table, int32_t point, const char *report)
 {
-    const Sweep *sweep = table->sweep;
+    double mu = NAN, spread = NAN;
+    json_find_number(report, "results.period", &table->period[point]);
+    json_find_number(report, "results.mu_M", &mu);
+    json_find_number(report, "results.mu_M_spread", &spread);
+    if (table->period[point] > 0) {   // two peaks at least
+        table->low[point] = mu - spread / 2;
+        table->high[point] = mu + spread / 2;
+    } else {
+        json_find_number(report, "results.mu_peaks_low", &table->low[point]);
+        json_find_number(report, "results.mu_peaks_high", &table->high[point]);
+        if (table->low[point] == table->high[point])   // one peak bounds nothing
+            table->low[point] = table->high[point] = NAN;
+    }
+}
+
+static bool write_row(TableWriter *writer, int32_t point, Scene *scene, Error *err)
+{
+    const Sweep *sweep = writer->sweep;
     const SweepPoint *at = &sweep->points[point];
     char run[HASH_TEXT_SIZE + 8], *report = NULL;
     TRY(study_point_scene(&sweep->study, point, scene, err));
     if (at->status != POINT_PENDING) report = point_report(sweep, point, err);
     TRY(error_is_clean(err));
-    csv_number(table->csv, point);
-    write_keys(table, point, scene);
+    csv_number(writer->csv, point);
+    write_keys(writer, point, scene);
     // What a failed point came to before it failed is no result.
-    write_records(table, point, at->status == POINT_DONE ? report : NULL);
-    csv_text(table->csv, status_name(at->status));
-    *table->cell = 0;
+    write_records(writer, point, at->status == POINT_DONE ? report : NULL);
+    writer->table->period[point] = writer->table->low[point] = writer->table->high[point] = NAN;
+    if (at->status == POINT_DONE && report) note_bounds(writer->table, point, report);
+    csv_text(writer->csv, status_name(at->status));
+    *writer->cell = 0;
     if (at->status == POINT_FAILED && report)
-        json_find_text(report, "message", table->cell, ERROR_MESSAGE_SIZE);
-    csv_text(table->csv, table->cell);
+        json_find_text(report, "message", writer->cell, ERROR_MESSAGE_SIZE);
+    csv_text(writer->csv, writer->cell);
     snprintf(run, sizeof run, "points/%s", at->hash);
-    csv_text(table->csv, run);
-    csv_end_row(table->csv);
-    table->status[point] = at->status;
+    csv_text(writer->csv, run);
+    csv_end_row(writer->csv);
+    writer->table->status[point] = at->status;
 cleanup:
     memory_free(report);
     return error_is_clean(err);
@@ -139,9 +151,8 @@ static bool write_words(ArrayFile *file, const char *column, const WordList *lis
     return array_file_set_text(file, name, text, err);
 }
 
-static bool write_arrays(const Table *table, ArrayFile *file, Error *err)
+static bool write_arrays(const Study *study, const SweepTable *table, ArrayFile *file, Error *err)
 {
-    const Study *study = &table->sweep->study;
     int32_t count = study->point_count;
     TRY(array_file_set_text(file, "title", study->title, err));
     char name[STUDY_NAME_SIZE + 16];
@@ -164,13 +175,13 @@ cleanup:
     return error_is_clean(err);
 }
 
-static bool write_h5(const Table *table, Error *err)
+static bool write_h5(const Sweep *sweep, const SweepTable *table, Error *err)
 {
     char path[POINT_PATH_SIZE];
-    snprintf(path, sizeof path, "%s/sweep.h5", table->sweep->folder);
+    snprintf(path, sizeof path, "%s/sweep.h5", sweep->folder);
     ArrayFile *file = array_file_create(path, err);
     TRY(file);
-    TRY(write_arrays(table, file, err));
+    TRY(write_arrays(&sweep->study, table, file, err));
     ArrayFile *closing = file;
     file = NULL;
     TRY(array_file_close(closing, err));
@@ -179,34 +190,52 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool table_write(const Sweep *sweep, Error *err)
+static bool make_room(const Study *study, SweepTable *table, Error *err)
 {
-    const Study *study = &sweep->study;
     int64_t count = study->point_count;
-    char path[POINT_PATH_SIZE];
-    Table table = {.sweep = sweep};
-    Scene *scene = NEW_ARRAY(Scene, 1, err);
-    TRY(scene);
-    TRY((table.keys = NEW_ARRAY(double, count * study->column_count, err)));
-    TRY((table.records = NEW_ARRAY(double, count * study->record_count, err)));
-    TRY((table.status = NEW_ARRAY(double, count, err)));
-    TRY((table.words = NEW_ARRAY(WordList, study->column_count, err)));
-    TRY((table.cell = NEW_ARRAY(char, CELL_SIZE, err)));
-    snprintf(path, sizeof path, "%s/sweep.csv", sweep->folder);
-    TRY((table.csv = csv_create(path, err)));
-    write_head(&table);
-    for (int32_t k = 0; k < study->point_count; k++) TRY(write_row(&table, k, scene, err));
-    CsvWriter *closing = table.csv;
-    table.csv = NULL;
-    TRY(csv_finish(closing, err));
-    TRY(write_h5(&table, err));
+    TRY((table->keys = NEW_ARRAY(double, count * study->column_count, err)));
+    TRY((table->records = NEW_ARRAY(double, count * study->record_count, err)));
+    TRY((table->status = NEW_ARRAY(double, count, err)));
+    TRY((table->period = NEW_ARRAY(double, count, err)));
+    TRY((table->low = NEW_ARRAY(double, count, err)));
+    TRY((table->high = NEW_ARRAY(double, count, err)));
+    TRY((table->words = NEW_ARRAY(WordList, study->column_count, err)));
 cleanup:
-    csv_abandon(table.csv);
-    memory_free(table.cell);
-    memory_free(table.words);
-    memory_free(table.status);
-    memory_free(table.records);
-    memory_free(table.keys);
+    return error_is_clean(err);
+}
+
+bool table_write(const Sweep *sweep, SweepTable *table, Error *err)
+{
+    char path[POINT_PATH_SIZE];
+    TableWriter writer = {.sweep = sweep, .table = table};
+    Scene *scene = NULL;
+    *table = (SweepTable){0};
+    TRY(make_room(&sweep->study, table, err));
+    TRY((scene = NEW_ARRAY(Scene, 1, err)));
+    TRY((writer.cell = NEW_ARRAY(char, CELL_SIZE, err)));
+    snprintf(path, sizeof path, "%s/sweep.csv", sweep->folder);
+    TRY((writer.csv = csv_create(path, err)));
+    write_head(&writer);
+    for (int32_t k = 0; k < sweep->study.point_count; k++) TRY(write_row(&writer, k, scene, err));
+    CsvWriter *closing = writer.csv;
+    writer.csv = NULL;
+    TRY(csv_finish(closing, err));
+    TRY(write_h5(sweep, table, err));
+cleanup:
+    csv_abandon(writer.csv);
+    memory_free(writer.cell);
     memory_free(scene);
     return error_is_clean(err);
+}
+
+void table_destroy(SweepTable *table)
+{
+    memory_free(table->keys);
+    memory_free(table->records);
+    memory_free(table->status);
+    memory_free(table->period);
+    memory_free(table->low);
+    memory_free(table->high);
+    memory_free(table->words);
+    *table = (SweepTable){0};
 }

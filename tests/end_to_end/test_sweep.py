@@ -204,6 +204,44 @@ class Sweep(unittest.TestCase):
         self.assertEqual(states, ["failed"] + ["done"] * 7)
         self.assertIn("signal 11", self.table()[0]["message"])
 
+    def test_ranking(self):
+        """The order and the gains as the table has them; both pictures; what is wrong with a baseline."""
+        wanted = "rank: {by: mu_M, top: 3, against: {rod.kind: push, load.pressure: 0.006}}\n"
+        study = self.study(STUDY + wanted + "plot: {x: load.pressure, y: mu_M, series: mesh.set.length, log: x}\n")
+        done = self.sweep(study=study)
+        rows = self.table()
+        value = [float(row["mu_M"]) for row in rows]
+        order = sorted(range(8), key=lambda k: -value[k])
+        with open(self.folder / "out/ranking.csv", newline="") as file:
+            ranked = list(csv.DictReader(file))
+        self.assertEqual([int(row["point"]) for row in ranked], order)
+        for row in ranked:
+            k = int(row["point"])
+            self.assertEqual(float(row["mu_M"]), value[k])
+            base = value[2 if k < 4 else 6]   # the same length, pushed at 0.006
+            self.assertAlmostEqual(float(row["gain_percent"]), 100 * (value[k] / base - 1), places=9)
+            self.assertEqual("not periodic" in row["note"], rows[k]["period"] == "0")
+            if rows[k]["period"] != "0":
+                self.assertAlmostEqual(float(row["high"]) - float(row["low"]), float(rows[k]["spread"]))
+        shown = done.stdout.split("mu_M, highest first; gain over the same point with")[1].splitlines()
+        self.assertEqual(len(shown), 6)   # title, head, three rows, how many more
+        self.assertRegex(shown[2], rf"^ +1 .* {value[order[0]]:.4g} ")
+        self.assertIn("5 more in ranking.csv", shown[5])
+        for name in ("ranking", "plot"):
+            self.assertGreater((self.folder / f"out/figures/{name}.png").stat().st_size, 10000)
+            self.assertEqual(self.call("render", self.folder / f"out/figures/{name}.json").returncode, 0)
+        failing = STUDY.replace("vary:", "cases: [{groups.top: roof}, {groups.top: top}]\nvary:")
+        self.sweep(study=self.study(failing + "rank: {by: mu_M, order: lowest, against: best}\n"), status=1)
+        with open(self.folder / "out/ranking.csv", newline="") as file:
+            ranked = list(csv.DictReader(file))
+        self.assertEqual([int(row["point"]) for row in ranked], [*(k + 8 for k in sorted(range(8), key=lambda k: value[k])), *range(8)])
+        self.assertEqual([row["note"] for row in ranked[8:]], ["failed"] * 8)
+        self.assertEqual({row["rank"] for row in ranked[8:]}, {""})
+        done = self.sweep(study=self.study(STUDY + "plot: {x: rod.kind, y: mu_M}\n"), status=2)
+        self.assertIn("rod.kind has words, not numbers", done.stderr)
+        done = self.sweep(study=self.study(STUDY + "rank: {by: mu_M, against: {load.pressure: 7}}\n"), status=2)
+        self.assertRegex(done.stderr, r":9:\d+: against: no point of the study has these values")
+
     def test_equal_points_are_computed_once(self):
         study = self.study(STUDY.replace("[1, 2]", "[1, 1.0]"))
         self.assertIn("8 points: 4 computed", self.sweep(study=study).stdout)

@@ -69,6 +69,24 @@ static void holds_what_the_file_says(void **state)
     memory_free(plot);
 }
 
+// Where y has names its ends follow from them, and error bars lie along x.
+static void names_stand_beside_y(void **state)
+{
+    (void)state;
+    Error err = {0};
+    Plot *plot = plot_make();
+    write_plot("y: {names: [worst, best]}\n"
+               "series: [{x: [2, 4], y: [1, 2], low: [1, 4], high: [3, 11]}]\n");
+    if (!plot_file_read(path, plot, &err)) fail_msg("%s", err.message);
+    assert_int_equal(plot->main.y.name_count, 2);
+    assert_string_equal(plot->main.y.names[1], "best");
+    assert_true(plot->main.y.low == 0.5 && plot->main.y.high == 2.5);
+    assert_true(fabs(plot->main.x.low - 0.5) < 1e-12 && fabs(plot->main.x.high - 11.5) < 1e-12);
+    if (!amontons_render_plot(path, png, &err)) fail_msg("%s", err.message);
+    plot_destroy(plot);
+    memory_free(plot);
+}
+
 static void says_what_is_wrong(void **state)
 {
     (void)state;
@@ -91,6 +109,8 @@ static void says_what_is_wrong(void **state)
         {"series: []\ninset: {series: []}\n", "an inset needs its `place`"},
         {"series: []\ninset: {place: [0.5, 0, 0.4, 1], series: []}\n", "place: found a list"},
         {"[1]\n", "plot: found a list"},
+        {"y: {names: 3}\nseries: []\n", "names: found `3`; allowed: a list"},
+        {"x: {names: [a]}\nseries: []\n", "x: unknown key `names`"},
     };
     for (size_t k = 0; k < sizeof known / sizeof known[0]; k++) {
         Error err = {0};
@@ -142,8 +162,8 @@ static int file_remove(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(holds_what_the_file_says),
-                                       cmocka_unit_test(says_what_is_wrong),
-                                       cmocka_unit_test(draws_and_frees_all)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(holds_what_the_file_says), cmocka_unit_test(names_stand_beside_y),
+        cmocka_unit_test(says_what_is_wrong), cmocka_unit_test(draws_and_frees_all)};
     return cmocka_run_group_tests(tests, file_make, file_remove);
 }
