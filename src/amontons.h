@@ -142,57 +142,6 @@ typedef struct StaticSummary {
 bool amontons_static(const Scene *scene, const char *folder, bool overwrite, StaticSummary *summary,
                      Error *err);
 
-// --- stability ----------------------------------------------------------------------------------
-// One state of the quasi-static path, and how small disturbances of it grow.
-typedef struct StabilityPoint {
-    double front;                  // l, length
-    int32_t slipping;              // contact nodes that slip: more than front says where slip has
-                                   // begun in several places
-    double U, mu;                  // displacement of the rod, length; F_T / F_N
-    double rate_re, rate_im;       // the rightmost lambda of exp(lambda t), 1/time
-    double real_rate;              // the largest real one above 0, 1/time; 0: none
-    double load;                   // weakening over what viscosity, inertia and elasticity bear,
-                                   // pressure held fixed; from 1 on slip runs away
-    bool certified;                // viscosity alone bears the weakening
-} StabilityPoint;
-
-// Where something is first lost, over L, between two positions of the front; NaN: nowhere. l_c and
-// l_c_rod are 1 where the front crosses the block before.
-typedef struct StabilitySummary {
-    double l_sc_certificate;       // the certificate of time stepping; at a contact node
-    double l_sc;                   // Re lambda > 0: oscillations grow
-    double l_c_scan;               // real growth, pressure held fixed
-    double l_c;                    // real growth: slow slip turns into sliding however slow the rod
-    double l_c_rod;                // at the scene's V already: an oscillation grows from V to v_c
-                                   // within half a period, pi Re/Im > ln(v_c/V)
-    double mu_c, mu_rod;           // mu at l_c and at l_c_rod: mu_M for V -> 0, and for V
-    double U_c, U_rod;             // U there, length
-    double frequency;              // Im lambda at l_sc, 1/time
-    double element;                // mean distance of contact nodes, over L
-    int32_t points;
-    int64_t path_steps;
-    double seconds_before, seconds_path, seconds_growth;   // dynamic run; path; growth rates
-    char folder[AMONTONS_PATH_SIZE];
-} StabilitySummary;
-
-typedef void (*StabilityCallback)(const StabilityPoint *point, void *context);
-
-typedef struct StabilityOptions {
-    int32_t slidings;              // the path begins when so many slidings, computed by time
-                                   // stepping, have ended; 0: at the relaxed start
-    bool whole;                    // follow the front to the end, also beyond l_c
-    const char *folder;            // for stability.json and stability.h5; NULL: none
-    bool overwrite;
-    StepCallback on_step;          // of the time stepping before the path; NULL: none
-    StabilityCallback on_point;    // of the path; NULL: none
-    void *context;                 // handed to both
-    const volatile sig_atomic_t *stop;   // as in RunOptions
-} StabilityOptions;
-
-// Follows the quasi-static path of `scene` and asks each front position for its growth rates.
-bool amontons_stability(const Scene *scene, const StabilityOptions *options,
-                        StabilitySummary *summary, Error *err);
-
 // --- sweeps -------------------------------------------------------------------------------------
 // One point that ended, or was found finished.
 typedef struct SweepView {
@@ -249,5 +198,6 @@ bool amontons_info(const char *path, const InfoOptions *options, FILE *out, Erro
 int32_t amontons_nearest_name(const char *word, const char *const *names, int32_t count);
 
 #include "amontons_model1d.h"   // the paper's 1D effective model
+#include "amontons_stability.h"   // growth rates of slow slip
 
 #endif

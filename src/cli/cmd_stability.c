@@ -128,6 +128,28 @@ static void print_length(const char *name, double value, const char *sentence)
         printf("  %-22s %-8.4f %s\n", name, value, sentence);
 }
 
+// What each pad bears alone, and which of them goes.
+static void print_pads(const StabilitySummary *summary)
+{
+    if (summary->pad_count < 2) return;
+    printf("\n%-16s %10s %9s %9s %9s %9s %10s %10s\n", "pad, at l_c at V", "pressure", "slips",
+           "in mode", "load", "l_c alone", "drag", "stiffness");
+    for (int32_t p = 0; p < summary->pad_count; p++) {
+        const StabilityPad *pad = &summary->pads[p];
+        printf("%-16s %10.4g %9.3f %9.3f %9.3f ", pad->name, pad->pressure,
+               pad->slipping / pad->length, pad->mode, pad->load);
+        if (isnan(pad->l_c))
+            printf("%9s", "none");
+        else
+            printf("%9.3f", pad->l_c / pad->length);
+        printf(" %10.4g %10.4g\n", pad->drag, pad->stiffness);
+    }
+    printf("  slips, l_c alone: over the pad's length. load: weakening over what the pad bears "
+           "when all\n"
+           "  of it slips and the others hold; from 1 on it runs away alone, else it must be "
+           "carried.\n");
+}
+
 static void print_answers(const StabilitySummary *summary)
 {
     printf("\n");
@@ -141,6 +163,7 @@ static void print_answers(const StabilitySummary *summary)
     print_length("mu_M, V -> 0", summary->mu_c, "mu at l_c");
     print_length("mu_M at V", summary->mu_rod, "mu at l_c at V");
     printf("  (the front goes from node to node: %.4f L between two)\n", summary->element);
+    print_pads(summary);
     printf("  time taken             %.1f s (before the path %.1f, path %.1f, growth rates %.1f)\n",
            summary->seconds_before + summary->seconds_path + summary->seconds_growth,
            summary->seconds_before, summary->seconds_path, summary->seconds_growth);

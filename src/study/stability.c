@@ -94,6 +94,7 @@ static bool open_path(StabilityPath *path, Error *err)
                    .rod = &simulation->rod};
     TRY(step_control_create(&block, &def, &path->control, err));
     TRY(state_create(&simulation->system, interface, &path->last, err));
+    TRY(state_create(&simulation->system, interface, &path->runaway, err));
     state_copy(&simulation->control.now, &path->control.now);
     path->U_start = simulation->rod.velocity * path->control.now.time;
     for (int32_t j = 0; j < interface->rod_count; j++) simulation->rod.origin[j] += path->U_start;
@@ -123,6 +124,21 @@ static int32_t count_slipping(const State *state)
     return count;
 }
 
+// Half a period's growth against v_c/V.
+static double half_period(const StabilityPath *path, int32_t k)
+{
+    const StabilityPoint *point = &path->points[k];
+    double ratio = path->simulation->law.critical_velocity / path->simulation->scene.rod.velocity;
+    if (!(point->rate_re > 0)) return -INFINITY;
+    if (!(point->rate_im > 0)) return INFINITY;
+    return M_PI * point->rate_re / point->rate_im - log(ratio);
+}
+
+static bool runs_away(const StabilityPath *path, int32_t k)
+{
+    return path->critical >= 0 || half_period(path, k) >= 0;
+}
+
 // The growth rates of `last`, as it was seen.
 static bool add_point(StabilityPath *path, const Observation *seen, Error *err)
 {
@@ -147,6 +163,10 @@ static bool add_point(StabilityPath *path, const Observation *seen, Error *err)
     if (rates.real_mode && path->critical < 0) {
         path->critical = path->count;
         keep_slip(interface, rates.real_mode, path->critical_mode);
+    }
+    if (path->at_rod < 0 && runs_away(path, path->count)) {
+        path->at_rod = path->count;
+        state_copy(&path->last, &path->runaway);
     }
     path->count++;
     path->seconds_growth += clock_seconds() - started;
@@ -236,16 +256,6 @@ static double frequency_square(const StabilityPath *path, int32_t k)
     return fmax(fall * (point->front - point[-1].front) - square, 0);
 }
 
-// Half a period's growth against v_c/V.
-static double half_period(const StabilityPath *path, int32_t k)
-{
-    const StabilityPoint *point = &path->points[k];
-    double ratio = path->simulation->law.critical_velocity / path->simulation->scene.rod.velocity;
-    if (!(point->rate_re > 0)) return -INFINITY;
-    if (!(point->rate_im > 0)) return INFINITY;
-    return M_PI * point->rate_re / point->rate_im - log(ratio);
-}
-
 // Where the margin is lost first: l, U and mu there (the point's own where the margin jumps).
 static StabilityPoint first_loss(const StabilityPath *path, Margin margin)
 {
@@ -302,6 +312,7 @@ static void path_destroy(StabilityPath *path)
     growth_destroy(path->growth);
     step_control_destroy(&path->control);
     state_destroy(&path->last);
+    state_destroy(&path->runaway);
     amontons_simulation_destroy(path->simulation);
     memory_free(path->points);
     memory_free(path->modes);
@@ -311,7 +322,7 @@ static void path_destroy(StabilityPath *path)
 bool amontons_stability(const Scene *scene, const StabilityOptions *options,
                         StabilitySummary *summary, Error *err)
 {
-    StabilityPath path = {.options = options, .critical = -1};
+    StabilityPath path = {.options = options, .critical = -1, .at_rod = -1};
     double started = clock_seconds();
     *summary = (StabilitySummary){.l_c = NAN, .mu_c = NAN};
     TRY(check_scene(scene, err));
@@ -323,6 +334,7 @@ bool amontons_stability(const Scene *scene, const StabilityOptions *options,
     TRY(open_path(&path, err));
     TRY(follow_path(&path, err));
     summarise(&path, summary);
+    TRY(stability_measure_pads(&path, summary, err));
     summary->seconds_before = before - started;
     summary->seconds_path = clock_seconds() - before - path.seconds_growth;
     if (options->folder) {

@@ -23,8 +23,14 @@ typedef struct StabilityPath {
     double *critical_mode;   // [contact_count] slip of the real growing mode at l_c
     bool at_end;   // the front has crossed the block
     int32_t critical;   // point where l_c was found; -1: not yet
+    int32_t at_rod;   // point where slip first runs away at the scene's V; -1: not yet
+    State runaway;   // the state of that point; owned
     double seconds_growth;
 } StabilityPath;
+
+// What each pad bears in path->runaway, and how much it takes part in the mode of point at_rod
+// (pad_growth.c). ERROR_COMPUTE: a small eigenproblem was not solved.
+bool stability_measure_pads(StabilityPath *path, StabilitySummary *summary, Error *err);
 
 // stability.json and stability.h5 in the options' folder.
 bool stability_write(const StabilityPath *path, const StabilitySummary *summary, Error *err);

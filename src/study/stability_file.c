@@ -47,6 +47,26 @@ static void write_points(JsonWriter *json, const StabilityPath *path)
     json_end(json);
 }
 
+static void write_pads(JsonWriter *json, const StabilitySummary *summary)
+{
+    json_begin_list(json, "pads");
+    for (int32_t p = 0; p < summary->pad_count; p++) {
+        const StabilityPad *pad = &summary->pads[p];
+        json_begin_object(json, NULL);
+        json_text(json, "name", pad->name);
+        json_number(json, "length", pad->length);
+        json_number(json, "pressure", pad->pressure);
+        json_number(json, "slipping_over_length", pad->slipping / pad->length);
+        json_number(json, "mode", pad->mode);
+        json_number(json, "load", pad->load);
+        json_number(json, "l_c_over_length", pad->l_c / pad->length);
+        json_number(json, "drag", pad->drag);
+        json_number(json, "stiffness", pad->stiffness);
+        json_end(json);
+    }
+    json_end(json);
+}
+
 static bool write_numbers(const StabilityPath *path, const StabilitySummary *summary, Error *err)
 {
     char file[AMONTONS_PATH_SIZE + 32];
@@ -59,6 +79,7 @@ static bool write_numbers(const StabilityPath *path, const StabilitySummary *sum
     scene_write_json(&path->simulation->scene, json, "scene");
     json_integer(json, "slidings_before", path->options->slidings);
     write_results(json, summary);
+    write_pads(json, summary);
     write_points(json, path);
     json_begin_object(json, "timing_s");
     json_number(json, "before", summary->seconds_before);
