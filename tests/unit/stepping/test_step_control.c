@@ -3,75 +3,16 @@
 // the certificate does not hold back.
 #include "stepping/step_control.h"
 
-#include "block_rig.h"
-#include "stepping/relaxation.h"
-
-typedef struct Run {
-    BlockRig rig;
-    StepControl control;
-} Run;
-
-static RigDef pushed_def(void)
-{
-    RigDef def = rig_def();
-    def.block.nx = 10;
-    def.block.nz = 5;
-    def.rod_kind = ROD_AWAY;
-    def.rod_velocity = 1e-5;
-    def.rod_width = 0.25;
-    return def;
-}
-
-static StepControlDef control_def(void)
-{
-    return (StepControlDef){.tolerance = 4e-7,
-                            .step_max = 8,
-                            .step_min = 1e-9,
-                            .wave_step = 0.1,
-                            .growth_max = 2,
-                            .use_certificate = true};
-}
-
-// Relaxed under its load, the rod just touching, at t = 0.
-static void run_build(const RigDef *def, const StepControlDef *steps, Run *run)
-{
-    Error err = {0};
-    int64_t count = 0;
-    rig_build(def, &run->rig);
-    double velocity = run->rig.rod.velocity;
-    run->rig.rod.velocity = 0;
-    assert_true(step_control_create(&run->rig.block, steps, &run->control, &err));
-    RelaxationDef relaxation = {.speed_max = 1e-10, .duration_max = 1e5};
-    if (!relax(&run->control, &relaxation, &count, &err)) fail_msg("%s", err.message);
-    for (int32_t j = 0; j < run->rig.interface.rod_count; j++)
-        run->rig.rod.origin[j] =
-            run->control.now
-                .displacement[run->rig.interface.dofs[interface_rod(&run->rig.interface, j)]];
-    run->rig.rod.velocity = velocity;
-    run->rig.rod.kind = ROD_PUSHES;
-    step_control_restart(&run->control);
-}
-
-static void run_destroy(Run *run)
-{
-    step_control_destroy(&run->control);
-    rig_destroy(&run->rig);
-}
-
-static void advance(Run *run, double remaining)
-{
-    Error err = {0};
-    if (!step_control_advance(&run->control, remaining, &err)) fail_msg("%s", err.message);
-}
+#include "pushed_block.h"
 
 static void check_rules(double wave_step, double tolerance)
 {
-    RigDef def = pushed_def();
-    StepControlDef steps = control_def();
+    RigDef def = pushed_def(10);
+    StepControlDef steps = pushed_steps();
     steps.wave_step = wave_step;
     steps.tolerance = tolerance;
-    Run run;
-    run_build(&def, &steps, &run);
+    PushedBlock run;
+    pushed_build(&def, &steps, &run);
     StepControl *control = &run.control;
     assert_true(control->now.time == 0 && control->counters.accepted == 0);
     double time = 0, last = INFINITY;
@@ -79,7 +20,7 @@ static void check_rules(double wave_step, double tolerance)
     while (control->now.time < 450) {
         int64_t rejections = control->counters.rejected_error +
                              control->counters.rejected_uncertified + control->counters.unsolved;
-        advance(&run, INFINITY);
+        pushed_advance(&run, INFINITY);
         bool retried = rejections != control->counters.rejected_error +
                                          control->counters.rejected_uncertified +
                                          control->counters.unsolved;
@@ -110,7 +51,7 @@ static void check_rules(double wave_step, double tolerance)
     assert_true(control->counters.rejected_uncertified > 0);
     assert_true(fabs(energy_imbalance(&control->ledger)) <
                 1e-1 * energy_turnover(&control->ledger));
-    run_destroy(&run);
+    pushed_destroy(&run);
 }
 
 // Every accepted step keeps every rule, and the counters add up. A wave step far too long leaves it
@@ -125,20 +66,18 @@ static void test_rules(void **state)
 // The largest F_T/F_N in the second half of the rod's way, when sliding has become periodic.
 static double peak_force(bool use_certificate, double tolerance)
 {
-    RigDef def = pushed_def();
-    StepControlDef steps = control_def();
+    RigDef def = pushed_def(10);
+    StepControlDef steps = pushed_steps();
     steps.use_certificate = use_certificate;
     steps.tolerance = tolerance;
-    Run run;
-    run_build(&def, &steps, &run);
+    PushedBlock run;
+    pushed_build(&def, &steps, &run);
     double peak = 0, distance = 1e-2;
-    while (run.control.now.time * def.rod_velocity < distance) {
-        advance(&run, INFINITY);
-        double U = run.control.now.time * def.rod_velocity;
-        double mu = rod_force(&run.rig.interface, run.control.now.reaction) / 0.003;
-        if (U > 0.5 * distance) peak = fmax(peak, mu);
+    while (pushed_way(&run) < distance) {
+        pushed_advance(&run, INFINITY);
+        if (pushed_way(&run) > 0.5 * distance) peak = fmax(peak, pushed_mu(&run));
     }
-    run_destroy(&run);
+    pushed_destroy(&run);
     return peak;
 }
 
@@ -157,20 +96,20 @@ static void test_certificate_prevents_the_wrong_answer(void **state)
 static void test_tolerance(void **state)
 {
     (void)state;
-    RigDef def = pushed_def();
+    RigDef def = pushed_def(10);
     int64_t before = 0;
     for (double tolerance = 4e-6; tolerance > 4e-9; tolerance *= 0.1) {
-        StepControlDef steps = control_def();
+        StepControlDef steps = pushed_steps();
         steps.tolerance = tolerance;
-        Run run;
-        run_build(&def, &steps, &run);
+        PushedBlock run;
+        pushed_build(&def, &steps, &run);
         while (run.control.now.time < 100) {
-            advance(&run, INFINITY);
+            pushed_advance(&run, INFINITY);
             assert_true(run.control.outcome.error <= tolerance);
         }
         assert_true(run.control.counters.accepted > before);
         before = run.control.counters.accepted;
-        run_destroy(&run);
+        pushed_destroy(&run);
     }
 }
 
@@ -178,20 +117,20 @@ static void test_tolerance(void **state)
 static void test_remaining(void **state)
 {
     (void)state;
-    RigDef def = pushed_def();
-    StepControlDef steps = control_def();
-    Run run;
-    run_build(&def, &steps, &run);
+    RigDef def = pushed_def(10);
+    StepControlDef steps = pushed_steps();
+    PushedBlock run;
+    pushed_build(&def, &steps, &run);
     const double end = 41.3;
     while (run.control.now.time < end) {
         double remaining = end - run.control.now.time, smallest = INFINITY;
         for (int32_t k = 0; k < run.control.ladder.rung_count; k++)
             if (run.control.ladder.rung[k]) smallest = ladder_step(&run.control.ladder, k);
-        advance(&run, remaining);
+        pushed_advance(&run, remaining);
         if (smallest <= remaining) assert_true(run.control.last_step <= remaining);
     }
     assert_true(run.control.now.time < end + steps.step_max);
-    run_destroy(&run);
+    pushed_destroy(&run);
 }
 
 // Contact that is never solved, or an error that is never small enough: not accepted at any step,
@@ -201,10 +140,10 @@ static void test_gives_up(void **state)
     (void)state;
     for (int which = 0; which < 2; which++) {
         Error err = {0};
-        RigDef def = pushed_def();
-        StepControlDef steps = control_def();
-        Run run;
-        run_build(&def, &steps, &run);
+        RigDef def = pushed_def(10);
+        StepControlDef steps = pushed_steps();
+        PushedBlock run;
+        pushed_build(&def, &steps, &run);
         StepControl *control = &run.control;
         if (which == 0) {
             control->scheme.solver.def.iterations_all = control->scheme.solver.def.iterations_one =
@@ -225,7 +164,7 @@ static void test_gives_up(void **state)
         assert_memory_equal(before, control->now.displacement,
                             (size_t)control->now.dof_count * sizeof *before);
         free(before);
-        run_destroy(&run);
+        pushed_destroy(&run);
     }
 }
 
@@ -234,19 +173,19 @@ static void test_gives_up(void **state)
 static void test_energy_balance(void **state)
 {
     (void)state;
-    RigDef def = pushed_def();
+    RigDef def = pushed_def(10);
     double missing[2];
     int64_t accepted[2];
     for (int strict = 0; strict < 2; strict++) {
-        StepControlDef steps = control_def();
+        StepControlDef steps = pushed_steps();
         steps.tolerance = 4e-4;
         steps.energy_tolerance = strict ? 1e-4 : 0;
-        Run run;
-        run_build(&def, &steps, &run);
+        PushedBlock run;
+        pushed_build(&def, &steps, &run);
         StepControl *control = &run.control;
         while (control->now.time < 450) {
             EnergyLedger before = control->ledger;
-            advance(&run, INFINITY);
+            pushed_advance(&run, INFINITY);
             double left = fabs(energy_imbalance(&control->ledger) - energy_imbalance(&before));
             bool asked = strict && control->last_step > steps.wave_step;
             double allowed = fmax(0.5 * energy_turned_over(&before, &control->ledger),
@@ -257,7 +196,7 @@ static void test_energy_balance(void **state)
                           energy_turnover(&control->ledger);
         accepted[strict] = control->counters.accepted;
         assert_true((control->counters.rejected_energy > 0) == (strict == 1));
-        run_destroy(&run);
+        pushed_destroy(&run);
     }
     assert_true(missing[1] < 0.5 * missing[0]);
     assert_true(accepted[1] > accepted[0] && accepted[1] < 5 * accepted[0]);
@@ -268,22 +207,22 @@ static void test_allocations(void **state)
 {
     (void)state;
     Error err = {0};
-    RigDef def = pushed_def();
-    StepControlDef steps = control_def();
-    Run run;
-    run_build(&def, &steps, &run);
+    RigDef def = pushed_def(10);
+    StepControlDef steps = pushed_steps();
+    PushedBlock run;
+    pushed_build(&def, &steps, &run);
     for (int32_t k = 0; k < 14; k++) assert_non_null(ladder_rung(&run.control.ladder, k, &err));
     int64_t allocations = memory_counters().allocations;
-    while (run.control.now.time < 450) advance(&run, INFINITY);
+    while (run.control.now.time < 450) pushed_advance(&run, INFINITY);
     assert_int_equal(memory_counters().allocations, allocations);
-    run_destroy(&run);
+    pushed_destroy(&run);
 }
 
 static void test_memory_faults(void **state)
 {
     (void)state;
     RigDef def = rig_def();
-    StepControlDef steps = control_def();
+    StepControlDef steps = pushed_steps();
     BlockRig rig;
     rig_build(&def, &rig);
     int64_t live = memory_counters().live;
