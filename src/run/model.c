@@ -51,6 +51,7 @@ bool model_prepare_steps(Simulation *simulation, Error *err)
     // steps are taken, is a rung and not up to twice as long as the next one.
     if (driven) def.step_max = def.wave_step * exp2(ceil(log2(def.step_max / def.wave_step)));
     if (implicit && scene->time.step_max > 0) def.step_max = scene->time.step_max;
+    def.watch_time = scene->time.watch * def.wave_step / scene->time.wave_step;
     def.step_min = implicit && scene->time.step_min > 0
                        ? scene->time.step_min
                        : STEP_RANGE * fmin(def.step_max, def.wave_step);

@@ -136,6 +136,11 @@ static const SceneKey keys[] = {
     {"time.wave_step", KEY_NUMBER, offsetof(Scene, time.wave_step), "1", RANGE_PART, "0.2",
      .sentence = "Longest step while slip is not certified to be stable, in wave crossings of the "
                  "block, L / c_L."},
+    {"time.watch", KEY_NUMBER, offsetof(Scene, time.watch), "1", RANGE_NOT_NEGATIVE, "20",
+     .sentence = "How long the swings of slow slip beyond l_sc are followed at each position of "
+                 "the front, in wave crossings of the block; after that those that stay small are "
+                 "stepped over, so that a slow rod costs no more than a fast one. 0: all of them "
+                 "are followed."},
     {"time.certificate", KEY_FLAG, offsetof(Scene, time.certificate), "1", RANGE_ANY, "true",
      .sentence = "Resolve waves wherever slip is not certified to be stable; off gives wrong "
                  "answers and is "

@@ -63,6 +63,7 @@ RunCounters summary_count(const Simulation *simulation)
     return (RunCounters){.accepted = steps->accepted,
                          .rejected = rejected,
                          .rejected_uncertified = steps->rejected_uncertified,
+                         .over_swings = steps->over_swings,
                          .unsolved_retries = steps->unsolved,
                          .factorisations = simulation->system.factorisations,
                          .solves = simulation->system.solves,

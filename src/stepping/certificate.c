@@ -7,12 +7,17 @@
 
 #include <math.h>
 
+// s m + k/s at the best of the s of rungs that double is at most this times 2 sqrt(m k):
+// (sqrt 2 + 1/sqrt 2)/2.
+static const double BETWEEN_RUNGS = 1.0606601717798212;
+
 bool certificate_create(const Block *block, Certificate *certificate, Error *err)
 {
     *certificate = (Certificate){.interface = block->interface, .law = block->law};
     int64_t count = block->interface->count;
     certificate->matrix = NEW_ARRAY(double, count *count, err);
     certificate->weakening = NEW_ARRAY(double, count, err);
+    certificate->vector = NEW_ARRAY(double, count, err);
     certificate->moving = NEW_ARRAY(int32_t, count, err);
     certificate->pivots = NEW_ARRAY(int32_t, count, err);
     if (!error_is_clean(err)) return false;
@@ -28,6 +33,7 @@ void certificate_destroy(Certificate *certificate)
     interface_operator_destroy(certificate->damping);
     memory_free(certificate->matrix);
     memory_free(certificate->weakening);
+    memory_free(certificate->vector);
     memory_free(certificate->moving);
     memory_free(certificate->pivots);
     *certificate = (Certificate){0};
@@ -62,17 +68,23 @@ static bool list_moving(Certificate *certificate, const State *state, int32_t *m
     return weakens;
 }
 
-// schur: NULL where the matrix itself is singular.
-static bool is_definite(Certificate *certificate, const State *state, const double *schur)
+// part S + (1 - part) S_C - W on F; schur: S. S_C is NULL where C itself is singular.
+static bool is_definite(Certificate *certificate, const State *state, const double *schur,
+                        double part)
 {
     int32_t count = 0;
     if (!list_moving(certificate, state, &count)) return true;   // S itself is never indefinite
-    if (!schur) return false;
+    const double *damping = certificate->damping ? interface_operator_schur(certificate->damping)
+                                                 : NULL;
+    if (part < 1 && !damping) return false;
     int64_t size = certificate->interface->count;
     for (int32_t b = 0; b < count; b++) {
-        const double *column = schur + size * certificate->moving[b];
+        int64_t column = size * certificate->moving[b];
         double *out = certificate->matrix + (int64_t)count * b;
-        for (int32_t a = b; a < count; a++) out[a] = column[certificate->moving[a]];
+        const double *own = (part > 0 ? schur : damping) + column;
+        for (int32_t a = b; a < count; a++) out[a] = own[certificate->moving[a]];
+        for (int32_t a = b; part > 0 && part < 1 && a < count; a++)
+            out[a] = part * out[a] + (1 - part) * damping[column + certificate->moving[a]];
         out[b] -= certificate->weakening[b];
     }
     certificate->checks++;
@@ -81,16 +93,14 @@ static bool is_definite(Certificate *certificate, const State *state, const doub
 
 bool certificate_holds(Certificate *certificate, const State *state)
 {
-    const double *schur = certificate->damping ? interface_operator_schur(certificate->damping)
-                                               : NULL;
     double started = clock_seconds();
-    bool holds = is_definite(certificate, state, schur);
+    bool holds = is_definite(certificate, state, NULL, 0);
     certificate->seconds += clock_seconds() - started;
     return holds;
 }
 
-// det J > 0, J with the pressure that follows slip.
-static bool coupled_is_positive(Certificate *certificate, const State *state, const double *schur)
+// matrix = (S_t + sign(v) mu S_n)[F,F], the pressure that follows slip included; returns |F|.
+static int32_t fill_coupled(Certificate *certificate, const State *state, const double *schur)
 {
     int32_t count = 0;
     list_moving(certificate, state, &count);
@@ -109,11 +119,58 @@ static bool coupled_is_positive(Certificate *certificate, const State *state, co
             int32_t column = certificate->moving[b];
             certificate->matrix[(int64_t)b * count + a] = own[column] + mu * normal[column];
         }
-        certificate->matrix[(int64_t)a * count + a] -= certificate->weakening[a];
     }
     certificate->checks++;
+    return count;
+}
+
+// det J > 0
+static bool coupled_is_positive(Certificate *certificate, const State *state, const double *schur)
+{
+    int32_t count = fill_coupled(certificate, state, schur);
+    for (int64_t a = 0; a < count; a++)
+        certificate->matrix[a * count + a] -= certificate->weakening[a];
     return dense_lu(certificate->matrix, count, certificate->pivots) &&
            dense_lu_sign(certificate->matrix, count, certificate->pivots) > 0;
+}
+
+bool certificate_swings_less(Certificate *certificate, const State *state,
+                             const InterfaceOperator *rung, double growth)
+{
+    double started = clock_seconds(), ratio = log(growth) / M_PI;
+    double part = ratio / sqrt(1 + ratio * ratio) / BETWEEN_RUNGS;
+    bool less = is_definite(certificate, state, interface_operator_schur(rung), part);
+    certificate->seconds += clock_seconds() - started;
+    return less;
+}
+
+// Powers of ((S_t + sign(v) mu S_n)[F,F])^-1 W; INFINITY where they do not settle.
+static double largest_load(Certificate *certificate, const State *state, const double *schur)
+{
+    enum { POWERS_MAX = 200 };
+    int32_t count = fill_coupled(certificate, state, schur);
+    double *x = certificate->vector, load = INFINITY;
+    if (!dense_lu(certificate->matrix, count, certificate->pivots)) return INFINITY;
+    for (int32_t a = 0; a < count; a++) x[a] = certificate->weakening[a] > 0 ? 1 : 0;
+    double norm = sqrt(dense_dot(x, x, count));
+    if (norm == 0) return 0;
+    for (int32_t power = 0; power < POWERS_MAX; power++) {
+        double before = load;
+        for (int32_t a = 0; a < count; a++) x[a] *= certificate->weakening[a] / norm;
+        dense_lu_solve(certificate->matrix, count, certificate->pivots, x);
+        load = norm = sqrt(dense_dot(x, x, count));
+        if (fabs(load - before) <= 1e-6 * load) return load;
+    }
+    return INFINITY;
+}
+
+double certificate_load(Certificate *certificate, const State *state, const InterfaceOperator *rung)
+{
+    const double *schur = interface_operator_schur(rung);
+    double started = clock_seconds();
+    double load = largest_load(certificate, state, schur);
+    certificate->seconds += clock_seconds() - started;
+    return load;
 }
 
 bool certificate_step_resolves(Certificate *certificate, const State *state,
@@ -121,7 +178,7 @@ bool certificate_step_resolves(Certificate *certificate, const State *state,
 {
     const double *schur = interface_operator_schur(rung);
     double started = clock_seconds();
-    bool resolves = is_definite(certificate, state, schur) ||
+    bool resolves = is_definite(certificate, state, schur, 1) ||
                     coupled_is_positive(certificate, state, schur);
     certificate->seconds += clock_seconds() - started;
     return resolves;

@@ -11,7 +11,17 @@
 //     1/(gamma dt): nothing grows faster than s. Lost: there may be a real growth rate above s,
 //     which the step would hide.
 //
-// Both leave out that pressure follows slip. The rows of slipping nodes with it,
+// Between them, where slip swings: an exp(lambda t) of the shape u has lambda^2 m + lambda c + k =
+// 0 with m = u* M u, c = u* (C - W) u, k = u* K u; hence -Re lambda/|lambda| = c/(2 sqrt(m k)), and
+// 2 sqrt(m k) is the least of s m + k/s over s > 0. So
+//
+//   * S_C + a (S(s) - S_C) - W positive definite for all s: Re lambda < a |lambda| for all that
+//     grows. (The Schur complement of C + a (s M + K/s) is larger, as Schur complements are
+//     concave.) With a = cos(arctan(pi/log g)) what swings grows by less than g in half a period.
+//
+// a = 0 is the first test and a = 1 the second.
+//
+// All leave out that pressure follows slip. The rows of slipping nodes with it,
 //
 //     J(s) = S_t + sign(v) mu S_n - W,
 //
@@ -30,10 +40,11 @@ typedef struct Certificate {
     InterfaceOperator *damping;   // holds S_C; owned
     double *matrix;   // [count^2] work; owned
     double *weakening;   // [count] work: W's diagonal; owned
-    int32_t *moving;             // [count] work: F; owned
-    int32_t *pivots;             // [count] work; owned
+    double *vector;   // [count] work; owned
+    int32_t *moving;   // [count] work: F; owned
+    int32_t *pivots;   // [count] work; owned
     int64_t checks;   // counted: Cholesky factorisations
-    double seconds;              // wall time spent
+    double seconds;   // wall time spent
 } Certificate;
 
 bool certificate_create(const Block *block, Certificate *certificate, Error *err);
@@ -45,5 +56,16 @@ bool certificate_holds(Certificate *certificate, const State *state);
 // Nothing grows faster than 1/(gamma dt), dt that of `rung`.
 bool certificate_step_resolves(Certificate *certificate, const State *state,
                                const InterfaceOperator *rung);
+
+// A disturbance that swings grows by less than `growth` > 1 in half a period. To be asked on all
+// rungs that are built.
+bool certificate_swings_less(Certificate *certificate, const State *state,
+                             const InterfaceOperator *rung, double growth);
+
+// Weakening over what the block bears at s = 1/(gamma dt), the pressure that follows slip included:
+// the largest eigenvalue of ((S_t + sign(v) mu S_n)[F,F])^-1 W, by powers of it. 1: s is a real
+// growth rate. INFINITY where powers do not settle.
+double certificate_load(Certificate *certificate, const State *state,
+                        const InterfaceOperator *rung);
 
 #endif

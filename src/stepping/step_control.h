@@ -4,7 +4,9 @@
 //   2. the estimated local error is within tolerance,
 //   3. its energies balance: numerics take or give only a small part of what the step turned over,
 //   4. its end state is certified dissipative, or the step resolves waves (dt <= wave_step) and no
-//      growth faster than 1/(gamma dt) is left in the slip set (stepping/certificate).
+//      growth faster than 1/(gamma dt) is left in the slip set (stepping/certificate), or what
+//      swings there stays small, by certificate or by what was seen of it (stepping/watch), and
+//      nothing grows without swinging.
 // Otherwise it goes back to the old state with a smaller rung. Used by stepping/relaxation and
 // run/simulation.
 #ifndef AMONTONS_STEPPING_STEP_CONTROL_H
@@ -12,6 +14,7 @@
 
 #include "stepping/certificate.h"
 #include "stepping/sdirk2.h"
+#include "stepping/watch.h"
 
 typedef struct StepControlDef {
     double tolerance;   // of the local error of u in one step, length
@@ -19,6 +22,8 @@ typedef struct StepControlDef {
     double relax_step;   // while relaxing steps may be so long, also where step_max is less, time
     double step_min;   // below it the run stops with an error, time
     double wave_step;   // largest step while not certified, time
+    double
+        watch_time;   // swings are followed so long before they are stepped over, time; 0: always
     double energy_tolerance;   // of the ledger, relative to what was turned over; 0: not asked
     double growth_max;   // a step's successor may be at most this many times longer: 2
     bool use_certificate;   // off only to study what it prevents
@@ -26,6 +31,7 @@ typedef struct StepControlDef {
 
 typedef struct StepCounters {
     int64_t accepted, rejected_error, rejected_energy, rejected_uncertified, unsolved;
+    int64_t over_swings;   // accepted, longer than wave_step though not certified
 } StepCounters;
 
 typedef struct StepControl {
@@ -33,6 +39,7 @@ typedef struct StepControl {
     Ladder ladder;   // owned, like all that follows
     Sdirk2 scheme;
     Certificate certificate;
+    Watch watch;
     State now;   // the last accepted state
     State next;   // work
     EnergyLedger ledger;

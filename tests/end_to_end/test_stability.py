@@ -177,7 +177,8 @@ class Refusals(InFolder):
         self.assertLessEqual(max(map(len, shown.stdout.splitlines())), 80)
 
     def test_interrupt(self):
-        words = [PROGRAM, "stability", FIG1, "--set", "rod.velocity=1e-8", "mesh.set.nx=20",
+        words = [PROGRAM, "stability", FIG1, "--set", "rod.velocity=1e-8", "time.watch=0",
+                 "mesh.set.nx=20",
                  "mesh.set.nz=20", "-o", self.folder / "result"]
         run = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         time.sleep(1.5)

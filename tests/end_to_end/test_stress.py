@@ -37,7 +37,7 @@ class Stress(unittest.TestCase):
         self.assertTrue(faults and "twin" in faults[0], faults)
 
     def test_an_endless_run_is_noticed(self):
-        case = stress_cases.Case("broken", "1e-6 v_c", ["rod.velocity=3.4e-10"])
+        case = stress_cases.Case("broken", "1e-6 v_c", ["rod.velocity=3.4e-10", "time.watch=0"])
         self.assertEqual(self.judged(case, 1)[0], "no end")
 
     def test_a_refusal_is_noticed(self):

@@ -166,8 +166,71 @@ static void test_random_states(void **state)
     rig_destroy(&rig);
 }
 
+// The sign of det(J + (1 - part) W): weakening taken at `part` of what it is.
+static int sign_at(const Slip *slip, double part)
+{
+    double a[UNKNOWNS_MAX * UNKNOWNS_MAX], step = 1e-4 * slip->rig->law.critical_velocity;
+    const FrictionLaw *law = &slip->rig->law;
+    int32_t n = slip->count;
+    for (int32_t b = 0; b < n; b++) {
+        int32_t row = slip->moving[b];
+        for (int32_t r = 0; r < n; r++)
+            a[b * n + r] = (out_of_balance(slip, slip->moving[r], row, step) -
+                            out_of_balance(slip, slip->moving[r], row, -step)) /
+                           (2 * step);
+        bool tangent = row < 2 * slip->rig->interface.contact_count && row % 2 == 0;
+        if (tangent && slips(slip->seen->status[row / 2]) &&
+            fabs(slip->seen->slip_rate[row]) < law->critical_velocity)
+            a[b * n + b] += (1 - part) * (law->mu_static - law->mu_kinetic) /
+                            law->critical_velocity * slip->seen->reaction[row + 1];
+    }
+    return hand_sign(a, n);
+}
+
+// At 1/load of its weakening a state stands where the determinant changes sign, for the first time.
+static void test_load(void **state)
+{
+    (void)state;
+    Error err = {0};
+    Random random = {.state = 5};
+    RigDef def = rig_def();
+    BlockRig rig;
+    Certificate certificate;
+    State seen;
+    Ladder ladder;
+    rig_build(&def, &rig);
+    assert_true(certificate_create(&rig.block, &certificate, &err));
+    assert_true(state_create(&rig.system, &rig.interface, &seen, &err));
+    ladder_init(&rig.system, 1, 1e-2, &ladder);
+    int32_t above = 0, below = 0;
+    for (int32_t trial = 0; trial < 100; trial++) {
+        InterfaceOperator *rung = ladder_rung(&ladder, trial % ladder.rung_count, &err);
+        const double *schur = interface_operator_schur(rung);
+        double weak = schur[0] * def.law.critical_velocity * random_between(&random, 0.2, 12);
+        random_state(&random, &rig, weak, &seen);
+        Slip slip = {.rig = &rig, .seen = &seen, .schur = schur};
+        list_moving(&slip);
+        double load = certificate_load(&certificate, &seen, rung);
+        assert_true(isfinite(load) && load >= 0);
+        if (load == 0) continue;
+        assert_int_equal(sign_at(&slip, 0.999 / load), 1);
+        assert_int_equal(sign_at(&slip, 1.001 / load), -1);
+        for (double part = 0; part < 0.99; part += 0.1)
+            assert_int_equal(sign_at(&slip, part / load), 1);
+        above += load > 1;
+        below += load < 1;
+    }
+    print_message("load above 1: %d times, below: %d\n", above, below);
+    assert_true(above > 20 && below > 20);
+    ladder_destroy(&ladder);
+    state_destroy(&seen);
+    certificate_destroy(&certificate);
+    rig_destroy(&rig);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_random_states)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_random_states),
+                                       cmocka_unit_test(test_load)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

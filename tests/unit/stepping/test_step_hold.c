@@ -3,83 +3,19 @@
 // steps are done twice; and a large step, proposed just before slip runs away, is not taken.
 #include "stepping/step_control.h"
 
-#include "block_rig.h"
-#include "stepping/relaxation.h"
+#include "pushed_block.h"
 
-typedef struct Run {
-    BlockRig rig;
-    StepControl control;
-} Run;
-
-static const double VELOCITY = 1e-5, PRESSURE = 0.003;
-
-static RigDef pushed_def(void)
+static StepControlDef long_steps(void)
 {
-    RigDef def = rig_def();
-    def.block.nx = 12;
-    def.block.nz = 6;
-    def.rod_kind = ROD_AWAY;
-    def.rod_velocity = VELOCITY;
-    def.rod_width = 0.25;
-    return def;
-}
-
-static StepControlDef control_def(void)
-{
-    return (StepControlDef){.tolerance = 4e-7,
-                            .step_max = 512,
-                            .step_min = 1e-9,
-                            .wave_step = 0.1,
-                            .growth_max = 2,
-                            .use_certificate = true};
-}
-
-// Relaxed under its load, the rod just touching, at t = 0.
-static void run_build(const RigDef *def, const StepControlDef *steps, Run *run)
-{
-    Error err = {0};
-    int64_t count = 0;
-    rig_build(def, &run->rig);
-    double velocity = run->rig.rod.velocity;
-    run->rig.rod.velocity = 0;
-    assert_true(step_control_create(&run->rig.block, steps, &run->control, &err));
-    RelaxationDef relaxation = {.speed_max = 1e-10, .duration_max = 1e5};
-    if (!relax(&run->control, &relaxation, &count, &err)) fail_msg("%s", err.message);
-    for (int32_t j = 0; j < run->rig.interface.rod_count; j++)
-        run->rig.rod.origin[j] =
-            run->control.now
-                .displacement[run->rig.interface.dofs[interface_rod(&run->rig.interface, j)]];
-    run->rig.rod.velocity = velocity;
-    run->rig.rod.kind = ROD_PUSHES;
-    step_control_restart(&run->control);
-}
-
-static void run_destroy(Run *run)
-{
-    step_control_destroy(&run->control);
-    rig_destroy(&run->rig);
-}
-
-static void advance(Run *run)
-{
-    Error err = {0};
-    if (!step_control_advance(&run->control, INFINITY, &err)) fail_msg("%s", err.message);
-}
-
-static double distance(const Run *run)
-{
-    return run->control.now.time * VELOCITY;
-}
-
-static double friction(const Run *run)
-{
-    return rod_force(&run->rig.interface, run->control.now.reaction) / PRESSURE;
+    StepControlDef steps = pushed_steps();
+    steps.step_max = 512;
+    return steps;
 }
 
 // Parameter set B, where growth limits most steps; coarse.
 static RigDef strong_def(void)
 {
-    RigDef def = pushed_def();
+    RigDef def = pushed_def(12);
     def.block.length = 0.04;
     def.block.height = 0.02;
     def.material.poisson = 0.4;
@@ -95,7 +31,7 @@ static RigDef strong_def(void)
 
 static StepControlDef strong_steps(void)
 {
-    StepControlDef steps = control_def();
+    StepControlDef steps = long_steps();
     steps.tolerance = 1.15e-9;
     steps.step_max = 10;
     steps.wave_step = 0.004;
@@ -106,15 +42,15 @@ static StepControlDef strong_steps(void)
 // state is certified in between: the waiting starts anew once it was.
 static void check_hold(const RigDef *def, const StepControlDef *steps, double end, bool growing)
 {
-    Run run;
-    run_build(def, steps, &run);
+    PushedBlock run;
+    pushed_build(def, steps, &run);
     StepControl *control = &run.control;
     int64_t wait = 0, until = 0, episodes = 0, doubled = 0;
     double limit = INFINITY;
     while (control->now.time < end) {
         int64_t before = control->counters.rejected_uncertified;
         int64_t accepted = control->counters.accepted;
-        advance(&run);
+        pushed_advance(&run, INFINITY);
         bool refused = control->counters.rejected_uncertified > before;
         if (!refused && accepted < until && control->last_step > limit)
             fail_msg("step %d: %g although %g was the limit", (int)accepted, control->last_step,
@@ -139,27 +75,27 @@ static void check_hold(const RigDef *def, const StepControlDef *steps, double en
                   (int)counters->accepted, (int)repeated, (int)episodes, (int)doubled);
     assert_true(episodes > 5 && (doubled > 0 || !growing));
     assert_true(counters->accepted > 300 && 10 * repeated < counters->accepted);
-    run_destroy(&run);
+    pushed_destroy(&run);
 }
 
 static void test_hold(void **state)
 {
     (void)state;
-    RigDef weak = pushed_def(), strong = strong_def();
-    StepControlDef steps = control_def(), short_steps = strong_steps();
+    RigDef weak = pushed_def(12), strong = strong_def();
+    StepControlDef steps = long_steps(), short_steps = strong_steps();
     check_hold(&weak, &steps, 900, false);
     check_hold(&strong, &short_steps, 200, true);
 }
 
 // The first peak of friction: where, and how high.
-static void find_peak(Run *run, double *place, double *height)
+static void find_peak(PushedBlock *run, double *place, double *height)
 {
     *height = 0;
-    while (distance(run) < 6e-3 && friction(run) > *height - 0.03) {
-        advance(run);
-        if (friction(run) <= *height) continue;
-        *height = friction(run);
-        *place = distance(run);
+    while (pushed_way(run) < 6e-3 && pushed_mu(run) > *height - 0.03) {
+        pushed_advance(run, INFINITY);
+        if (pushed_mu(run) <= *height) continue;
+        *height = pushed_mu(run);
+        *place = pushed_way(run);
     }
 }
 
@@ -167,11 +103,11 @@ static void find_peak(Run *run, double *place, double *height)
 // and that errors of steps do not matter.
 static void tricked_peak(double from, bool use_certificate, double *place, double *height)
 {
-    RigDef def = pushed_def();
-    StepControlDef steps = control_def();
-    Run run;
-    run_build(&def, &steps, &run);
-    while (distance(&run) < from) advance(&run);
+    RigDef def = pushed_def(12);
+    StepControlDef steps = long_steps();
+    PushedBlock run;
+    pushed_build(&def, &steps, &run);
+    while (pushed_way(&run) < from) pushed_advance(&run, INFINITY);
     StepControl *control = &run.control;
     control->def.use_certificate = use_certificate;
     control->def.tolerance = 1e-3;
@@ -179,21 +115,21 @@ static void tricked_peak(double from, bool use_certificate, double *place, doubl
     control->certified = true;
     control->hold = control->hold_end = 0;
     find_peak(&run, place, height);
-    run_destroy(&run);
+    pushed_destroy(&run);
 }
 
 static void test_large_step_proposed_past_the_critical_length(void **state)
 {
     (void)state;
-    RigDef def = pushed_def();
-    StepControlDef steps = control_def();
+    RigDef def = pushed_def(12);
+    StepControlDef steps = long_steps();
     steps.tolerance = 4e-8;
     steps.step_max = 1;
-    Run run;
+    PushedBlock run;
     double place, height;
-    run_build(&def, &steps, &run);
+    pushed_build(&def, &steps, &run);
     find_peak(&run, &place, &height);
-    run_destroy(&run);
+    pushed_destroy(&run);
     const double before[] = {0.9, 0.97, 0.99, 0.995};   // of the way to the peak
     for (int32_t k = 0; k < 4; k++) {
         double seen_at, seen, missed_at, missed;
@@ -208,11 +144,106 @@ static void test_large_step_proposed_past_the_critical_length(void **state)
     }
 }
 
+// The watch bears whatever comes.
+static void make_gullible(PushedBlock *run)
+{
+    Watch *watch = &run->control.watch;
+    watch->seen_for = INFINITY;
+    for (int32_t k = 0; k < watch->interface->contact_count; k++) watch->weakening[k] = INFINITY;
+}
+
+// To the end of the first sliding; returns mu's largest on the way.
+static double first_sliding(PushedBlock *run, bool gullible)
+{
+    double height = 0;
+    while (pushed_way(run) < 5e-3 && pushed_mu(run) >= 0.6 * height) {
+        if (gullible) make_gullible(run);
+        pushed_advance(run, INFINITY);
+        height = fmax(height, pushed_mu(run));
+    }
+    return height;
+}
+
+// Steps of a rod at `velocity` until the block has slid once; watch: 0 follows every swing.
+static int64_t slow_rod(double velocity, double watch, double *height, int64_t *over_swings)
+{
+    RigDef def = pushed_def(12);
+    def.rod_velocity = velocity;
+    StepControlDef steps = pushed_steps();
+    steps.step_max = 0.1 * exp2(ceil(log2(84 * 1e-5 / velocity)));
+    steps.watch_time = watch;
+    PushedBlock run;
+    pushed_build(&def, &steps, &run);
+    *height = first_sliding(&run, false);
+    *over_swings = run.control.counters.over_swings;
+    int64_t accepted = run.control.counters.accepted;
+    pushed_destroy(&run);
+    return accepted;
+}
+
+// Where slip swings, a slower rod meets more swings. Those that stay small are stepped over: the
+// cost stays, the friction is that of the run that follows each of them, and so is a run in which
+// the rod outruns its swings.
+static void test_slow_rod(void **state)
+{
+    (void)state;
+    double height, followed;
+    int64_t over_swings, first = 0, before = 0;
+    for (double velocity = 1e-5; velocity > 0.9e-8; velocity *= 0.1) {
+        int64_t accepted = slow_rod(velocity, 20, &height, &over_swings);
+        print_message("V %g: %d steps, %d of them over swings, mu %.4f\n", velocity, (int)accepted,
+                      (int)over_swings, height);
+        if (velocity == 1e-5) {
+            assert_int_equal(accepted, slow_rod(velocity, 0, &followed, &over_swings));
+            assert_true(height == followed && over_swings == 0);
+            first = accepted;
+        } else {
+            assert_true(over_swings > 0);
+        }
+        if (velocity < 2e-7 && velocity > 0.9e-7) {
+            int64_t all = slow_rod(velocity, 0, &followed, &over_swings);
+            print_message("    each swing followed: %d steps, mu %.4f\n", (int)all, followed);
+            assert_true(all > 5 * accepted);
+            assert_near("mu", height, followed, 0.01 * followed);
+        }
+        before = accepted;
+    }
+    assert_true(before < 3 * first);
+}
+
+// Swings stepped over or not, what runs away does: the growth tests see to that alone, should the
+// watch bear whatever comes. Without any certificate mu goes on rising.
+static void test_runaway_of_a_slow_rod(void **state)
+{
+    (void)state;
+    enum { AS_EVER, GULLIBLE, UNCERTIFIED, WAYS };
+    double place[WAYS], height[WAYS];
+    for (int way = 0; way < WAYS; way++) {
+        RigDef def = pushed_def(12);
+        def.rod_velocity = 1e-8;
+        StepControlDef steps = pushed_steps();
+        steps.step_max = 0.1 * exp2(20);
+        steps.watch_time = 20;
+        steps.use_certificate = way != UNCERTIFIED;
+        PushedBlock run;
+        pushed_build(&def, &steps, &run);
+        height[way] = first_sliding(&run, way == GULLIBLE);
+        place[way] = pushed_way(&run);
+        print_message("mu falls from %.4f at U %.5f\n", height[way], place[way]);
+        pushed_destroy(&run);
+    }
+    assert_near("U", place[GULLIBLE], place[AS_EVER], 0.02 * place[AS_EVER]);
+    assert_near("mu", height[GULLIBLE], height[AS_EVER], 0.005 * height[AS_EVER]);
+    assert_true(place[UNCERTIFIED] > 1.5 * place[AS_EVER]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_hold),
         cmocka_unit_test(test_large_step_proposed_past_the_critical_length),
+        cmocka_unit_test(test_slow_rod),
+        cmocka_unit_test(test_runaway_of_a_slow_rod),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "stepping/watch.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+
+// Of v_c: a swing that gets so fast is not small. Its friction is then still on the straight part
+// of the linear law, where swings neither add to nor take from the mean of mu.
+static const double SMALL_RATE = 0.3;
+// Weakening may exceed what was seen by this part: pressure creeps up as the rod moves on.
+static const double SAME_WEAKENING = 1.02;
+
+bool watch_create(const Block *block, double duration, Watch *watch, Error *err)
+{
+    const Interface *interface = block->interface;
+    *watch = (Watch){.interface = interface, .law = block->law, .duration = duration};
+    watch->weakening = NEW_ARRAY(double, interface->contact_count + interface->rod_count, err);
+    if (!error_is_clean(err)) return false;
+    watch_forget(watch);
+    return true;
+}
+
+void watch_destroy(Watch *watch)
+{
+    memory_free(watch->weakening);
+    *watch = (Watch){0};
+}
+
+void watch_forget(Watch *watch)
+{
+    int32_t count = watch->interface->contact_count + watch->interface->rod_count;
+    for (int32_t k = 0; k < count; k++) watch->weakening[k] = -1;
+    watch->seen_for = 0;
+}
+
+// Weakening of contact node k (rod node k - contact_count) where it moves, -1 where it is held.
+static double weakening_of(const Watch *watch, const State *state, int32_t k)
+{
+    int32_t contacts = watch->interface->contact_count;
+    if (k >= contacts) return state->rod_touches[k - contacts] ? -1 : 0;
+    if (state->status[k] == CONTACT_STICK) return -1;
+    if (state->status[k] == CONTACT_OPEN) return 0;
+    double speed = fabs(state->slip_rate[interface_tangent(k)]);
+    return -friction_slope(watch->law, speed) * state->reaction[interface_normal(k)];
+}
+
+static bool is_fast(const Watch *watch, const State *state)
+{
+    double limit = SMALL_RATE * watch->law->critical_velocity;
+    for (int32_t i = 0; i < watch->interface->contact_count; i++) {
+        if (fabs(state->slip_rate[interface_tangent(i)]) > limit) return true;
+    }
+    return false;
+}
+
+void watch_see(Watch *watch, const State *state, double step, bool certified)
+{
+    int32_t count = watch->interface->contact_count + watch->interface->rod_count;
+    if (watch->duration == 0) return;
+    watch->seen_for += step;
+    if (certified) watch->runs = false;
+    if (is_fast(watch, state)) watch->runs = true;
+    if (watch->runs) {
+        watch_forget(watch);
+        return;
+    }
+    for (int32_t k = 0; k < count; k++) {
+        double weakening = weakening_of(watch, state, k), seen = watch->weakening[k];
+        if (weakening <= (seen > 0 ? SAME_WEAKENING * seen : seen)) continue;
+        watch->weakening[k] = weakening;
+        watch->seen_for = 0;
+    }
+}
+
+bool watch_bears(const Watch *watch, const State *state)
+{
+    int32_t count = watch->interface->contact_count + watch->interface->rod_count;
+    if (watch->duration == 0 || watch->seen_for < watch->duration) return false;
+    for (int32_t k = 0; k < count; k++) {
+        double seen = watch->weakening[k];
+        if (weakening_of(watch, state, k) > (seen > 0 ? SAME_WEAKENING * seen : seen)) return false;
+    }
+    return !is_fast(watch, state);
+}

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// How much a swing grows in half a period, against all eigenvalues of the block with its slip set:
+// lambda^2 M + lambda (C - W) + K on what moves, written out and handed to LAPACK.
+#include "stepping/certificate.h"
+
+#include "block_rig.h"
+
+enum { DOFS_MAX = 64 };
+
+typedef struct Fixture {
+    BlockRig rig;
+    Certificate certificate;
+    State seen;
+    Ladder ladder;
+    double *damping, *stiffness;   // dense, of the mesh
+} Fixture;
+
+static void fixture_build(double length, Fixture *fixture)
+{
+    Error err = {0};
+    RigDef def = rig_def();
+    def.block.length = length;
+    def.block.height = 0.5 * length;
+    def.rod_width = 0;
+    rig_build(&def, &fixture->rig);
+    BlockRig *rig = &fixture->rig;
+    assert_true(certificate_create(&rig->block, &fixture->certificate, &err));
+    assert_true(state_create(&rig->system, &rig->interface, &fixture->seen, &err));
+    fixture->damping = rig_dense(rig, rig->bulk.damping);
+    fixture->stiffness = rig_dense(rig, rig->bulk.stiffness);
+    ladder_init(&rig->system, 400 * length, 4e-4 * length, &fixture->ladder);
+    for (int32_t k = 0; k < fixture->ladder.rung_count; k++)
+        assert_non_null(ladder_rung(&fixture->ladder, k, &err));
+}
+
+static void fixture_destroy(Fixture *fixture)
+{
+    free(fixture->damping);
+    free(fixture->stiffness);
+    ladder_destroy(&fixture->ladder);
+    state_destroy(&fixture->seen);
+    certificate_destroy(&fixture->certificate);
+    rig_destroy(&fixture->rig);
+}
+
+// Nodes 0 to `last` slip; the weakening of each is `weak`.
+static void slip_up_to(Fixture *fixture, int32_t last, double weak)
+{
+    const FrictionLaw *law = &fixture->rig.law;
+    double slope = (law->mu_static - law->mu_kinetic) / law->critical_velocity;
+    for (int32_t i = 0; i < fixture->seen.contact_count; i++) {
+        fixture->seen.status[i] = i <= last ? CONTACT_SLIP_FORWARD : CONTACT_STICK;
+        fixture->seen.slip_rate[interface_tangent(i)] = i <= last ? 0.1 * law->critical_velocity
+                                                                  : 0;
+        fixture->seen.reaction[interface_normal(i)] = weak / slope;
+    }
+}
+
+// The largest Re lambda/|lambda| there is, from the companion matrix.
+static double least_angle(const Fixture *fixture, double weak)
+{
+    const BlockRig *rig = &fixture->rig;
+    int32_t n = rig->bulk.dof_count, moving[DOFS_MAX], count = 0;
+    bool held[DOFS_MAX] = {false}, slips[DOFS_MAX] = {false};
+    for (int32_t i = 0; i < rig->interface.contact_count; i++) {
+        bool slipping = fixture->seen.status[i] != CONTACT_STICK;
+        held[rig->interface.dofs[2 * i + 1]] = true;
+        held[rig->interface.dofs[2 * i]] = !slipping;
+        slips[rig->interface.dofs[2 * i]] = slipping;
+    }
+    for (int32_t dof = 0; dof < n; dof++)
+        if (!held[dof]) moving[count++] = dof;
+    int32_t size = 2 * count;
+    double *a = hand_matrix(size, size), *vectors = hand_matrix(size, size);
+    double *re = hand_matrix(size, 2), *im = re + size;
+    double *work = hand_matrix((int32_t)dense_eigen_work(size), 1);
+    for (int32_t q = 0; q < count; q++) {
+        a[(count + q) * size + q] = 1;   // u' = v, v' = -M^-1 (K u + (C - W) v)
+        for (int32_t p = 0; p < count; p++) {
+            double mass = rig->bulk.mass[moving[p]];
+            int32_t at = moving[q] * n + moving[p];
+            double damping = fixture->damping[at] - (p == q && slips[moving[p]] ? weak : 0);
+            a[q * size + count + p] = -fixture->stiffness[at] / mass;
+            a[(count + q) * size + count + p] = -damping / mass;
+        }
+    }
+    assert_true(dense_eigen_general(a, size, re, im, vectors, work));
+    double least = -1;
+    for (int32_t k = 0; k < size; k++) least = fmax(least, re[k] / hypot(re[k], im[k]));
+    free(a);
+    free(vectors);
+    free(re);
+    free(work);
+    return least;
+}
+
+static bool swings_less(Fixture *fixture, double growth)
+{
+    for (int32_t k = 0; k < fixture->ladder.rung_count; k++)
+        if (!certificate_swings_less(&fixture->certificate, &fixture->seen, fixture->ladder.rung[k],
+                                     growth))
+            return false;
+    return true;
+}
+
+// What is cleared does grow by less, and what grows by much less is cleared: the test loses little.
+static void test_against_eigenvalues(void **state)
+{
+    (void)state;
+    int32_t cleared = 0, swinging = 0, refused = 0;
+    for (double length = 1; length <= 10; length *= 10) {
+        Fixture fixture;
+        fixture_build(length, &fixture);
+        double unit = fixture.damping[0];
+        for (int32_t last = 1; last < fixture.seen.contact_count; last++) {
+            for (double weak = 0.02 * unit; weak < 5 * unit; weak *= 1.1) {
+                slip_up_to(&fixture, last, weak);
+                double angle = least_angle(&fixture, weak);
+                for (double growth = 1.5; growth < 1e4; growth *= 5) {
+                    double ratio = log(growth) / M_PI, allowed = ratio / sqrt(1 + ratio * ratio);
+                    bool less = swings_less(&fixture, growth);
+                    if (less) assert_true(angle < allowed);
+                    if (angle < 0) assert_true(less || allowed < 0.3);
+                    cleared += less;
+                    swinging += less && angle > 0;
+                    refused += !less;
+                }
+            }
+        }
+        fixture_destroy(&fixture);
+    }
+    print_message("%d cleared, %d of them swing and grow; %d refused\n", cleared, swinging,
+                  refused);
+    assert_true(swinging > 50 && refused > 50);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_against_eigenvalues)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
