@@ -36,9 +36,9 @@ static void print_answers(const RunSummary *summary)
     if (summary->peaks > 2 && summary->period == 0)
         printf("                  not periodic yet: after the first, peaks lie in %.4f to %.4f\n",
                summary->mu_low, summary->mu_high);
-    if (summary->period == 2)
-        printf("                  high and low peaks take turns: %.4f to %.4f\n", summary->mu_low,
-               summary->mu_high);
+    if (summary->period > 1)
+        printf("                  repeats after %d slidings: %.4f to %.4f, run.json: branches\n",
+               summary->period, summary->mu_low, summary->mu_high);
     print_falls(summary);
     printf("  precursors      %d quasi-static, %d bounded rapid, %d leading rapid\n",
            summary->quasi_static, summary->bounded, summary->leading);

@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// Peaks of F_T/F_N and the regime they settle to. Slow passage through the instability makes the
+// time of a burst depend on how small the disturbance was that it grew from, so at some loads the
+// block slides a burst earlier or later: peaks then alternate between branches some per cent apart,
+// with periods of 2 and more, or without any. A regime of period p is one in which each of the last
+// peaks agrees with the last one of its phase, three times over.
 #include "run/peaks.h"
 
 #include "base/memory.h"
 
 #include <math.h>
 
-enum { FIRST_ROOM = 16, PERIODIC_PEAKS = 3 };
+enum { FIRST_ROOM = 16 };
+// Three rounds tell a period: with two branches, six peaks agree by chance once in 2^4 (period 2).
+enum { REPETITIONS = 3, LONGEST_PERIOD = 8 };
+enum { TRANSIENT_PART = 3 };   // where there is no period, the first of so many parts is left out
 
 static const Peak NOTHING_SEEN = {
     .mu = -INFINITY, .front = NAN, .front_uncertified = NAN, .front_growth = NAN};
@@ -81,6 +89,21 @@ static int32_t count_agreeing(const Peaks *peaks, int32_t period)
     return agreeing;
 }
 
+// The shortest period and the peaks in whole rounds of it; without one, all but the start's.
+static void find_period(const Peaks *peaks, PeaksSummary *summary)
+{
+    for (int32_t period = 1; period <= LONGEST_PERIOD; period++) {
+        int32_t agreeing = count_agreeing(peaks, period);
+        if (agreeing < REPETITIONS * period) continue;
+        summary->period = period;
+        summary->counted = agreeing - agreeing % period;
+        return;
+    }
+    int32_t transient = peaks->count / TRANSIENT_PART;
+    if (transient == 0 && peaks->count > 1) transient = 1;
+    summary->counted = peaks->count - transient;
+}
+
 static void average(Peaks *peaks, PeaksSummary *summary)
 {
     double low = INFINITY, high = -INFINITY, sum = 0, fronts = 0, losses = 0;
@@ -112,18 +135,36 @@ PeaksSummary peaks_summarise(Peaks *peaks)
                             .subcritical_length = NAN};
     for (int32_t k = 0; k < peaks->count; k++) peaks->list[k].counts = false;
     if (peaks->count == 0) return summary;
-    int32_t agreeing = count_agreeing(peaks, 1), alternating = count_agreeing(peaks, 2);
-    summary.counted = agreeing;
-    if (agreeing >= PERIODIC_PEAKS) {
-        summary.period = 1;
-    } else if (alternating >= 2 + PERIODIC_PEAKS) {
-        summary.period = 2;
-        summary.counted = alternating - alternating % 2;   // as many high ones as low ones
-    }
+    find_period(peaks, &summary);
     average(peaks, &summary);
     for (int32_t k = peaks->count > 1 ? 1 : 0; k < peaks->count; k++) {
         summary.low = fmin(summary.low, peaks->list[k].mu);
         summary.high = fmax(summary.high, peaks->list[k].mu);
     }
     return summary;
+}
+
+bool peaks_branch_above(const Peaks *peaks, double above, PeakBranch *branch)
+{
+    *branch = (PeakBranch){.low = INFINITY};
+    for (int32_t k = 0; k < peaks->count; k++) {
+        const Peak *peak = &peaks->list[k];
+        if (peak->counts && peak->mu > above) branch->low = fmin(branch->low, peak->mu);
+    }
+    if (isinf(branch->low)) return false;
+    branch->high = branch->low;
+    for (int32_t found = -1; found != branch->count;) {   // until no further peak is near enough
+        double reach = branch->high * (1 + peaks->tolerance), sum = 0;
+        found = branch->count;
+        branch->count = 0;
+        for (int32_t k = 0; k < peaks->count; k++) {
+            const Peak *peak = &peaks->list[k];
+            if (!peak->counts || peak->mu < branch->low || peak->mu > reach) continue;
+            branch->high = fmax(branch->high, peak->mu);
+            branch->count++;
+            sum += peak->mu;
+        }
+        branch->mu = sum / branch->count;
+    }
+    return true;
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The peaks of F_T/F_N: the largest mu between two slidings, known when a leading event has crossed
-// the interface. The first belongs to the start, not to the periodic regime; mu_M is the mean of
-// the last peaks that agree with the very last one within a tolerance. Fed after run/events.
+// the interface. The first belongs to the start, not to the periodic regime. mu_M is the mean of
+// the peaks in whole rounds of the regime; where none is found, of all but the start's. Fed after
+// run/events.
 #ifndef AMONTONS_RUN_PEAKS_H
 #define AMONTONS_RUN_PEAKS_H
 
@@ -27,7 +28,7 @@ typedef struct Peaks {
 
 typedef struct PeaksSummary {
     int32_t counted;   // peaks in the mean
-    int32_t period;   // 1: the last peaks agree; 2: every second one does; 0: neither
+    int32_t period;   // each of the last peaks agrees with the one so many before it; 0: none found
     double mu_M;   // NaN: no peak
     double spread;   // largest minus smallest of them; NaN with fewer than two
     double low, high;   // of all peaks but the first (of the first where it is alone)
@@ -35,9 +36,18 @@ typedef struct PeaksSummary {
     double subcritical_length;   // mean l_sc of those counted that have one, length; NaN: none
 } PeaksSummary;
 
+// Peaks that lie closer together than the tolerance.
+typedef struct PeakBranch {
+    int32_t count;   // how many of those counted
+    double low, mu, high;   // the smallest, the mean and the largest of them
+} PeakBranch;
+
 bool peaks_create(const Events *events, double tolerance, Peaks *peaks, Error *err);
 void peaks_destroy(Peaks *peaks);
 bool peaks_record(void *self, const Observation *seen, Error *err);   // a Recorder
 PeaksSummary peaks_summarise(Peaks *peaks);   // sets `counts`
+// The branch of the counted peaks next above mu = `above`; false: there is none. From -INFINITY on,
+// with `high` of the one before as `above`, every branch in turn; one where all peaks agree.
+bool peaks_branch_above(const Peaks *peaks, double above, PeakBranch *branch);
 
 #endif

@@ -4,6 +4,7 @@
 #include "io/json_writer.h"
 #include "run/scene_keys.h"
 
+#include <math.h>
 #include <stdio.h>
 
 static void write_steps(JsonWriter *json, const RunCounters *counters)
@@ -92,6 +93,22 @@ static void write_warnings(JsonWriter *json, const RunWarnings *warnings)
     json_end(json);
 }
 
+// Every branch of the counted peaks, lowest first.
+static void write_branches(const Peaks *peaks, JsonWriter *json)
+{
+    json_begin_list(json, "branches");
+    PeakBranch branch = {.high = -INFINITY};
+    while (peaks_branch_above(peaks, branch.high, &branch)) {
+        json_begin_object(json, NULL);
+        json_number(json, "mu", branch.mu);
+        json_number(json, "low", branch.low);
+        json_number(json, "high", branch.high);
+        json_integer(json, "count", branch.count);
+        json_end(json);
+    }
+    json_end(json);
+}
+
 static void write_results(JsonWriter *json, const RunReport *report)
 {
     const PeaksSummary *summary = report->summary;
@@ -104,6 +121,7 @@ static void write_results(JsonWriter *json, const RunReport *report)
     json_integer(json, "period", summary->period);
     json_number(json, "mu_peaks_low", summary->low);
     json_number(json, "mu_peaks_high", summary->high);
+    write_branches(report->peaks, json);
     json_number(json, "mu_max", report->peaks->mu_max);
     json_number(json, "l_sc_over_L", summary->subcritical_length / length);
     json_number(json, "l_c_over_L", summary->critical_length / length);

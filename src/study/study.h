@@ -41,7 +41,7 @@ enum {
 #define STUDY_RECORDS(X)                                                                           \
     X("mu_M", "results.mu_M", true, "macroscopic static friction coefficient")                     \
     X("spread", "results.mu_M_spread", true, "largest minus smallest of the peaks in mu_M")        \
-    X("period", "results.period", true, "1, 2: periodic after so many slidings; 0: not")           \
+    X("period", "results.period", true, "peaks repeat after so many slidings; 0: not")             \
     X("low", "results.mu_peaks_low", true, "lowest peak, the first left out")                      \
     X("high", "results.mu_peaks_high", true, "highest peak, the first left out")                   \
     X("peaks", "results.mu_M_peaks", true, "peaks in mu_M")                                        \

@@ -140,17 +140,17 @@ static void test_settling(void **state)
 }
 
 // High and low in turn: period 2 once three of each kind agree, mu_M the mean of as many high ones
-// as low ones.
+// as low ones. Until then all but the start's third count.
 static void test_alternating(void **state)
 {
     (void)state;
-    const int32_t counted[] = {1, 1, 1, 1, 1, 4, 6, 6};
+    const int32_t counted[] = {1, 1, 2, 3, 4, 4, 6, 6};
     Fixture fixture;
     fixture_build(&fixture);
     for (int32_t k = 0; k < 8; k++) {
         cycle(&fixture, k % 2 ? 0.34 : 0.3, true);
         PeaksSummary summary = peaks_summarise(&fixture.peaks);
-        assert_int_equal(summary.period, counted[k] > 1 ? 2 : 0);
+        assert_int_equal(summary.period, k >= 6 ? 2 : 0);
         assert_int_equal(summary.counted, counted[k]);
     }
     PeaksSummary summary = peaks_summarise(&fixture.peaks);
@@ -159,6 +159,69 @@ static void test_alternating(void **state)
     assert_near("low", summary.low, 0.3, 0);
     assert_near("high", summary.high, 0.34, 0);
     assert_false(fixture.peaks.list[0].counts || fixture.peaks.list[1].counts);
+    fixture_destroy(&fixture);
+}
+
+static void expect_branch(Fixture *fixture, double *above, int32_t count, double low, double high)
+{
+    PeakBranch branch;
+    assert_true(peaks_branch_above(&fixture->peaks, *above, &branch));
+    assert_int_equal(branch.count, count);
+    assert_near("low", branch.low, low, 0);
+    assert_near("high", branch.high, high, 0);
+    assert_true(branch.mu >= low - 1e-15 && branch.mu <= high + 1e-15);   // a mean, rounded
+    *above = branch.high;
+}
+
+// Periods of 3 to 8, two of whose peaks differ by less than the tolerance: every other place in the
+// period is a branch of its own, and mu_M the mean of whole rounds.
+static void test_long_periods(void **state)
+{
+    (void)state;
+    for (int32_t period = 3; period <= 8; period++) {
+        Fixture fixture;
+        fixture_build(&fixture);
+        cycle(&fixture, 0.5, true);
+        for (int32_t k = 0; k < 3 * period; k++) {
+            assert_int_equal(peaks_summarise(&fixture.peaks).period, 0);
+            int32_t place = k % period;
+            cycle(&fixture, place == 0 ? 0.3005 : 0.28 + 0.02 * place, true);
+        }
+        PeaksSummary summary = peaks_summarise(&fixture.peaks);
+        assert_int_equal(summary.period, period);
+        assert_int_equal(summary.counted, 3 * period);
+        double others = 0.28 * (period - 1) + 0.02 * period * (period - 1) / 2;
+        assert_near("mu_M", summary.mu_M, (0.3005 + others) / period, 1e-14);
+        double above = -INFINITY;
+        expect_branch(&fixture, &above, 6, 0.28 + 0.02, 0.3005);
+        for (int32_t place = 2; place < period; place++)
+            expect_branch(&fixture, &above, 3, 0.28 + 0.02 * place, 0.28 + 0.02 * place);
+        PeakBranch none;
+        assert_false(peaks_branch_above(&fixture.peaks, above, &none));
+        fixture_destroy(&fixture);
+    }
+}
+
+// Two branches in no order: no period, and the mean is over all but the first third.
+static void test_no_period(void **state)
+{
+    (void)state;
+    Fixture fixture;
+    fixture_build(&fixture);
+    const char order[] = "hhlhllhlhhhllhlllhhlhllh";
+    int32_t count = (int32_t)sizeof order - 1, high = 0;
+    for (int32_t k = 0; k < count; k++) {
+        cycle(&fixture, order[k] == 'h' ? 0.34 : 0.3, true);
+        high += k >= count / 3 && order[k] == 'h';
+    }
+    PeaksSummary summary = peaks_summarise(&fixture.peaks);
+    int32_t counted = count - count / 3;
+    if (summary.period > 0) fail_msg("period %d", summary.period);
+    assert_int_equal(summary.counted, counted);
+    assert_near("mu_M", summary.mu_M, (0.34 * high + 0.3 * (counted - high)) / counted, 1e-14);
+    double above = -INFINITY;
+    expect_branch(&fixture, &above, counted - high, 0.3, 0.3);
+    expect_branch(&fixture, &above, high, 0.34, 0.34);
     fixture_destroy(&fixture);
 }
 
@@ -258,7 +321,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_no_peak),       cmocka_unit_test(test_peak_values),
         cmocka_unit_test(test_periodic),      cmocka_unit_test(test_settling),
-        cmocka_unit_test(test_alternating),   cmocka_unit_test(test_drift),
+        cmocka_unit_test(test_alternating),   cmocka_unit_test(test_long_periods),
+        cmocka_unit_test(test_no_period),     cmocka_unit_test(test_drift),
         cmocka_unit_test(test_many),          cmocka_unit_test(test_recorders),
         cmocka_unit_test(test_memory_faults),
     };
