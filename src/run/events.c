@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// The three kinds of precursor that Otsuki and Matsukawa (2013) tell apart, by two thresholds on
+// the largest slip rate, with hysteresis: quasi-static slip goes at V or less (its front and rate
+// are proportional to V), rapid slip at several V (bounded) or at several v_c (leading).
 #include "run/events.h"
 
 #include "base/memory.h"
@@ -31,6 +34,7 @@ bool events_create(const Interface *interface, double rate_scale, Events *events
                        .room = FIRST_ROOM};
     events->list = NEW_ARRAY(Event, FIRST_ROOM, err);
     events->slipped = NEW_ARRAY(uint8_t, interface->contact_count, err);
+    front_path_create(interface, events->rate_start, &events->path, err);
     return error_is_clean(err);
 }
 
@@ -38,6 +42,7 @@ void events_destroy(Events *events)
 {
     memory_free(events->list);
     memory_free(events->slipped);
+    front_path_destroy(&events->path);
     *events = (Events){0};
 }
 
@@ -59,6 +64,7 @@ static bool start_event(Events *events, EventKind kind, const Observation *seen,
                                    .front_start = events->front_before,
                                    .reach = seen->front,
                                    .front_speed = NAN};
+    for (int32_t k = 0; k < FRONT_STATIONS; k++) events->list[*index].front_times[k] = NAN;
 cleanup:
     return error_is_clean(err);
 }
@@ -79,6 +85,14 @@ static void end_slow(Events *events)
     if (duration > 0 && event->reach > event->front_start)
         event->front_speed = (event->reach - event->front_start) / duration;
     events->slow = -1;
+}
+
+// What is known of a rapid event once it is over.
+static void end_rapid(Events *events, const Interface *interface)
+{
+    Event *event = &events->list[events->rapid];
+    front_path_stations(&events->path, interface, event->t_start, event->front_times);
+    events->rapid = -1;
 }
 
 // The x up to which every node has slipped in this event; all: the last one too.
@@ -112,6 +126,7 @@ static void follow_rapid(Events *events, const Observation *seen)
     bool all = false;
     double before = event->reach, reach = mark_slipped(events, seen, &all);
     extend_event(event, seen, reach);
+    front_path_follow(&events->path, seen);
     double front = fast_front(events, seen), elapsed = seen->t - events->fast_t_start;
     if (front > events->fast_front_start && event->reach > before && elapsed > 0)
         event->front_speed = (front - events->fast_front_start) / elapsed;
@@ -130,6 +145,7 @@ static bool follow_step(Events *events, const Observation *seen, Error *err)
     if (events->rapid < 0 && seen->max_slip_rate > events->rate_start) {
         TRY(start_event(events, EVENT_BOUNDED, seen, &events->rapid, err));
         events->began = true;
+        front_path_restart(seen->interface, &events->path);
         memset(events->slipped, 0, (size_t)seen->interface->contact_count);
         events->fast_front_start = fast_front(events, seen);
         events->fast_t_start = seen->t;
@@ -137,7 +153,7 @@ static bool follow_step(Events *events, const Observation *seen, Error *err)
     if (events->rapid >= 0) {
         follow_rapid(events, seen);
         if (seen->max_slip_rate < events->rate_stop) {
-            events->rapid = -1;
+            end_rapid(events, seen->interface);
             events->ended = true;
         }
         goto cleanup;
@@ -155,13 +171,16 @@ bool events_record(void *self, const Observation *seen, Error *err)
     Events *events = self;
     bool followed = follow_step(events, seen, err);
     events->front_before = seen->front;
+    front_path_keep(&events->path, seen);
     return followed;
 }
 
 void events_close(Events *events, const Observation *last)
 {
     if (!events->list) return;   // the run failed before they were created
-    if (events->rapid >= 0) extend_event(&events->list[events->rapid], last, 0);
-    events->rapid = -1;
+    if (events->rapid >= 0) {
+        extend_event(&events->list[events->rapid], last, 0);
+        end_rapid(events, last->interface);
+    }
     end_slow(events);
 }

@@ -7,7 +7,7 @@
 #ifndef AMONTONS_RUN_EVENTS_H
 #define AMONTONS_RUN_EVENTS_H
 
-#include "run/observation.h"
+#include "run/front_path.h"
 
 // symbol, name; the numbers stand in history.h5 (io/result_file)
 #define EVENT_KINDS(X)                                                                             \
@@ -29,6 +29,8 @@ typedef struct Event {
     double reach;   // largest x that slipped, without a gap, length
     double peak_slip_rate;   // velocity
     double front_speed;   // mean, of the fast front where rapid; NaN: it did not move
+    double
+        front_times[FRONT_STATIONS];   // rapid: when its front came to each station, from t_start
 } Event;
 
 typedef struct Events {
@@ -38,12 +40,13 @@ typedef struct Events {
     int32_t kinds[3];   // counted, by kind
     int32_t rapid;   // index of the rapid event under way; -1: none
     int32_t slow;   // index of the quasi-static event under way; -1: none
-    double front_before;            // front in the step seen before, length
+    double front_before;   // front in the step seen before, length
     bool began, ended, crossed;   // of a rapid event, in the step seen last; crossed: it became
         // leading in this step
     uint8_t *slipped;   // [contact_count] in the rapid event under way; owned
     double fast_front_start;   // where and when its fast front was first seen
     double fast_t_start;
+    FrontPath path;   // of the rapid event under way
 } Events;
 
 const char *event_name(EventKind kind);   // static storage

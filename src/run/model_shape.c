@@ -50,6 +50,7 @@ static void translate_materials(Simulation *simulation)
                                       .eta1 = scene->material.eta1,
                                       .eta2 = scene->material.eta2,
                                       .plane_strain = scene->material.plane == PLANE_STRAIN};
+    simulation->model.speeds = material_speeds(&simulation->material);
     static const FrictionKind kinds[] = {
         [LAW_COULOMB] = FRICTION_COULOMB,
         [LAW_LINEAR_WEAKENING] = FRICTION_LINEAR_WEAKENING,

@@ -61,12 +61,29 @@ static void write_model(JsonWriter *json, const RunModel *model, const char *not
     json_boolean(json, "from_cache", model->from_cache);
     json_number(json, "length", model->length);
     json_number(json, "height", model->height);
+    json_begin_object(json, "wave_speeds");
+    json_number(json, "longitudinal", model->speeds.longitudinal);
+    json_number(json, "shear", model->speeds.shear);
+    json_number(json, "rayleigh", model->speeds.rayleigh);
+    json_end(json);
     json_integer(json, "relaxation_steps", model->relaxation_steps);
     json_text(json, "cache_note", note[0] ? note : NULL);
     json_end(json);
 }
 
-static void write_events(JsonWriter *json, const Events *events)
+// When the front of a rapid event came to x = 0, L/20, ..., L, and how fast it went in between.
+static void write_front(JsonWriter *json, const Event *event, double length)
+{
+    json_begin_list(json, "front_times");
+    for (int32_t k = 0; k < FRONT_STATIONS; k++) json_number(json, NULL, event->front_times[k]);
+    json_end(json);
+    json_begin_list(json, "front_speeds");
+    for (int32_t k = 0; k < FRONT_STATIONS - 1; k++)
+        json_number(json, NULL, front_path_speed(event->front_times, length, k));
+    json_end(json);
+}
+
+static void write_events(JsonWriter *json, const Events *events, double length)
 {
     json_begin_list(json, "events");
     for (int32_t k = 0; k < events->count; k++) {
@@ -81,6 +98,7 @@ static void write_events(JsonWriter *json, const Events *events)
         json_number(json, "reach", event->reach);
         json_number(json, "peak_slip_rate", event->peak_slip_rate);
         json_number(json, "front_speed", event->front_speed);
+        if (event->kind != EVENT_QUASI_STATIC) write_front(json, event, length);
         json_end(json);
     }
     json_end(json);
@@ -141,7 +159,7 @@ static void write_results(JsonWriter *json, const RunReport *report)
     write_warnings(json, report->warnings);
     falls_write_json(report->falls, json);
     pads_write_json(report->pads, json);
-    write_events(json, report->events);
+    write_events(json, report->events, length);
     json_end(json);
 }
 

@@ -23,6 +23,7 @@ typedef struct RunTiming {
 typedef struct RunModel {
     int32_t contact_nodes, rod_nodes, full_dofs, reduced_dofs, elements;
     double length, height;
+    WaveSpeeds speeds;   // elastic, of the material
     int64_t relaxation_steps;
     bool from_cache;   // the shape was: no mesh read, nothing factored
 } RunModel;

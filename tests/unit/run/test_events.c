@@ -119,6 +119,31 @@ static void test_front_speed(void **state)
     assert_true(isnan(events.list[2].front_speed));
 }
 
+// The front passes node i when its rate rises through 2: times in closed form, from t_start = 2.
+// Station 5 k stands at node k.
+static void test_front_times(void **state)
+{
+    (void)state;
+    see(1, 0.5, 0.5, 0, 0, 0);
+    see(2, 3.5, 2.5, 0, 0, 0);   // passes 2 at 1.5 and 1.75
+    see(4, 3, 3, 8, 1, 0);   // at 2.5
+    see(5, 0.1, 3, 9, 3, 0);   // at 4.5
+    see(6, 0.5, 0.5, 0.5, 0.5, 0);
+    const double *times = events.list[1].front_times;
+    const double at_nodes[] = {-0.5, -0.25, 0.5, 2.5};
+    for (int32_t k = 0; k < 4; k++) assert_near("time", times[5 * k], at_nodes[k], 1e-14);
+    for (int32_t k = 16; k < FRONT_STATIONS; k++) assert_true(isnan(times[k]));
+    assert_near("between nodes", times[7], -0.25 + 0.4 * 0.75, 1e-14);
+    assert_near("speed", front_path_speed(times, 1, 3), 0.25 / 0.25, 1e-12);
+    assert_near("speed", front_path_speed(times, 1, 12), 0.25 / 2, 1e-12);
+    assert_true(isnan(front_path_speed(times, 1, 15)));
+    for (int32_t k = 0; k < FRONT_STATIONS; k++) assert_true(isnan(events.list[0].front_times[k]));
+    see(7, 0, 0, 5, 0, 0);   // the next event knows nothing of this one
+    see(8, 0.5, 0, 0, 0, 0);
+    for (int32_t k = 0; k < FRONT_STATIONS; k++)
+        assert_int_equal(isnan(events.list[2].front_times[k]), k != 10);
+}
+
 // Leading when every node has slipped in the course of the event, not all at once; backward slip
 // too.
 static void test_leading(void **state)
@@ -215,7 +240,7 @@ static void test_memory_faults(void **state)
     (void)state;
     Error err = {0};
     int64_t live = memory_counters().live;
-    for (int32_t k = 0; k < 2; k++) {
+    for (int32_t k = 0; k < 4; k++) {
         Events made;
         memory_fail_after(k);
         assert_false(events_create(&hand.interface, 1, &made, &err));
@@ -245,6 +270,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_slow, setup, teardown),
         cmocka_unit_test_setup_teardown(test_bounded, setup, teardown),
         cmocka_unit_test_setup_teardown(test_front_speed, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_front_times, setup, teardown),
         cmocka_unit_test_setup_teardown(test_leading, setup, teardown),
         cmocka_unit_test_setup_teardown(test_first_step, setup, teardown),
         cmocka_unit_test_setup_teardown(test_gap, setup, teardown),
