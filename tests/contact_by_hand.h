@@ -15,6 +15,8 @@ typedef struct HandContact {
     Interface interface;   // counts only
     FrictionLaw law;
     RodKind rod_kind;
+    const double *rod_softness;
+    double rod_reach;
     double schur[HAND_UNKNOWNS * HAND_UNKNOWNS];
     double g[HAND_UNKNOWNS], bound[HAND_UNKNOWNS];
     double velocity[HAND_UNKNOWNS], reaction[HAND_UNKNOWNS];
@@ -35,6 +37,8 @@ static inline ContactProblem hand_problem(const HandContact *hand)
     return (ContactProblem){.interface = &hand->interface,
                             .law = &hand->law,
                             .rod_kind = hand->rod_kind,
+                            .rod_softness = hand->rod_softness,
+                            .rod_reach = hand->rod_reach,
                             .schur = hand->schur,
                             .g = hand->g,
                             .bound = hand->bound};

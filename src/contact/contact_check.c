@@ -30,8 +30,9 @@ ContactResidual contact_residual(const ContactProblem *problem, const double *ve
     }
     for (int32_t j = 0; j < interface->rod_count; j++) {
         int32_t x = interface_rod(interface, j);
-        double approach = (velocity[x] - problem->bound[x]) / velocity_scale;
-        double force = reaction[x] / force_scale;
+        double force = reaction[x] / force_scale, stiffness = rod_stiffness(problem, j);
+        double yields = stiffness > 0 ? reaction[x] / stiffness : 0;
+        double approach = (velocity[x] + yields - problem->bound[x]) / velocity_scale;
         if (problem->rod_kind == ROD_PUSHES) check_unilateral(approach, force, &worst);
         if (problem->rod_kind == ROD_IS_BONDED)
             worst.penetration = fmax(worst.penetration, fabs(approach));

@@ -6,6 +6,7 @@
 //     contact, tangent    |r_t| <= mu(|v_t|) r_n,  r_t = -mu(|v_t|) r_n sign(v_t) where v_t != 0
 //     rod                 v_x >= bound_x,  r_x >= 0,  complementary (push)
 //                         v_x  = bound_x (bonded),    r_x = 0 (away)
+//                         bound_x - r_x softness/rod_reach in its place at a soft node
 //
 // The bounds say in velocities that the end of the stage must not penetrate:
 // (0 - u*) / (gamma dt) for the plane, (target - u*) / (gamma dt) for the rod.
@@ -34,6 +35,8 @@ typedef struct ContactProblem {
     const Interface *interface;
     const FrictionLaw *law;
     RodKind rod_kind;
+    const double *rod_softness;   // [rod_count] length per force/width, 0: rigid; NULL: all are
+    double rod_reach;   // r_x softness over (bound_x - v_x) at a soft node, time
     const double *schur;   // S [count * count], symmetric
     const double *g;   // [count]
     const double *bound;   // [count] of normals and rod; entries of tangents are not used
@@ -46,6 +49,13 @@ typedef struct ContactSolution {
     uint8_t *status;   // [contact_count] ContactStatus
     uint8_t *rod_touches;   // [rod_count] 1: pressed, or bonded
 } ContactSolution;
+
+// Of rod node j, force/width per velocity: r_x = stiffness (bound_x - v_x); 0: it is rigid.
+static inline double rod_stiffness(const ContactProblem *problem, int32_t j)
+{
+    bool soft = problem->rod_softness && problem->rod_softness[j] > 0;
+    return soft ? problem->rod_reach / problem->rod_softness[j] : 0;
+}
 
 static inline bool status_slips(uint8_t status)
 {

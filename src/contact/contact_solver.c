@@ -23,7 +23,7 @@ bool contact_solver_create(const Interface *interface, ContactSolverDef def, Con
     solver->matrix = NEW_ARRAY(double, count *count, err);
     solver->step = NEW_ARRAY(double, count, err);
     solver->kept_free = NEW_ARRAY(int32_t, count, err);
-    solver->kept_status = NEW_ARRAY(uint8_t, interface->contact_count, err);
+    solver->kept_status = NEW_ARRAY(uint8_t, interface->contact_count + interface->rod_count, err);
     return error_is_clean(err);
 }
 
@@ -79,7 +79,8 @@ static void hold_unknowns(const ContactProblem *problem, ContactSolution *soluti
     }
     for (int32_t j = 0; j < interface->rod_count; j++) {
         int32_t x = interface_rod(interface, j);
-        if (solution->rod_touches[j]) solution->velocity[x] = problem->bound[x];
+        if (solution->rod_touches[j] && rod_stiffness(problem, j) == 0)
+            solution->velocity[x] = problem->bound[x];
     }
 }
 
@@ -94,7 +95,8 @@ static int32_t list_free(const ContactProblem *problem, const ContactSolution *s
         if (solution->status[i] == CONTACT_OPEN) free[count++] = interface_normal(i);
     }
     for (int32_t j = 0; j < interface->rod_count; j++) {
-        if (!solution->rod_touches[j]) free[count++] = interface_rod(interface, j);
+        if (!solution->rod_touches[j] || rod_stiffness(problem, j) > 0)
+            free[count++] = interface_rod(interface, j);
     }
     return count;
 }
@@ -115,12 +117,24 @@ static int32_t slipping_node(const ContactProblem *problem, const ContactSolutio
     return status_slips(solution->status[unknown / 2]) ? unknown / 2 : -1;
 }
 
-// The equation of a free unknown: r = 0, or r_t + s mu(|v_t|) r_n = 0 where it slips.
+// The stiffness of the spring that holds a free unknown: that of a soft rod node which touches.
+static double spring_of(const ContactProblem *problem, const ContactSolution *solution,
+                        int32_t unknown)
+{
+    int32_t j = unknown - 2 * problem->interface->contact_count;
+    return j >= 0 && solution->rod_touches[j] ? rod_stiffness(problem, j) : 0;
+}
+
+// The equation of a free unknown: r = 0, r_t + s mu(|v_t|) r_n = 0 where it slips, or
+// r_x = stiffness (bound_x - v_x) at a soft rod node.
 static double equation(const ContactProblem *problem, const ContactSolution *solution,
                        int32_t unknown)
 {
     int32_t i = slipping_node(problem, solution, unknown);
-    if (i < 0) return solution->reaction[unknown];
+    double spring = spring_of(problem, solution, unknown);
+    if (i < 0)
+        return solution->reaction[unknown] +
+               (spring > 0 ? spring * (solution->velocity[unknown] - problem->bound[unknown]) : 0);
     double mu = friction_coefficient(problem->law, fabs(solution->velocity[unknown]));
     return solution->reaction[unknown] +
            status_direction(solution->status[i]) * mu * solution->reaction[interface_normal(i)];
@@ -131,8 +145,10 @@ static bool kept_fits(const ContactSolver *solver, const ContactProblem *problem
                       const ContactSolution *solution, int32_t free_count)
 {
     size_t contacts = (size_t)problem->interface->contact_count;
+    size_t rods = (size_t)problem->interface->rod_count;
     return solver->kept_schur == problem->schur && solver->kept_count == free_count &&
            memcmp(solver->kept_status, solution->status, contacts) == 0 &&
+           memcmp(solver->kept_status + contacts, solution->rod_touches, rods) == 0 &&
            memcmp(solver->kept_free, solver->free, (size_t)free_count * sizeof(int32_t)) == 0;
 }
 
@@ -147,6 +163,7 @@ static bool factor_matrix(ContactSolver *solver, const ContactProblem *problem,
         if (i < 0) {
             for (int32_t b = 0; b < free_count; b++)
                 solver->matrix[(int64_t)b * free_count + a] = schur_row[solver->free[b]];
+            solver->matrix[(int64_t)a * free_count + a] += spring_of(problem, solution, row);
             continue;
         }
         double speed = fabs(solution->velocity[row]);
@@ -164,7 +181,10 @@ static bool factor_matrix(ContactSolver *solver, const ContactProblem *problem,
     if (!dense_lu(solver->matrix, free_count, solver->pivots)) return false;
     solver->kept_schur = problem->schur;
     solver->kept_count = free_count;
-    memcpy(solver->kept_status, solution->status, (size_t)problem->interface->contact_count);
+    size_t contacts = (size_t)problem->interface->contact_count;
+    memcpy(solver->kept_status, solution->status, contacts);
+    memcpy(solver->kept_status + contacts, solution->rod_touches,
+           (size_t)problem->interface->rod_count);
     memcpy(solver->kept_free, solver->free, (size_t)free_count * sizeof(int32_t));
     return true;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Active-set Newton for the contact problem of one stage (Alart and Curnier, Comp. Meth. Appl.
 // Mech. Eng. 92, 1991, in its status form). For given statuses the unknowns are the slipping
-// tangents, both components of open nodes and the rod nodes that have let go; everything else is
-// held. One Newton step on those, with the true derivative of mu(v) p,
+// tangents, both components of open nodes and the rod nodes that are soft or have let go; all else
+// is held. One Newton step on those, with the true derivative of mu(v) p,
 //
 //     row of a slipping tangent:   S_t + s mu S_n + mu'(|v_t|) r_n e_t,     s = sign of slip,
 //
@@ -33,16 +33,17 @@ typedef struct ContactSolver {
     int32_t *pivots;   // [count] work; owned
     double *matrix;   // [count^2] work; owned
     double *step;   // [count] work; owned
-    int32_t *kept_free;      // [count] unknowns `matrix` is factored for; owned
-    uint8_t *kept_status;    // [contact_count] statuses it is factored for; owned
-    int32_t kept_count;      // of kept_free
+    int32_t *kept_free;   // [count] unknowns `matrix` is factored for; owned
+    uint8_t *kept_status;   // [contact_count + rod_count] statuses and touching rod nodes it is
+        // factored for; owned
+    int32_t kept_count;   // of kept_free
     const double *kept_schur;   // operator it is factored for; NULL: it holds no factors
-    int64_t factorisations;  // counted
+    int64_t factorisations;   // counted
     int64_t solves;   // counted
     int64_t iterations;   // counted, Newton steps
     int64_t fallbacks;   // counted, solves in which only the worst status was changed
     int64_t unsolved;   // counted
-    double seconds;          // wall time spent
+    double seconds;   // wall time spent
 } ContactSolver;
 
 bool contact_solver_create(const Interface *interface, ContactSolverDef def, ContactSolver *solver,

@@ -55,30 +55,69 @@ static bool is_contact_node(const Interface *interface, int32_t node)
     return false;
 }
 
+// All nodes of the rod's curve, by ascending z.
+static void sort_face(const Mesh *mesh, const MeshCurve *curve, Interface *interface)
+{
+    for (int32_t k = 0; k < curve->node_count; k++) {
+        double z = mesh->position[2 * curve->nodes[k] + 1];
+        int32_t j = k;
+        for (; j > 0 && interface->rod_z[j - 1] > z; j--) {
+            interface->rod_z[j] = interface->rod_z[j - 1];
+            interface->rod_node[j] = interface->rod_node[j - 1];
+        }
+        interface->rod_z[j] = z;
+        interface->rod_node[j] = curve->nodes[k];
+    }
+}
+
+// The heights of a face's nodes.
+typedef struct Face {
+    double *z;   // [count] ascending, length
+    int32_t count;
+    double rounding;   // of a height, length
+} Face;
+
+// How much of the stretch of node k lies in the strip, 0 to 1.
+static double strip_share(const InterfaceDef *def, Face face, int32_t k)
+{
+    const double *z = face.z;
+    double low = def->rod_height - 0.5 * def->rod_width, rounding = face.rounding;
+    double high = def->rod_height + 0.5 * def->rod_width;
+    double from = k > 0 ? 0.5 * (z[k - 1] + z[k]) : z[k];
+    double to = k + 1 < face.count ? 0.5 * (z[k] + z[k + 1]) : z[k];
+    bool level = to - from <= rounding;   // a face along x
+    if (level || !def->rod_in_part) return z[k] >= low - rounding && z[k] <= high + rounding;
+    double covered = fmin(to, high) - fmax(from, low);
+    if (covered <= rounding) return 0;
+    return covered >= to - from - rounding ? 1 : covered / (to - from);
+}
+
 static bool build_rod(const Mesh *mesh, const InterfaceDef *def, Interface *interface, Error *err)
 {
     if (!def->has_rod) return true;
     MeshCurve curve;
+    Face face = {.rounding = STRIP_TOLERANCE * (mesh->z_max - mesh->z_min)};
     TRY(mesh_curve(mesh, def->rod_name, &curve, err));
     interface->rod_node = NEW_ARRAY(int32_t, curve.node_count, err);
     interface->rod_z = NEW_ARRAY(double, curve.node_count, err);
-    if (!interface->rod_node || !interface->rod_z) goto cleanup;
-    double reach = 0.5 * def->rod_width + STRIP_TOLERANCE * (mesh->z_max - mesh->z_min);
+    interface->rod_share = NEW_ARRAY(double, curve.node_count, err);
+    face.z = NEW_ARRAY(double, curve.node_count, err);
+    if (!interface->rod_node || !interface->rod_z || !interface->rod_share || !face.z) goto cleanup;
+    sort_face(mesh, &curve, interface);
+    face.count = curve.node_count;
+    memcpy(face.z, interface->rod_z, (size_t)face.count * sizeof(double));
     double nearest = INFINITY;
-    for (int32_t k = 0; k < curve.node_count; k++) {
-        int32_t node = curve.nodes[k];
-        double z = mesh->position[2 * node + 1];
+    for (int32_t k = 0; k < face.count; k++) {
+        int32_t node = interface->rod_node[k];
         if (is_contact_node(interface, node)) continue;
-        if (fabs(z - def->rod_height) < fabs(nearest - def->rod_height)) nearest = z;
-        if (fabs(z - def->rod_height) > reach) continue;
-        int32_t j = interface->rod_count++;
-        while (j > 0 && interface->rod_z[j - 1] > z) {
-            interface->rod_z[j] = interface->rod_z[j - 1];
-            interface->rod_node[j] = interface->rod_node[j - 1];
-            j--;
-        }
-        interface->rod_z[j] = z;
+        if (fabs(face.z[k] - def->rod_height) < fabs(nearest - def->rod_height))
+            nearest = face.z[k];
+        double share = strip_share(def, face, k);
+        if (share == 0) continue;
+        int32_t j = interface->rod_count++;   // never beyond k: what is overwritten was looked at
         interface->rod_node[j] = node;
+        interface->rod_z[j] = face.z[k];
+        interface->rod_share[j] = share;
     }
     if (interface->rod_count == 0)
         FAIL(err, ERROR_INPUT,
@@ -87,6 +126,7 @@ static bool build_rod(const Mesh *mesh, const InterfaceDef *def, Interface *inte
              mesh->path, def->rod_name, def->rod_height - 0.5 * def->rod_width,
              def->rod_height + 0.5 * def->rod_width, nearest);
 cleanup:
+    memory_free(face.z);
     return error_is_clean(err);
 }
 
@@ -117,6 +157,7 @@ void interface_destroy(Interface *interface)
     memory_free(interface->pad_name);
     memory_free(interface->rod_node);
     memory_free(interface->rod_z);
+    memory_free(interface->rod_share);
     memory_free(interface->dofs);
     *interface = (Interface){0};
 }

@@ -21,6 +21,8 @@ typedef struct Interface {
     int32_t rod_count;
     int32_t *rod_node;   // [rod_count] mesh node, ascending z; owned
     double *rod_z;   // [rod_count] height, length; owned
+    double *rod_share;   // [rod_count] in (0, 1]: how much of the node's stretch of the face, half
+        // way to its neighbours, lies in the strip; owned
     int32_t count;   // 2 * contact_count + rod_count
     int32_t *dofs;   // [count] unknowns of the bulk; owned
 } Interface;
@@ -31,6 +33,8 @@ typedef struct InterfaceDef {
     bool has_rod;
     const char *rod_name;
     double rod_height, rod_width;   // centre of the strip and its extent along z, length
+    bool rod_in_part;   // nodes whose stretch lies in the strip in part belong to it, with a share;
+        // else those inside it, wholly
 } InterfaceDef;
 
 // The unknowns of contact node i, and of rod node j, within the interface.
@@ -48,7 +52,8 @@ static inline int32_t interface_rod(const Interface *interface, int32_t j)
 }
 
 // ERROR_INPUT: no such curve, contact not on z = 0, no rod node inside the strip (says where the
-// nearest are). A rod node that is a contact node is left out: the plane holds it already.
+// nearest are), or the strip misses the face. A rod node that is a contact node is left out: the
+// plane holds it already.
 bool interface_build(const Mesh *mesh, const InterfaceDef *def, Interface *interface, Error *err);
 void interface_destroy(Interface *interface);
 

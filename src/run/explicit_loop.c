@@ -48,6 +48,7 @@ bool explicit_loop_advance(Simulation *simulation, Error *err)
     control->outcome.residual = scheme->residual;
     memcpy(control->scheme.bound, scheme->bound,
            (size_t)simulation->interface.count * sizeof(double));
+    control->scheme.reach = scheme->def.step;
     if (control->def.use_certificate)   // limits nothing here; says where l_sc is
         control->certified = certificate_holds(&control->certificate, &control->now);
 cleanup:

@@ -25,6 +25,23 @@ static double friction_slip(const Simulation *simulation)
     return drop * pressure * simulation->model.height / simulation->material.young;
 }
 
+// 4 mu (lambda + mu)/(lambda + 2 mu) of sigma = D eps: what a half-plane sets against a pressure.
+static double half_plane(double d[3][3])
+{
+    return d[0][0] > 0 ? 4 * d[2][2] * (d[0][0] - d[2][2]) / d[0][0] : 0;
+}
+
+bool model_build_rod(Simulation *simulation, RodKind kind, Error *err)
+{
+    const Material *material = &simulation->material;
+    double elastic[3][3], viscous[3][3];
+    material_elastic(material, elastic);
+    material_viscous(material, viscous);
+    if (!rod_build(&simulation->interface, kind, 0, &simulation->rod, err)) return false;
+    rod_soften(&simulation->interface, half_plane(elastic), half_plane(viscous), &simulation->rod);
+    return true;
+}
+
 bool model_prepare_steps(Simulation *simulation, Error *err)
 {
     const Scene *scene = &simulation->scene;
@@ -58,7 +75,7 @@ bool model_prepare_steps(Simulation *simulation, Error *err)
     RodKind kind = scene->start.rod == START_ROD_HELD && scene->rod.kind != ROD_NONE
                        ? (scene->rod.kind == ROD_PUSH ? ROD_PUSHES : ROD_IS_BONDED)
                        : ROD_AWAY;
-    TRY(rod_build(&simulation->interface, kind, 0, &simulation->rod, err));
+    TRY(model_build_rod(simulation, kind, err));
     Block block = {.system = &simulation->system,
                    .interface = &simulation->interface,
                    .law = &simulation->law,

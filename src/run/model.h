@@ -15,6 +15,9 @@ bool model_read_mesh(Simulation *simulation, Error *err);
 bool model_build_bulk(Simulation *simulation, Error *err);   // material, bulk, loads, interface
 bool model_hold_supports(Simulation *simulation, Error *err);   // takes their unknowns out of it
 
+// run/model: the rod at rest, `kind` for now, with the springs of its ends; needs the interface.
+bool model_build_rod(Simulation *simulation, RodKind kind, Error *err);
+
 // run/model: after model_obtain, in this order.
 bool model_prepare_steps(Simulation *simulation, Error *err);
 bool model_relax(Simulation *simulation, Error *err);   // to t = 0, the rod in place

@@ -256,7 +256,8 @@ bool model_build_bulk(Simulation *simulation, Error *err)
                         .rod_name = scene->groups.rod,
                         .rod_height = scene->rod.height > 0 ? scene->rod.height
                                                             : ROD_HEIGHT * height,
-                        .rod_width = scene->rod.width > 0 ? scene->rod.width : ROD_WIDTH * height};
+                        .rod_width = scene->rod.width > 0 ? scene->rod.width : ROD_WIDTH * height,
+                        .rod_in_part = scene->rod.ends == ROD_ENDS_EXACT};
     TRY(interface_build(&simulation->mesh, &def, &simulation->interface, err));
     simulation->scales.length = simulation->model.length;
     simulation->model.contact_nodes = simulation->interface.contact_count;

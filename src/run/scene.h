@@ -18,6 +18,7 @@ enum {
 typedef enum SceneUnits { UNITS_NORMALISED, UNITS_SI } SceneUnits;
 typedef enum ScenePlane { PLANE_STRESS, PLANE_STRAIN } ScenePlane;
 typedef enum SceneLaw { LAW_COULOMB, LAW_LINEAR_WEAKENING, LAW_EXPONENTIAL_WEAKENING } SceneLaw;
+typedef enum SceneRodEnds { ROD_ENDS_EXACT, ROD_ENDS_NODES } SceneRodEnds;
 typedef enum SceneRodKind { ROD_PUSH, ROD_BONDED, ROD_NONE } SceneRodKind;
 typedef enum SceneStartFriction { START_FRICTION_OFF, START_FRICTION_ON } SceneStartFriction;
 typedef enum SceneStartRod { START_ROD_AWAY, START_ROD_HELD } SceneStartRod;
@@ -79,6 +80,7 @@ typedef struct Scene {
         double displacement;   // of the rod in `amontons static`
         double height, width;   // of the strip's centre, and its extent; 0: H/2 and 0.1 H
         SceneRodKind kind;
+        SceneRodEnds ends;   // exact (default) or at nodes
     } rod;
     struct {
         SceneStartFriction friction;

@@ -12,6 +12,7 @@ static const char *const units_choices[] = {"normalised", "si", NULL};
 static const char *const plane_choices[] = {"stress", "strain", NULL};
 static const char *const law_choices[] = {"coulomb", "linear-weakening", "exponential-weakening",
                                           NULL};
+static const char *const rod_ends_choices[] = {"exact", "nodes", NULL};
 static const char *const rod_choices[] = {"push", "bonded", "none", NULL};
 static const char *const switch_choices[] = {"off", "on", NULL};
 static const char *const start_rod_choices[] = {"away", "held", NULL};
@@ -94,6 +95,10 @@ static const SceneKey keys[] = {
     {"rod.kind", KEY_CHOICE, offsetof(Scene, rod.kind), "1", RANGE_ANY, "push",
      .sentence = "`push`: can lose contact, never pulls. `bonded`: glued on. `none`: no rod.",
      .choices = rod_choices},
+    {"rod.ends", KEY_CHOICE, offsetof(Scene, rod.ends), "1", RANGE_ANY, "exact",
+     .sentence = "`exact`: the strip ends where height and width say, also within a cell. `nodes`: "
+                 "it is the nodes inside, and its width changes with the mesh.",
+     .choices = rod_ends_choices},
     {"start.friction", KEY_CHOICE, offsetof(Scene, start.friction), "1", RANGE_ANY, "on",
      .sentence = "Whether friction acts while the block relaxes under its load.",
      .choices = switch_choices},

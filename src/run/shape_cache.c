@@ -15,7 +15,7 @@
 enum { MESH_BYTES_MAX = 1 << 28, PATH_SIZE = PATH_MAX + 64, COUNTS = 8 };
 
 // Stands in every key: a new meaning of the arrays below needs a new number.
-static const char FORMAT[] = "shape 3 " AMONTONS_VERSION;
+static const char FORMAT[] = "shape 4 " AMONTONS_VERSION;
 
 void shape_destroy(Shape *shape)
 {
@@ -65,6 +65,7 @@ static void hash_boundary(const Scene *scene, Hash *hash)
     hash_text(hash, scene->rod.kind == ROD_NONE ? "no rod" : scene->groups.rod);
     hash_number(hash, scene->rod.height);
     hash_number(hash, scene->rod.width);
+    hash_number(hash, scene->rod.ends);
     hash_number(hash, scene->load.pressure / reference);
     for (int32_t k = 0; k < scene->load.traction_count; k++) {
         hash_text(hash, scene->load.tractions[k].group);
@@ -183,6 +184,7 @@ static bool read_shape(const CacheFile *file, Shape *shape, Error *err)
            read_names(file, interface, err) &&
            read_indices(file, "rod_node", interface->rod_count, &interface->rod_node, err) &&
            read_numbers(file, "rod_z", interface->rod_count, &interface->rod_z, err) &&
+           read_numbers(file, "rod_share", interface->rod_count, &interface->rod_share, err) &&
            read_indices(file, "dofs", interface->count, &interface->dofs, err) &&
            read_numbers(file, "rotation", m, &shape->rotation, err) &&
            read_numbers(file, "mass", all * all, &reduced->mass, err) &&
@@ -275,6 +277,7 @@ static bool store_shape(const char *key, const Shape *shape, Error *err)
     TRY(list_names(&listing, interface, err));
     TRY(list_indices(&listing, "rod_node", interface->rod_node, interface->rod_count, err));
     list_numbers(&listing, "rod_z", interface->rod_z, interface->rod_count);
+    list_numbers(&listing, "rod_share", interface->rod_share, interface->rod_count);
     TRY(list_indices(&listing, "dofs", interface->dofs, interface->count, err));
     list_numbers(&listing, "rotation", shape->rotation, m);
     list_numbers(&listing, "mass", reduced->mass, all * all);

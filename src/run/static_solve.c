@@ -68,6 +68,8 @@ static bool solve_contact(const Simulation *simulation, InterfaceOperator *stiff
                               .law = &coulomb,
                               .rod_kind = simulation->scene.rod.kind == ROD_BONDED ? ROD_IS_BONDED
                                                                                    : ROD_PUSHES,
+                              .rod_softness = simulation->rod.softness,
+                              .rod_reach = 1,
                               .schur = interface_operator_schur(stiffness),
                               .g = g,
                               .bound = bound};
@@ -123,6 +125,7 @@ bool static_solve(Simulation *simulation, StaticSolution *solution, Error *err)
     double *bound = NEW_ARRAY(double, interface->count, err);
     if (!g || !bound) goto cleanup;
     TRY(make_room(simulation, solution, err));
+    TRY(model_build_rod(simulation, ROD_PUSHES, err));
     memcpy(solution->load, bulk->load, (size_t)bulk->dof_count * sizeof(double));
     TRY(model_hold_supports(simulation, err));
     TRY(bulk_operator_create(bulk, simulation->mesh.position, interface->dofs, interface->count,
@@ -196,6 +199,8 @@ static double contact_violation(const Simulation *simulation, const StaticSoluti
                               .law = &coulomb,
                               .rod_kind = simulation->scene.rod.kind == ROD_BONDED ? ROD_IS_BONDED
                                                                                    : ROD_PUSHES,
+                              .rod_softness = simulation->rod.softness,
+                              .rod_reach = 1,
                               .bound = bound};
     double force = dense_max_abs(solution->contact_reaction, interface->count);
     double length = dense_max_abs(solution->displacement, simulation->bulk.dof_count);

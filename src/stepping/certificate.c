@@ -13,10 +13,12 @@ static const double BETWEEN_RUNGS = 1.0606601717798212;
 
 bool certificate_create(const Block *block, Certificate *certificate, Error *err)
 {
-    *certificate = (Certificate){.interface = block->interface, .law = block->law};
+    *certificate =
+        (Certificate){.interface = block->interface, .law = block->law, .rod = block->rod};
     int64_t count = block->interface->count;
     certificate->matrix = NEW_ARRAY(double, count *count, err);
     certificate->weakening = NEW_ARRAY(double, count, err);
+    certificate->damper = NEW_ARRAY(double, count, err);
     certificate->vector = NEW_ARRAY(double, count, err);
     certificate->moving = NEW_ARRAY(int32_t, count, err);
     certificate->pivots = NEW_ARRAY(int32_t, count, err);
@@ -33,13 +35,14 @@ void certificate_destroy(Certificate *certificate)
     interface_operator_destroy(certificate->damping);
     memory_free(certificate->matrix);
     memory_free(certificate->weakening);
+    memory_free(certificate->damper);
     memory_free(certificate->vector);
     memory_free(certificate->moving);
     memory_free(certificate->pivots);
     *certificate = (Certificate){0};
 }
 
-// Fills F and W; says whether anything weakens at all.
+// Fills F, W and the dampers; says whether anything weakens at all.
 static bool list_moving(Certificate *certificate, const State *state, int32_t *moving_count)
 {
     const Interface *interface = certificate->interface;
@@ -52,15 +55,19 @@ static bool list_moving(Certificate *certificate, const State *state, int32_t *m
         if (status_slips(state->status[i]))
             weakening = -friction_slope(certificate->law, fabs(state->slip_rate[t])) *
                         state->reaction[n];
+        certificate->damper[count] = 0;
         certificate->moving[count] = t;
         certificate->weakening[count++] = weakening;
         if (weakening > 0) weakens = true;
         if (state->status[i] != CONTACT_OPEN) continue;
+        certificate->damper[count] = 0;
         certificate->moving[count] = n;
         certificate->weakening[count++] = 0;
     }
     for (int32_t j = 0; j < interface->rod_count; j++) {
-        if (state->rod_touches[j]) continue;
+        double softness = certificate->rod->softness[j];
+        if (state->rod_touches[j] && softness == 0) continue;
+        certificate->damper[count] = state->rod_touches[j] ? certificate->rod->lag / softness : 0;
         certificate->moving[count] = interface_rod(interface, j);
         certificate->weakening[count++] = 0;
     }
@@ -85,7 +92,7 @@ static bool is_definite(Certificate *certificate, const State *state, const doub
         for (int32_t a = b; a < count; a++) out[a] = own[certificate->moving[a]];
         for (int32_t a = b; part > 0 && part < 1 && a < count; a++)
             out[a] = part * out[a] + (1 - part) * damping[column + certificate->moving[a]];
-        out[b] -= certificate->weakening[b];
+        out[b] += certificate->damper[b] - certificate->weakening[b];
     }
     certificate->checks++;
     return dense_cholesky(certificate->matrix, count);
@@ -119,6 +126,7 @@ static int32_t fill_coupled(Certificate *certificate, const State *state, const 
             int32_t column = certificate->moving[b];
             certificate->matrix[(int64_t)b * count + a] = own[column] + mu * normal[column];
         }
+        certificate->matrix[(int64_t)a * count + a] += certificate->damper[a];
     }
     certificate->checks++;
     return count;

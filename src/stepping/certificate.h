@@ -4,6 +4,9 @@
 //
 //     W = diag(-mu'(|v_i|) r_n,i) on J, 0 elsewhere     (linear law: (mu_S - mu_K) p_i w_i / v_c).
 //
+// Soft rod nodes that touch (contact/rod) are in F, their dampers in C; their springs are left out,
+// which only makes the tests stricter.
+//
 //   * S_C[F,F] - W positive definite, S_C the Schur complement of the damping C alone: viscosity
 //     takes more out of any slip than weakening puts in. No perturbation can gain energy, and any
 //     step that accuracy allows may be taken. First lost at about l_sc.
@@ -35,11 +38,13 @@
 #include "stepping/state.h"
 
 typedef struct Certificate {
-    const Interface *interface;   // not owned, like the law
+    const Interface *interface;   // not owned, like the next two
     const FrictionLaw *law;
+    const Rod *rod;
     InterfaceOperator *damping;   // holds S_C; owned
     double *matrix;   // [count^2] work; owned
     double *weakening;   // [count] work: W's diagonal; owned
+    double *damper;   // [count] work: of soft rod nodes, added to all S; owned
     double *vector;   // [count] work; owned
     int32_t *moving;   // [count] work: F; owned
     int32_t *pivots;   // [count] work; owned

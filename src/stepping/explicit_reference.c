@@ -196,23 +196,25 @@ static double resolve_contact(ExplicitReference *scheme, int32_t i, State *state
            mean_power(state->reaction[n], before[1], v[1]);
 }
 
-// Rod node j, `target` its place at the end of the step; returns the rod's power, and through
+// Rod node j, `time` that of the end of the step; returns the rod's power, and through
 // *dissipated what is lost where the face is hit.
-static double resolve_rod(ExplicitReference *scheme, int32_t j, double target, State *state,
+static double resolve_rod(ExplicitReference *scheme, int32_t j, double time, State *state,
                           double *dissipated)
 {
     const Interface *interface = scheme->def.interface;
     int32_t x = interface_rod(interface, j), node = interface->rod_node[j];
-    RodKind kind = scheme->def.rod->kind;
     double step = scheme->def.step, *u = scheme->next + NODE_SIZE * node, *v = u + 2;
-    double bound = (target - scheme->now[NODE_SIZE * node]) / step;
-    bool touches = kind == ROD_IS_BONDED || (kind == ROD_PUSHES && v[0] < bound);
+    const Rod *rod = scheme->def.rod;
+    double bound = rod_bound(rod, j, scheme->now[NODE_SIZE * node], time, step);
+    double yields = rod->softness[j] / (step + rod->lag);   // velocity per force/width
+    bool touches = rod->kind == ROD_IS_BONDED || (rod->kind == ROD_PUSHES && v[0] < bound);
     scheme->bound[x] = bound;
     state->rod_touches[j] = touches;
-    state->reaction[x] = touches ? (bound - v[0]) / scheme->kick[node] : 0;
+    // v' = v + kick r = bound - yields r.
+    state->reaction[x] = touches ? (bound - v[0]) / (scheme->kick[node] + yields) : 0;
     if (touches) {
-        v[0] = bound;
-        u[0] = target;
+        v[0] = bound - yields * state->reaction[x];
+        u[0] = scheme->now[NODE_SIZE * node] + step * v[0];
     }
     state->slip_rate[x] = v[0];
     double pushed = state->reaction[x] * v[0];
@@ -225,14 +227,13 @@ static double resolve_rod(ExplicitReference *scheme, int32_t j, double target, S
 static void advance_once(ExplicitReference *scheme, State *state, EnergyLedger *ledger)
 {
     const Interface *interface = scheme->def.interface;
-    const Rod *rod = scheme->def.rod;
     double step = scheme->def.step, frictional = 0, pushed = 0;
     double viscous = sweep_free(scheme);
     for (int32_t i = 0; i < interface->contact_count; i++)
         frictional += resolve_contact(scheme, i, state);
-    double path = rod->velocity * (scheme->time + step * (double)(scheme->steps + 1));
+    double end = scheme->time + step * (double)(scheme->steps + 1);
     for (int32_t j = 0; j < interface->rod_count; j++)
-        pushed += resolve_rod(scheme, j, rod->origin[j] + path, state, &frictional);
+        pushed += resolve_rod(scheme, j, end, state, &frictional);
     ledger->viscous += step * viscous;
     ledger->frictional += step * frictional;
     ledger->rod_work += step * pushed;

@@ -19,14 +19,16 @@ typedef struct Moving {
     int32_t unknown;
     int32_t normal;   // of a slipping tangent; -1: no friction here
     double friction;   // s mu(|v|)
-    double weakening;   // W, force * time / length
+    double weakening;   // W, force * time / length; below 0: a damper
+    double spring;   // of a soft rod node that touches, part of K, force/width per length
 } Moving;
 
 struct Growth {
     GrowthDef def;
-    BulkOperator *system;   // not owned, like the next two
+    BulkOperator *system;   // not owned, like the next three
     const Interface *interface;
     const FrictionLaw *law;
+    const Rod *rod;
     int32_t shift_count;
     double shift[GROWTH_SHIFTS_MAX];   // s, 1/time
     InterfaceOperator *at[GROWTH_SHIFTS_MAX];   // A; owned, like all that follows
@@ -88,6 +90,7 @@ Growth *growth_create(const Block *block, const GrowthDef *def, Error *err)
     growth->system = block->system;
     growth->interface = block->interface;
     growth->law = block->law;
+    growth->rod = block->rod;
     TRY(allocate(growth, err));
     for (double s = def->slowest; growth->shift_count < GROWTH_SHIFTS_MAX; s *= 2) {
         int32_t k = growth->shift_count++;
@@ -143,7 +146,13 @@ static void list_moving(Growth *growth, const State *state)
         slipping->weakening = -friction_slope(growth->law, speed) * state->reaction[n];
     }
     for (int32_t j = 0; j < interface->rod_count; j++) {
-        if (!state->rod_touches[j]) add_moving(growth, interface_rod(interface, j));
+        double softness = growth->rod->softness[j];
+        if (state->rod_touches[j] && softness == 0) continue;
+        add_moving(growth, interface_rod(interface, j));
+        if (!state->rod_touches[j]) continue;
+        Moving *soft = &growth->moving[growth->moving_count - 1];
+        soft->spring = 1 / softness;
+        soft->weakening = -growth->rod->lag / softness;
     }
 }
 
@@ -182,6 +191,9 @@ static double load_at(Growth *growth, int32_t k)
         const double *column = schur + size * growth->moving[b].unknown;
         for (int32_t a = 0; a < count; a++)
             growth->matrix[(int64_t)count * b + a] = column[growth->moving[a].unknown];
+        const Moving *soft = &growth->moving[b];
+        growth->matrix[(int64_t)count * b + b] += soft->spring / growth->shift[k] -
+                                                  fmin(soft->weakening, 0);
     }
     if (!dense_cholesky(growth->matrix, count) || !dense_invert_factored(growth->matrix, count))
         return INFINITY;
@@ -224,7 +236,7 @@ static bool factor_moving(Growth *growth, int32_t k)
             out[a] = column[row->unknown];
             if (row->normal >= 0) out[a] += row->friction * column[row->normal];
         }
-        out[b] -= growth->moving[b].weakening;
+        out[b] += growth->moving[b].spring / growth->shift[k] - growth->moving[b].weakening;
     }
     return dense_lu(growth->matrix, count, growth->pivots);
 }

@@ -25,6 +25,11 @@ double ladder_step(const Ladder *ladder, int32_t k)
     return ldexp(ladder->step_max, -k);
 }
 
+double ladder_reach(const Ladder *ladder, int32_t k)
+{
+    return SDIRK2_GAMMA * ladder_step(ladder, k);
+}
+
 int32_t ladder_find(const Ladder *ladder, double step)
 {
     int32_t k = 0;
@@ -35,7 +40,7 @@ int32_t ladder_find(const Ladder *ladder, double step)
 InterfaceOperator *ladder_rung(Ladder *ladder, int32_t k, Error *err)
 {
     if (!ladder->rung[k]) {
-        double started = clock_seconds(), scaled = SDIRK2_GAMMA * ladder_step(ladder, k);
+        double started = clock_seconds(), scaled = ladder_reach(ladder, k);
         OperatorTerms terms = {.mass = 1 / scaled, .damping = 1, .stiffness = scaled};
         ladder->rung[k] = interface_operator_create(ladder->system, terms, err);
         ladder->seconds += clock_seconds() - started;

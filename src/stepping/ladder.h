@@ -17,7 +17,7 @@ typedef struct Ladder {
     int32_t rung_count;   // usable rungs: 0 .. rung_count - 1
     InterfaceOperator *rung[LADDER_RUNGS_MAX];   // NULL: not built; owned
     int64_t accepted[LADDER_RUNGS_MAX];   // steps, counted by step_control
-    double seconds;              // wall time spent on building rungs
+    double seconds;   // wall time spent on building rungs
 } Ladder;
 
 // Rungs from step_max down to the last that is not below step_min.
@@ -25,6 +25,7 @@ void ladder_init(BulkOperator *system, double step_max, double step_min, Ladder 
 void ladder_destroy(Ladder *ladder);
 
 double ladder_step(const Ladder *ladder, int32_t k);
+double ladder_reach(const Ladder *ladder, int32_t k);   // gamma dt: displacement per velocity
 // The coarsest rung whose step is at most `step`; rung_count when there is none.
 int32_t ladder_find(const Ladder *ladder, double step);
 // NULL with the error set when the matrix cannot be factored.

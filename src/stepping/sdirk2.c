@@ -52,14 +52,14 @@ static void fill_bounds(Sdirk2 *scheme, const double *predictor, double time, do
 {
     const Interface *interface = scheme->interface;
     const int32_t *dofs = scheme->system->interface_dofs;
+    scheme->reach = scaled_step;
     for (int32_t i = 0; i < interface->contact_count; i++) {
         int32_t n = interface_normal(i);
         scheme->bound[n] = -predictor[dofs[n]] / scaled_step;
     }
     for (int32_t j = 0; j < interface->rod_count; j++) {
         int32_t x = interface_rod(interface, j);
-        double target = scheme->rod->origin[j] + scheme->rod->velocity * time;
-        scheme->bound[x] = (target - predictor[dofs[x]]) / scaled_step;
+        scheme->bound[x] = rod_bound(scheme->rod, j, predictor[dofs[x]], time, scaled_step);
     }
 }
 
@@ -72,6 +72,8 @@ static bool solve_stage(Sdirk2 *scheme, InterfaceOperator *rung, ContactSolution
     ContactProblem problem = {.interface = interface,
                               .law = scheme->law,
                               .rod_kind = scheme->rod->kind,
+                              .rod_softness = scheme->rod->softness,
+                              .rod_reach = scheme->reach + scheme->rod->lag,
                               .schur = interface_operator_schur(rung),
                               .g = scheme->g,
                               .bound = scheme->bound};

@@ -26,7 +26,8 @@ typedef struct Sdirk2 {
     ContactSolver solver;   // owned, like all that follows
     double *rhs, *force, *viscous;   // [dof_count] work
     double *v1, *predictor;   // [dof_count] work: v_1; u_j*
-    double *g, *bound;   // [interface_count] work
+    double *g, *bound;   // [interface_count] work; bound: of the last stage
+    double reach;   // gamma dt of the last stage, time
     double *stage_velocity, *stage_reaction;   // [interface_count] work: of stage 1
     int64_t steps;   // tried
 } Sdirk2;
@@ -35,7 +36,7 @@ typedef struct StepOutcome {
     bool solved;   // false: a contact problem had no solution; `to` has no meaning
     double error;   // size of the estimated local error of u (bulk_operator_size), length
     double residual;   // |M a + C v + K u - f - r| at the end, largest component, force/width; only
-                       // every 32nd step is looked at, the others say 0
+        // every 32nd step is looked at, the others say 0
     StagePower power[2];   // of the stages
     double load_work;   // of the step
 } StepOutcome;

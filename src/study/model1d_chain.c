@@ -26,6 +26,7 @@ static bool build_interface(const Model1d *model, int32_t points, Interface *int
     interface->pad = NEW_ARRAY(int32_t, points, err);
     interface->rod_node = NEW_ARRAY(int32_t, 1, err);
     interface->rod_z = NEW_ARRAY(double, 1, err);
+    interface->rod_share = NEW_ARRAY(double, 1, err);
     interface->dofs = NEW_ARRAY(int32_t, interface->count, err);
     if (!error_is_clean(err)) return false;
     for (int32_t i = 0; i < points; i++) {
@@ -36,6 +37,7 @@ static bool build_interface(const Model1d *model, int32_t points, Interface *int
     }
     interface->rod_node[0] = points;
     interface->rod_z[0] = model->drive;
+    interface->rod_share[0] = 1;
     for (int32_t k = 0; k < interface->count; k++) interface->dofs[k] = k;
     return true;
 }

@@ -259,16 +259,46 @@ static void test_allocates_nothing(void **state)
     }
 }
 
+// A rod node alone, S = 5, g = 1, bound 2, spring 3/0.25 = 12: 5 v = 1 + 12 (2 - v). Where the face
+// runs ahead (g = 20) the spring is let go; bonded, it pulls.
+static void test_soft_rod(void **state)
+{
+    (void)state;
+    const double softness[] = {0.25};
+    const struct {
+        double g, v;
+        RodKind kind;
+        uint8_t touches;
+    } cases[] = {
+        {1, 25. / 17, ROD_PUSHES, 1}, {20, 4, ROD_PUSHES, 0}, {20, 44. / 17, ROD_IS_BONDED, 1}};
+    for (size_t c = 0; c < 3; c++) {
+        for (uint8_t guess = 0; guess < 2; guess++) {
+            HandContact hand;
+            hand_contact_size(&hand, 0, 1);
+            hand.law = COULOMB;
+            hand.rod_kind = cases[c].kind;
+            hand.rod_softness = softness;
+            hand.rod_reach = 3;
+            hand.schur[0] = 5;
+            hand.g[0] = cases[c].g;
+            hand.bound[0] = 2;
+            hand.rod_touches[0] = guess;
+            assert_true(hand_contact_solve(&hand));
+            assert_int_equal(hand.rod_touches[0], cases[c].touches);
+            assert_near("v", hand.velocity[0], cases[c].v, 1e-12);
+            assert_near("r", hand.reaction[0], cases[c].touches ? 12 * (2 - cases[c].v) : 0, 1e-11);
+            assert_true(hand_contact_error(&hand) < 1e-12);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_stick_and_open),
-        cmocka_unit_test(test_coulomb_slip),
-        cmocka_unit_test(test_weakening_slip),
-        cmocka_unit_test(test_strong_weakening),
-        cmocka_unit_test(test_rod),
-        cmocka_unit_test(test_two_nodes),
-        cmocka_unit_test(test_rough_friction),
+        cmocka_unit_test(test_stick_and_open),    cmocka_unit_test(test_soft_rod),
+        cmocka_unit_test(test_coulomb_slip),      cmocka_unit_test(test_weakening_slip),
+        cmocka_unit_test(test_strong_weakening),  cmocka_unit_test(test_rod),
+        cmocka_unit_test(test_two_nodes),         cmocka_unit_test(test_rough_friction),
         cmocka_unit_test(test_allocates_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -5,6 +5,8 @@
 #include "block_mesh.h"
 #include "contact/rod.h"
 
+#include <math.h>
+
 static BlockDef block_of(ElementKind kind)
 {
     return (BlockDef){.kind = kind, .nx = 4, .nz = 5, .length = 1, .height = 0.5};
@@ -161,6 +163,56 @@ static void test_rod(void **state)
     mesh_destroy(&mesh);
 }
 
+// Shares of rows 0.1 apart: strip 0.12 .. 0.28 holds row 2 and 30 % of row 1, 80 % of row 3 when it
+// is moved up by 0.05; whatever its place, the shares make up its width.
+static void test_shares(void **state)
+{
+    (void)state;
+    Error err = {0};
+    BlockDef block = block_of(ELEMENT_Q4);
+    Mesh mesh;
+    Interface interface;
+    block_build(&block, &mesh);
+    InterfaceDef def = def_with_rod(0.2, 0.16);
+    def.rod_in_part = true;
+    assert_true(interface_build(&mesh, &def, &interface, &err));
+    assert_int_equal(interface.rod_count, 3);
+    assert_near("below", interface.rod_share[0], 0.3, 1e-9);
+    assert_near("inside", interface.rod_share[1], 1, 0);
+    assert_near("above", interface.rod_share[2], 0.3, 1e-9);
+    interface_destroy(&interface);
+    for (int32_t step = 0; step < 40; step++) {
+        def.rod_height = 0.15 + 0.005 * step;
+        assert_true(interface_build(&mesh, &def, &interface, &err));
+        double width = 0;
+        for (int32_t j = 0; j < interface.rod_count; j++) width += 0.1 * interface.rod_share[j];
+        double lost = fmax(0.05 - (def.rod_height - 0.08), 0);   // to the corner, which is contact
+        assert_near("width", width, 0.16 - lost, 1e-9);
+        interface_destroy(&interface);
+    }
+    mesh_destroy(&mesh);
+}
+
+// The bound at which a soft node feels no force, and the softness of half a share.
+static void test_soft_rod(void **state)
+{
+    (void)state;
+    Error err = {0};
+    double share[] = {0.5, 1};
+    Interface interface = {.rod_count = 2, .rod_share = share};
+    Rod rod;
+    assert_true(rod_build(&interface, ROD_PUSHES, 1e-2, &rod, &err));
+    assert_near("rigid at first", rod_bound(&rod, 0, 0.1, 30, 2), (0.3 - 0.1) / 2, 1e-15);
+    rod_soften(&interface, 4, 6, &rod);
+    assert_near("softness", rod.softness[0], log(2) / 3.14159265358979, 1e-12);
+    assert_near("a whole node", rod.softness[1], 0, 0);
+    assert_near("its bound", rod_bound(&rod, 1, 0.1, 30, 2), (0.3 - 0.1) / 2, 1e-15);
+    // way 0.2 - 2 v + lag (V - v) = 0 with lag 1.5
+    double v = rod_bound(&rod, 0, 0.1, 30, 2);
+    assert_near("no force", 0.2 - 2 * v + 1.5 * (1e-2 - v), 0, 1e-15);
+    rod_destroy(&rod);
+}
+
 static void test_memory_faults(void **state)
 {
     (void)state;
@@ -193,6 +245,8 @@ int main(void)
         cmocka_unit_test(test_strip),
         cmocka_unit_test(test_pads),
         cmocka_unit_test(test_rod),
+        cmocka_unit_test(test_shares),
+        cmocka_unit_test(test_soft_rod),
         cmocka_unit_test(test_memory_faults),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -202,7 +202,7 @@ static void test_refused(void **state)
         {"load.tractions=[{group: topp, x: 0, z: 0}]", "did you mean 'top'?"},
         {"groups.top=rood", "did you mean 'rod'?"},
         {"groups.contact=leading", "z = 0"},
-        {"rod.height=0.26", "no node of group \"rod\""},
+        {"rod.height=0.7", "no node of group \"rod\""},
         {"groups.rod=leading", "cannot push"},
         {"mesh.set.nx=0", "nx"},
     };

@@ -208,6 +208,7 @@ static void make_shape(uint64_t seed, Shape *shape)
                                    .rod_count = 1,
                                    .rod_node = index_array(&random, 1),
                                    .rod_z = random_array(&random, 1),
+                                   .rod_share = random_array(&random, 1),
                                    .count = M,
                                    .dofs = index_array(&random, M)};
     shape->reduced = (ReducedBulk){.full_dofs = DOFS,
@@ -237,6 +238,7 @@ static void assert_same_shape(const Shape *a, const Shape *b, bool with_modes)
     assert_memory_equal(i->x, j->x, 3 * sizeof(double));
     assert_memory_equal(i->weight, j->weight, 3 * sizeof(double));
     assert_memory_equal(i->rod_z, j->rod_z, sizeof(double));
+    assert_memory_equal(i->rod_share, j->rod_share, sizeof(double));
     assert_memory_equal(a->rotation, b->rotation, 7 * sizeof(double));
     assert_true(r->full_dofs == 40 && r->interface_count == 7 && r->interior_count == 4);
     assert_true(r->count == 11 && r->error == s->error && r->dropped == s->dropped);

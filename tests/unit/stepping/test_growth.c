@@ -20,6 +20,7 @@ typedef struct Case {
     ReducedBulk reduced;
     BulkOperator system;
     FrictionLaw law;
+    Rod rod;
     State state;
     Growth *growth;
 } Case;
@@ -44,7 +45,9 @@ static void case_open(Case *test, GrowthDef def)
     if (!test->system.dof_count)
         assert_true(bulk_operator_create(&test->bulk, test->mesh.position, interface->dofs,
                                          interface->count, &test->system, &err));
-    Block block = {.system = &test->system, .interface = interface, .law = &test->law};
+    Block block = {
+        .system = &test->system, .interface = interface, .law = &test->law, .rod = &test->rod};
+    assert_true(rod_build(interface, ROD_PUSHES, 0, &test->rod, &err));
     assert_true(state_create(&test->system, interface, &test->state, &err));
     memset(test->state.rod_touches, 1, (size_t)interface->rod_count);
     test->growth = growth_create(&block, &def, &err);
@@ -54,6 +57,7 @@ static void case_open(Case *test, GrowthDef def)
 static void case_close(Case *test)
 {
     growth_destroy(test->growth);
+    rod_destroy(&test->rod);
     state_destroy(&test->state);
     bulk_operator_destroy(&test->system);
     reduction_destroy(&test->reduced);
@@ -402,7 +406,8 @@ static void test_memory(void **unused)
     BlockDef def = {ELEMENT_Q4, .nx = 3, .nz = 2, .length = 1, .height = 0.5};
     case_build_block(&test, &def, &SOFT);
     case_open(&test, growth_def(1, 1.06, 4));
-    Block block = {.system = &test.system, .interface = &test.interface, .law = &test.law};
+    Block block = {
+        .system = &test.system, .interface = &test.interface, .law = &test.law, .rod = &test.rod};
     GrowthDef how = growth_def(1, 1.06, 4);
     int64_t live = memory_counters().live;
     bool done = false;
