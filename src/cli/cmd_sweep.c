@@ -7,10 +7,20 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { SETTINGS_MAX = 180, FAILURES_SHOWN = 10, OPTION_SET = 1000, OPTION_RETRY, OPTION_FRESH };
+enum {
+    SETTINGS_MAX = 180,
+    FAILURES_SHOWN = 10,
+    OPTION_SET = 1000,
+    OPTION_RETRY,
+    OPTION_FRESH,
+    OPTION_SLURM,
+    OPTION_ELEMENT
+};
 
 typedef struct SweepWords {
     const char *study, *folder, *jobs;
+    const char *slurm;   // words for sbatch; NULL: not asked for
+    const char *element;   // list of a Slurm array, in which this process computes one point
     const char *overrides[SETTINGS_MAX];
     int32_t override_count;
     bool retry, fresh, quiet, too_many_studies, too_many_overrides;
@@ -42,6 +52,12 @@ static error_t take_option(int key, char *word, struct argp_state *state)
     case OPTION_FRESH:
         words->fresh = true;
         return 0;
+    case OPTION_SLURM:
+        words->slurm = word ? word : "";
+        return 0;
+    case OPTION_ELEMENT:
+        words->element = word;
+        return 0;
     case OPTION_SET:
         if (words->override_count == SETTINGS_MAX)
             words->too_many_overrides = true;
@@ -65,6 +81,12 @@ static void read_options(int argc, char **argv, SweepWords *words)
         {"output", 'o', "DIR", 0,
          "Folder for the table and the points (default: the study's name with -sweep, here)", 0},
         {"jobs", 'j', "N", 0, "Points computed at a time (default: as many as there are cores)", 0},
+        {"slurm", OPTION_SLURM, "WORDS", OPTION_ARG_OPTIONAL,
+         "Compute the points as Slurm job arrays, with these words for sbatch if any; -j N: at "
+         "most "
+         "N at a time",
+         0},
+        {"element", OPTION_ELEMENT, "FILE", OPTION_HIDDEN, NULL, 0},
         {"set", OPTION_SET, "KEY=VALUE", 0,
          "Use this value for every point; may be given several times", 0},
         {"retry", OPTION_RETRY, NULL, 0, "Compute points again that failed before", 0},
@@ -105,10 +127,32 @@ static void read_options(int argc, char **argv, SweepWords *words)
             "draws "
             "DIR/figures/plot.png: `x` and `y` each a result or a key that varies, `series` a key, "
             "`log`: x, y, both or none.\n\n"
+            "With --slurm each point is an element of a job array; the sweep waits for them, from "
+            "a "
+            "login node for instance, and Ctrl-C cancels them. DIR and this program must be seen "
+            "by "
+            "all nodes. Partition, time and memory are given as sbatch takes them, by its own "
+            "variables (SBATCH_PARTITION, SBATCH_TIMELIMIT, ...) or here: "
+            "--slurm=\"--partition=short --time=10 --mem=1G\". A point needs one core. What an "
+            "element "
+            "printed stands in DIR/slurm; one that Slurm ended is a failed point, with Slurm's "
+            "reason.\n\n"
             "Exit status: 0 all points done, 1 some failed (listed; the others are in the table), "
             "2 the study is wrong. Example:\n\n"
             "  amontons sweep validation/paper/fig2a.yaml -j 2 -o fig2a"};
     options_parse(&argp, argc, argv, "amontons sweep", words);
+}
+
+// In a job of a Slurm array: one point.
+static int run_element(const char *list)
+{
+    const char *index = getenv("SLURM_ARRAY_TASK_ID");
+    char *end = NULL;
+    Error err = {0};
+    long element = index ? strtol(index, &end, 10) : -1;
+    if (!index || !*index || *end || element < 0 || element > INT32_MAX)
+        return report_misuse("--element is for jobs that `amontons sweep --slurm` submits");
+    return amontons_sweep_element(list, (int32_t)element, &err) ? 0 : report_error(&err);
 }
 
 static int check_options(const SweepWords *words, SweepOptions *options)
@@ -200,13 +244,16 @@ static int close_sweep(const SweepDisplay *display, const char *folder, const ch
 int command_sweep(int argc, char **argv)
 {
     SweepWords words = {0};
-    SweepOptions options = {.stop = stop_on_signals(), .on_point = show_point};
+    SweepOptions options = {.on_point = show_point};
     SweepSummary summary;
     Error err = {0};
     char folder[256];
     read_options(argc, argv, &words);
+    if (words.element) return run_element(words.element);   // ends by a signal at once
     int status = check_options(&words, &options);
     if (status != 0) return status;
+    options.stop = stop_on_signals();
+    options.slurm = words.slurm;
     default_folder(words.study, folder, sizeof folder);
     options.folder = words.folder ? words.folder : folder;
     options.overrides = words.overrides;

@@ -101,42 +101,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Points finished by an earlier sweep.
-static bool find_finished(Sweep *sweep, Error *err)
-{
-    for (int32_t k = 0; k < sweep->study.point_count; k++) {
-        SweepPoint *point = &sweep->points[k];
-        if (point->same_as < k) continue;
-        char *report = point_report(sweep, k, err);
-        TRY(error_is_clean(err));
-        point->status = point_status(report);
-        if (sweep->options->fresh || (sweep->options->retry && point->status == POINT_FAILED))
-            point->status = POINT_PENDING;
-        point->reused = point->status != POINT_PENDING;
-        if (point->reused) {
-            sweep->reused++;
-            sweep_tell(sweep, k, report);
-        } else if (report) {
-            point_remove(sweep, k);
-        }
-        memory_free(report);
-    }
-cleanup:
-    return error_is_clean(err);
-}
-
-// What one computation decided holds for all points of the same scene.
-static void share_results(Sweep *sweep)
-{
-    for (int32_t k = 0; k < sweep->study.point_count; k++) {
-        SweepPoint *point = &sweep->points[k];
-        const SweepPoint *first = &sweep->points[point->same_as];
-        point->status = first->status;
-        if (point->same_as < k) point->reused = first->status != POINT_PENDING;
-    }
-}
-
-void sweep_tell(Sweep *sweep, int32_t k, const char *report)
+// Tells the caller that point `k` has ended and left `report` (NULL: none).
+static void tell(Sweep *sweep, int32_t k, const char *report)
 {
     const SweepPoint *point = &sweep->points[k];
     char words[POINT_WORDS_SIZE] = "", message[ERROR_MESSAGE_SIZE] = "";
@@ -166,6 +132,55 @@ void sweep_tell(Sweep *sweep, int32_t k, const char *report)
         view.seconds_left = (clock_seconds() - sweep->started) / sweep->computed *
                             (sweep->study.point_count - sweep->finished);
     sweep->options->on_point(&view, sweep->options->context);
+}
+
+// Points finished by an earlier sweep.
+static bool find_finished(Sweep *sweep, Error *err)
+{
+    for (int32_t k = 0; k < sweep->study.point_count; k++) {
+        SweepPoint *point = &sweep->points[k];
+        if (point->same_as < k) continue;
+        char *report = point_report(sweep, k, err);
+        TRY(error_is_clean(err));
+        point->status = point_status(report);
+        if (sweep->options->fresh || (sweep->options->retry && point->status == POINT_FAILED))
+            point->status = POINT_PENDING;
+        point->reused = point->status != POINT_PENDING;
+        if (point->reused) {
+            sweep->reused++;
+            tell(sweep, k, report);
+        } else if (report) {
+            point_remove(sweep, k);
+        }
+        memory_free(report);
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// What one computation decided holds for all points of the same scene.
+static void share_results(Sweep *sweep)
+{
+    for (int32_t k = 0; k < sweep->study.point_count; k++) {
+        SweepPoint *point = &sweep->points[k];
+        const SweepPoint *first = &sweep->points[point->same_as];
+        point->status = first->status;
+        if (point->same_as < k) point->reused = first->status != POINT_PENDING;
+    }
+}
+
+bool sweep_is_stopped(const Sweep *sweep)
+{
+    const volatile sig_atomic_t *stop = sweep->options->stop;
+    return stop && *stop;
+}
+
+void sweep_take(Sweep *sweep, int32_t k, double seconds, const char *report)
+{
+    sweep->points[k].status = point_status(report);
+    sweep->points[k].seconds = seconds;
+    sweep->computed++;
+    tell(sweep, k, report);
 }
 
 // The ranked table and the figures that the study asks for; those of a sweep that was stopped are
@@ -216,7 +231,8 @@ bool amontons_sweep(const char *path, const SweepOptions *options, SweepSummary 
     TRY(plan_points(sweep, err));
     TRY(take_folder(sweep, err));
     TRY(find_finished(sweep, err));
-    bool whole = pool_run(sweep, &stopped);
+    TRY(slurm_end_leftovers(sweep, err));
+    bool whole = options->slurm ? slurm_run(sweep, &stopped) : pool_run(sweep, &stopped);
     share_results(sweep);
     summarise(sweep, summary);
     if (!whole && stopped.code != ERROR_INTERRUPT) {

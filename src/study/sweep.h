@@ -6,6 +6,7 @@
 //     DIR/sweep.csv, DIR/sweep.h5  the table, a row a point in the study's order
 //     DIR/ranking.csv              the same points, the best first, where the study asks (`rank`)
 //     DIR/figures/*.png            pictures of the ranking and of the study's `plot`
+//     DIR/slurm/                   scripts and output of the elements, with --slurm
 //     DIR/lock                     one sweep at a time
 //
 // A point is an ordinary run: with `output.history: true` in the study its folder holds all of a
@@ -54,15 +55,25 @@ void point_folder(const Sweep *sweep, int32_t point, char folder[POINT_PATH_SIZE
 char *point_report(const Sweep *sweep, int32_t point, Error *err);
 PointStatus point_status(const char *report);   // of a run.json, or NULL
 void point_remove(const Sweep *sweep, int32_t point);
+bool point_run(const Sweep *sweep, int32_t point, Error *err);   // in this process
 // run.json for a point that left none: `failure` in a word or two, `message` in full.
 bool point_write_failure(const Sweep *sweep, int32_t point, const char *failure,
                          const char *message, Error *err);
 // "load.pressure=0.003 mesh.set.nx=40"
 void point_words(const Sweep *sweep, const Scene *scene, char words[POINT_WORDS_SIZE]);
 
-// --- sweep_pool: computes what is pending
+// --- sweep_pool, sweep_slurm: compute what is pending
 bool pool_run(Sweep *sweep, Error *err);
-void sweep_tell(Sweep *sweep, int32_t point, const char *report);   // the callback
+bool slurm_run(Sweep *sweep, Error *err);
+// Cancels what an earlier sweep in this folder, itself killed, left to Slurm.
+bool slurm_end_leftovers(Sweep *sweep, Error *err);
+bool sweep_is_stopped(const Sweep *sweep);   // by options->stop
+// A point has ended after `seconds` and left `report`: counted, and the caller told.
+void sweep_take(Sweep *sweep, int32_t point, double seconds, const char *report);
+
+// --- sweep_element: one point for Slurm; element e computes points[e] ([count])
+bool elements_write(const Sweep *sweep, const char *path, const int32_t *points, int32_t count,
+                    Error *err);
 
 // --- sweep_table: sweep.csv and sweep.h5
 enum { WORDS_MAX = 64, WORD_SIZE = 64 };

@@ -10,6 +10,7 @@
 
 #include <limits.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 enum { VALUE_SIZE = 8192, MESH_BYTES_MAX = 1 << 30, REPORT_BYTES_MAX = 1 << 28 };
@@ -100,6 +101,21 @@ void point_remove(const Sweep *sweep, int32_t point)
     unlink(path);   // the rest is the next run's to overwrite
 }
 
+bool point_run(const Sweep *sweep, int32_t point, Error *err)
+{
+    char folder[POINT_PATH_SIZE];
+    RunSummary summary;
+    RunOptions options = {.folder = folder, .overwrite = true};
+    Scene *scene = NEW_ARRAY(Scene, 1, err);
+    TRY(scene);
+    point_folder(sweep, point, folder);
+    TRY(study_point_scene(&sweep->study, point, scene, err));
+    TRY(amontons_run(scene, &options, &summary, err));
+cleanup:
+    memory_free(scene);
+    return error_is_clean(err);
+}
+
 bool point_write_failure(const Sweep *sweep, int32_t point, const char *failure,
                          const char *message, Error *err)
 {
@@ -108,6 +124,8 @@ bool point_write_failure(const Sweep *sweep, int32_t point, const char *failure,
     JsonWriter *json = NULL;
     TRY(scene);
     TRY(study_point_scene(&sweep->study, point, scene, err));
+    point_folder(sweep, point, path);
+    mkdir(path, 0777);   // a failure shows when the report is written
     report_path(sweep, point, path);
     TRY((json = json_create(path, err)));
     json_begin_object(json, NULL);

@@ -11,7 +11,6 @@
 #include <poll.h>
 #include <string.h>
 #include <sys/prctl.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -36,21 +35,6 @@ typedef struct Pool {
 
 // --- in the child -------------------------------------------------------------------------------
 
-static bool run_point(const Sweep *sweep, int32_t point, Error *err)
-{
-    char folder[POINT_PATH_SIZE];
-    RunSummary summary;
-    RunOptions options = {.folder = folder, .overwrite = true};
-    Scene *scene = NEW_ARRAY(Scene, 1, err);
-    TRY(scene);
-    point_folder(sweep, point, folder);
-    TRY(study_point_scene(&sweep->study, point, scene, err));
-    TRY(amontons_run(scene, &options, &summary, err));
-cleanup:
-    memory_free(scene);
-    return error_is_clean(err);
-}
-
 // Never returns. The child dies with its parent, and by the signals that the parent handles.
 static void be_child(const Sweep *sweep, int32_t point, int pipe, pid_t parent)
 {
@@ -59,7 +43,7 @@ static void be_child(const Sweep *sweep, int32_t point, int pipe, pid_t parent)
     signal(SIGINT, SIG_IGN);   // of the terminal: the parent decides
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(1);
-    bool done = run_point(sweep, point, &err);
+    bool done = point_run(sweep, point, &err);
     size_t length = strlen(err.message);
     if (!done && write(pipe, err.message, length) != (ssize_t)length) _exit(1);
     _exit(0);
@@ -89,15 +73,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-static void take_result(Sweep *sweep, const Worker *worker, const char *report)
-{
-    SweepPoint *point = &sweep->points[worker->point];
-    point->status = point_status(report);
-    point->seconds = clock_seconds() - worker->started;
-    sweep->computed++;
-    sweep_tell(sweep, worker->point, report);
-}
-
 // What the child left, or else why it left nothing.
 static bool note_result(Pool *pool, Worker *worker, int ending, Error *err)
 {
@@ -116,14 +91,11 @@ static bool note_result(Pool *pool, Worker *worker, int ending, Error *err)
             snprintf(message, sizeof message, "the process ended with status %d, without a word",
                      WEXITSTATUS(ending));
         }
-        char folder[POINT_PATH_SIZE];
-        point_folder(sweep, worker->point, folder);
-        mkdir(folder, 0777);   // a failure shows when the report is written
         TRY(point_write_failure(sweep, worker->point, failure, message, err));
         memory_free(report);
         TRY((report = point_report(sweep, worker->point, err)));
     }
-    take_result(sweep, worker, report);
+    sweep_take(sweep, worker->point, clock_seconds() - worker->started, report);
 cleanup:
     memory_free(report);
     return error_is_clean(err);
@@ -150,12 +122,6 @@ static bool hear_worker(Pool *pool, Worker *worker, Error *err)
     memcpy(worker->message + worker->length, bytes, taken);
     worker->length += taken;
     return true;
-}
-
-static bool is_stopped(const Pool *pool)
-{
-    const volatile sig_atomic_t *stop = pool->sweep->options->stop;
-    return stop && *stop;
 }
 
 // Gives every idle worker the next pending point.
@@ -204,7 +170,8 @@ static void end_workers(Pool *pool)
         kill(worker->process, SIGTERM);
         reap(worker);
         char *report = point_report(pool->sweep, worker->point, &ignored);
-        if (point_status(report) != POINT_PENDING) take_result(pool->sweep, worker, report);
+        if (point_status(report) != POINT_PENDING)
+            sweep_take(pool->sweep, worker->point, clock_seconds() - worker->started, report);
         memory_free(report);
     }
 }
@@ -218,7 +185,7 @@ bool pool_run(Sweep *sweep, Error *err)
     TRY((pool.workers = NEW_ARRAY(Worker, pool.size, err)));
     TRY((pool.polled = NEW_ARRAY(struct pollfd, pool.size, err)));
     do {
-        if (is_stopped(&pool))
+        if (sweep_is_stopped(sweep))
             FAIL(err, ERROR_INTERRUPT,
                  "interrupted; the same command goes on where this one "
                  "stopped");

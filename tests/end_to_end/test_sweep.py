@@ -283,6 +283,28 @@ class Sweep(unittest.TestCase):
             self.assertEqual(done.returncode, 2, words)
             self.assertIn(message, done.stderr)
 
+    def test_no_slurm(self):
+        done = subprocess.run([PROGRAM, "sweep", self.study(), "-o", self.folder / "out", "--slurm"], text=True,
+                              capture_output=True, env={**self.place, "PATH": "/nowhere"}, check=False)
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, r"--slurm needs Slurm's commands .* in PATH: cannot run `sbatch`: No such file")
+        self.assertIn("8 points: 8 computed", self.sweep().stdout)   # nothing stands in the way
+
+    def test_element_by_hand(self):
+        """What Slurm's jobs call, without a Slurm: one point; the list is refused where it is none."""
+        wanted = {"directory": str(self.folder), "study": str(self.study()), "folder": str(self.folder / "out"),
+                  "set_count": 1, "set": ["rod.velocity=9e-6"], "points": [5], "hashes": ["0" * 32]}
+        (self.folder / "out/points").mkdir(parents=True)
+        (self.folder / "list.json").write_text(json.dumps(wanted))
+        for index, message in [("", "that `amontons sweep --slurm` submits"), ("1", "has no element 1"),
+                               ("0", "was changed after the sweep began")]:
+            done = subprocess.run([PROGRAM, "sweep", "--element", self.folder / "list.json"], text=True, check=False,
+                                  capture_output=True, env={**self.place, "SLURM_ARRAY_TASK_ID": index})
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(message, done.stderr)
+        run = json.loads((self.folder / "out/points" / ("0" * 32) / "run.json").read_text())
+        self.assertEqual((run["status"], run["scene"]["load"]["pressure"]), ("failed", 0.003))
+
     def test_help_names_all_records(self):
         text = re.sub(r"\s+", " ", self.call("sweep", "--help").stdout)
         names = re.findall(r'X\("(\w+)", "[\w.]+", (?:true|false)', (SOURCE / "src/study/study.h").read_text())

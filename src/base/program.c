@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/program.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <spawn.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char **environ;
+
+// Both outputs into `pipe`, input from nowhere, in a process group of its own.
+static int spawn(const char *const *words, const int pipe[2], pid_t *process)
+{
+    posix_spawn_file_actions_t files;
+    posix_spawnattr_t attributes;
+    int status = posix_spawn_file_actions_init(&files);
+    if (status != 0) return status;
+    status = posix_spawnattr_init(&attributes);
+    if (status == 0) {
+        posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+        posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+        posix_spawn_file_actions_adddup2(&files, pipe[1], STDOUT_FILENO);
+        posix_spawn_file_actions_adddup2(&files, pipe[1], STDERR_FILENO);
+        // The words are not written to: POSIX lacks the const for history's sake.
+        status =
+            posix_spawnp(process, words[0], &files, &attributes, (char *const *)words, environ);
+        posix_spawnattr_destroy(&attributes);
+    }
+    posix_spawn_file_actions_destroy(&files);
+    return status;
+}
+
+// Reads to the end, also what does not fit.
+static void take_output(int pipe, char *output, size_t size)
+{
+    size_t used = 0;
+    char bytes[512];
+    for (;;) {
+        ssize_t count = read(pipe, bytes, sizeof bytes);
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) break;
+        size_t taken = (size_t)count < size - 1 - used ? (size_t)count : size - 1 - used;
+        memcpy(output + used, bytes, taken);
+        used += taken;
+    }
+    output[used] = 0;
+}
+
+bool program_run(const char *const *words, char *output, size_t size, int *status, Error *err)
+{
+    int ends[2] = {-1, -1}, ending = 0;
+    pid_t process = 0;
+    *output = 0;
+    if (pipe2(ends, O_CLOEXEC) != 0)
+        FAIL(err, ERROR_FILE, "cannot open a pipe: %s", strerror(errno));
+    int cause = spawn(words, ends, &process);
+    close(ends[1]);
+    if (cause != 0) {
+        close(ends[0]);
+        FAIL(err, ERROR_LIBRARY, "cannot run `%s`: %s", words[0], strerror(cause));
+    }
+    take_output(ends[0], output, size);
+    close(ends[0]);
+    while (waitpid(process, &ending, 0) < 0 && errno == EINTR) continue;
+    *status = WIFSIGNALED(ending) ? 128 + WTERMSIG(ending) : WEXITSTATUS(ending);
+cleanup:
+    return error_is_clean(err);
+}

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Runs another program and takes what it says. Called by study/sweep_slurm for Slurm's commands.
+#ifndef AMONTONS_BASE_PROGRAM_H
+#define AMONTONS_BASE_PROGRAM_H
+
+#include "base/error.h"
+
+#include <stddef.h>
+
+// words: the program, looked for in PATH, and its arguments; NULL at the end. It gets no input,
+// no Ctrl-C of the terminal, and is waited for. output: what it wrote to standard output and
+// standard error, cut to `size` bytes with the zero. *status: 0 done; what it ended with, or 128
+// and the signal. ERROR_LIBRARY: there is no such program.
+bool program_run(const char *const *words, char *output, size_t size, int *status, Error *err);
+
+#endif

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Other programs: what they say, how they end, and that there may be none.
+#include "base/program.h"
+
+#include <setjmp.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static int shell(const char *script, char *output, size_t size)
+{
+    const char *const words[] = {"sh", "-c", script, NULL};
+    Error err = {0};
+    int status = -1;
+    if (!program_run(words, output, size, &status, &err)) fail_msg("%s", err.message);
+    return status;
+}
+
+static void takes_what_is_said(void **state)
+{
+    (void)state;
+    char output[40];
+    assert_int_equal(shell("echo one; echo two >&2; exit 3", output, sizeof output), 3);
+    assert_string_equal(output, "one\ntwo\n");
+    assert_int_equal(shell("read word || echo nothing to read", output, sizeof output), 0);
+    assert_string_equal(output, "nothing to read\n");
+    assert_int_equal(shell("kill -TERM $$", output, sizeof output), 128 + SIGTERM);
+    assert_string_equal(output, "");
+}
+
+// A pipe holds 64 kB: who does not read on waits for ever.
+static void reads_to_the_end(void **state)
+{
+    (void)state;
+    char output[5];
+    assert_int_equal(shell("head -c 300000 /dev/zero | tr '\\0' x", output, sizeof output), 0);
+    assert_string_equal(output, "xxxx");
+}
+
+static void says_which_program_is_missing(void **state)
+{
+    (void)state;
+    const char *const words[] = {"amontons-no-such-program", NULL};
+    char output[10];
+    int status = 0;
+    Error err = {0};
+    assert_false(program_run(words, output, sizeof output, &status, &err));
+    assert_int_equal(err.code, ERROR_LIBRARY);
+    assert_non_null(strstr(err.message, "`amontons-no-such-program`: No such file"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(takes_what_is_said),
+                                       cmocka_unit_test(reads_to_the_end),
+                                       cmocka_unit_test(says_which_program_is_missing)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
