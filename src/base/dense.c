@@ -84,6 +84,11 @@ void dense_lower_apply_transposed(const double *lower, int32_t n, double *x)
     if (n > 0) cblas_dtrmv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, n, lower, n, x, 1);
 }
 
+void dense_lower_solve_transposed(const double *lower, int32_t n, double *x)
+{
+    if (n > 0) cblas_dtrsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, n, lower, n, x, 1);
+}
+
 void dense_lower_square(const double *lower, int32_t n, double *c)
 {
     if (n == 0) return;

@@ -28,6 +28,8 @@ void dense_symmetric_apply(const double *a, int32_t n, const double *x, double *
 // x := L x and x := L' x with the lower triangle of `lower` [n * n].
 void dense_lower_apply(const double *lower, int32_t n, double *x);
 void dense_lower_apply_transposed(const double *lower, int32_t n, double *x);
+// x := L^-T x
+void dense_lower_solve_transposed(const double *lower, int32_t n, double *x);
 
 // c = L L' (all of c is written); lower, c: [n * n], distinct.
 void dense_lower_square(const double *lower, int32_t n, double *c);

@@ -32,8 +32,8 @@ bool bulk_operator_create(const Bulk *bulk, const double *position, const int32_
     memcpy(system->interface_dofs, interface_dofs, (size_t)interface_count * sizeof(int32_t));
     memcpy(system->load, bulk->load, (size_t)bulk->dof_count * sizeof(double));
     for (int32_t dof = 0; dof < bulk->dof_count; dof += 2) {
-        system->rotation[dof] = -position[dof + 1];
-        system->rotation[dof + 1] = position[dof];
+        system->rotation[dof] = position ? -position[dof + 1] : 0;
+        system->rotation[dof + 1] = position ? position[dof] : 0;
         system->mass_total += bulk->mass[dof];
     }
     system->analysis = sparse_analyse(&bulk->pattern, interface_dofs, interface_count, err);
@@ -116,6 +116,15 @@ void bulk_operator_recover(const BulkOperator *system, const double *x, double *
         reduction_recover(system->reduced, x, full);
 }
 
+// The share of inertia in A, normalised as bulk/reduction has it.
+double bulk_operator_error(const BulkOperator *system, OperatorTerms terms)
+{
+    if (!system->reduced) return 0;
+    const BulkScales *scales = &system->reduced->scales;
+    double rest = terms.damping * scales->damping + terms.stiffness * scales->stiffness;
+    return reduction_error(system->reduced, terms.mass * scales->mass / rest);
+}
+
 // A = m M + c C + k K; returns its largest diagonal entry on the interface.
 static double combine_sparse(BulkOperator *system, OperatorTerms terms)
 {
@@ -165,6 +174,18 @@ static double reduced_entry(const ReducedBulk *reduced, OperatorTerms terms, int
     return entry;
 }
 
+// S of C alone, where the reduction has it and nothing else will be asked for.
+static bool take_viscous(InterfaceOperator *condensed, OperatorTerms terms)
+{
+    const ReducedBulk *reduced = condensed->system->reduced;
+    if (!reduced->viscous || !terms.schur_only || terms.mass != 0 || terms.stiffness != 0)
+        return false;
+    double factor = terms.damping * reduced->scales.damping;
+    int64_t entries = (int64_t)reduced->interface_count * reduced->interface_count;
+    for (int64_t k = 0; k < entries; k++) condensed->schur[k] = factor * reduced->viscous[k];
+    return true;
+}
+
 static bool condense_dense(InterfaceOperator *condensed, OperatorTerms terms, Error *err)
 {
     const ReducedBulk *reduced = condensed->system->reduced;
@@ -206,6 +227,7 @@ InterfaceOperator *interface_operator_create(BulkOperator *system, OperatorTerms
     condensed->system = system;
     condensed->schur = NEW_ARRAY(double, m *m, err);
     if (!condensed->schur) goto cleanup;
+    if (!system->bulk && take_viscous(condensed, terms)) return condensed;
     if (system->bulk)
         TRY(condense_sparse(condensed, terms, err));
     else

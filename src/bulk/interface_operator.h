@@ -31,8 +31,8 @@ typedef struct BulkOperator {
     int64_t solves;               // counted
 } BulkOperator;
 
-// position: [dof_count] of `bulk`, x and z of its nodes, length. All arguments but the last must
-// outlive the operator.
+// position: [dof_count] of `bulk`, x and z of its nodes, length; NULL: no rotation is asked for.
+// `bulk` must outlive the operator.
 bool bulk_operator_create(const Bulk *bulk, const double *position, const int32_t *interface_dofs,
                           int32_t interface_count, BulkOperator *system, Error *err);
 
@@ -56,8 +56,11 @@ typedef struct OperatorTerms {
     double mass, damping, stiffness;   // factors of M, C, K in A
     bool lift;   // A may be singular in the interface's own motion (C or K alone): its interface
                  // diagonal is raised to factor it, and S lowered again
-                                       // again
+    bool schur_only;   // nothing but S will be asked for
 } OperatorTerms;
+
+// The largest relative error of S that the reduction leaves at these terms; 0: full.
+double bulk_operator_error(const BulkOperator *system, OperatorTerms terms);
 
 typedef struct InterfaceOperator InterfaceOperator;   // A, factored
 

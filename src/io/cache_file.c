@@ -7,6 +7,7 @@
 
 #include <fcntl.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -21,6 +22,30 @@ typedef struct ArrayHead {
     int64_t count;
     int64_t spare;
 } ArrayHead;
+
+bool cache_file_path(const char *key, const char *ending, char path[CACHE_PATH_SIZE])
+{
+    char folder[PATH_MAX];
+    const char *given = getenv("AMONTONS_CACHE"), *base = getenv("XDG_CACHE_HOME");
+    const char *home = getenv("HOME");
+    int length = -1;
+    if (given)
+        length = snprintf(folder, sizeof folder, "%s", given);
+    else if (base && base[0])
+        length = snprintf(folder, sizeof folder, "%s/amontons", base);
+    else if (home && home[0])
+        length = snprintf(folder, sizeof folder, "%s/.cache/amontons", home);
+    if (length <= 0 || length >= (int)sizeof folder) return false;
+    for (char *slash = folder + 1; *slash; slash++) {
+        if (*slash != '/') continue;
+        *slash = 0;
+        mkdir(folder, 0777);   // a failure shows when the file is opened
+        *slash = '/';
+    }
+    mkdir(folder, 0777);
+    snprintf(path, CACHE_PATH_SIZE, "%s/%s.%s", folder, key, ending);
+    return true;
+}
 
 static void fill_head(const char *key, char head[HEAD_SIZE])
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Named arrays of doubles in one flat file, quick to read (megabytes in a few milliseconds) and
 // never trusted: a header that says what it is, and a checksum over all of it. Called by
-// run/shape_cache.
+// run/shape_cache and run/basis_cache.
 //
 //     "amontons-cache 1\n" key 0...  { name count 0 values }*  "end" -1 0  checksum
 //
@@ -11,7 +11,13 @@
 
 #include "base/error.h"
 
-enum { CACHE_NAME_SIZE = 32, CACHE_ARRAYS_MAX = 32 };
+#include <limits.h>
+
+enum { CACHE_NAME_SIZE = 32, CACHE_ARRAYS_MAX = 32, CACHE_PATH_SIZE = PATH_MAX + 64 };
+
+// CACHE/<key>.<ending>, where CACHE is $AMONTONS_CACHE, else $XDG_CACHE_HOME/amontons, else
+// ~/.cache/amontons; the folder is made. false: there is no cache ($AMONTONS_CACHE is empty).
+bool cache_file_path(const char *key, const char *ending, char path[CACHE_PATH_SIZE]);
 
 typedef struct CacheArray {
     char name[CACHE_NAME_SIZE];

@@ -5,21 +5,15 @@
 #include "base/clock.h"
 #include "base/dense.h"
 #include "base/memory.h"
-#include "bulk/reduction_check.h"
-#include "run/shape_cache.h"
+#include "bulk/reduction_block.h"
+#include "run/basis_cache.h"
 
 #include <math.h>
-#include <stdio.h>
+#include <string.h>
 
-// Singular values of the interior's responses. Set A, 40x40: 1e-2 moves single peaks by 1e-5 to
-// 1e-4.
+// Of the interior's responses, in the energy norm.
 static const double REDUCTION_TOLERANCES[] = {
-    [ACCURACY_DRAFT] = 3e-2, [ACCURACY_STANDARD] = 1e-2, [ACCURACY_FINE] = 1e-3};
-
-// The error of S(s) that is accepted, over the tolerance of the basis: energies go with the square
-// of what is left out, so S is nearly always far better than that.
-static const double REDUCTION_ERROR_OVER_TOLERANCE = 1;
-enum { REDUCTION_ROUNDS_MAX = 3 };
+    [ACCURACY_DRAFT] = 5e-2, [ACCURACY_STANDARD] = 2e-2, [ACCURACY_FINE] = 2e-3};
 
 static const double ROD_HEIGHT = 0.5, ROD_WIDTH = 0.1;   // of H
 
@@ -145,17 +139,16 @@ static double reduction_tolerance(const Scene *scene)
                                           : REDUCTION_TOLERANCES[scene->time.accuracy];
 }
 
-// Moves the interface and the reduced bulk of `shape` into the simulation and steps on them.
+// Moves the interface of `shape` into the simulation and steps on the reduced bulk that is there.
 static bool adopt_shape(Simulation *simulation, Shape *shape, Error *err)
 {
     double load = shape->sizes.load_size * load_reference(&simulation->scene);
     simulation->interface = shape->interface;
-    simulation->reduced = shape->reduced;
     shape->interface = (Interface){0};
-    shape->reduced = (ReducedBulk){0};
     simulation->model.length = shape->sizes.length;
     simulation->model.height = shape->sizes.height;
     simulation->model.elements = (int32_t)shape->sizes.elements;
+    simulation->model.full_dofs = (int32_t)shape->sizes.full_dofs;
     simulation->reduced.scales = bulk_scales(simulation, load);
     simulation->scales.load = shape->sizes.load_resultant * load_reference(&simulation->scene);
     return bulk_operator_reduce(&simulation->reduced, shape->rotation,
@@ -163,63 +156,69 @@ static bool adopt_shape(Simulation *simulation, Shape *shape, Error *err)
                                 &simulation->system, err);
 }
 
-// Builds a basis and measures it on the full mesh; one that is not good enough is enriched by
-// asking for ten times smaller responses.
-static bool build_checked(Simulation *simulation, ReductionDef *def, Shape *shape, Error *err)
+// What the unit rotation about the trailing end does to the interface's unknowns.
+static bool list_rotation(const Simulation *simulation, const ReductionBlock *block, Shape *shape,
+                          Error *err)
 {
-    const Bulk *bulk = &simulation->bulk;
     const Interface *interface = &shape->interface;
-    ReducedBulk *reduced = &shape->reduced;
-    BulkOperator full = {0}, tried = {0};
-    double bound = REDUCTION_ERROR_OVER_TOLERANCE * def->tolerance;
-    TRY(bulk_operator_create(bulk, simulation->mesh.position, interface->dofs, interface->count,
-                             &full, err));
-    for (int32_t round = 0; round < REDUCTION_ROUNDS_MAX; round++) {
-        reduction_destroy(reduced);
-        TRY(reduction_build(bulk, interface->dofs, interface->count, def, reduced, err));
-        TRY(bulk_operator_reduce(reduced, shape->rotation, 1, &tried, err));
-        TRY(reduction_check(&full, &tried, &reduced->error, err));
-        bulk_operator_destroy(&tried);
-        if (reduced->error <= bound) break;
-        def->tolerance *= 0.1;
+    shape->rotation = NEW_ARRAY(double, interface->count, err);
+    for (int32_t k = 0; shape->rotation && k < interface->count; k++) {
+        const double *at = block->position + 2 * (interface->dofs[k] / 2);
+        double turned = interface->dofs[k] % 2 == 0 ? -at[1] : at[0];
+        shape->rotation[k] = turned * simulation->model.length;
     }
-    if (reduced->error > bound)
-        snprintf(simulation->cache_note, sizeof simulation->cache_note,
-                 "the reduced bulk is off by %.1e, more than %.1e (reduction.tolerance)",
-                 reduced->error, bound);
+    return shape->rotation != NULL;
+}
+
+// The basis of `block`, from the cache or built and kept there; its name goes into the shape.
+static bool obtain_basis(Simulation *simulation, const ReductionBlock *block, Shape *shape,
+                         Error *err)
+{
+    const Scene *scene = &simulation->scene;
+    const Interface *interface = &shape->interface;
+    ReductionDef def = {.tolerance = reduction_tolerance(scene),
+                        .scales = {.stiffness = 1, .damping = 1, .mass = 1, .load = 1}};
+    bool *found = &simulation->model.from_cache;
+    if (scene->reduction.cache) {
+        Hash hash = hash_start();
+        hash_text(&hash, BASIS_FORMAT);
+        hash_number(&hash, def.tolerance);
+        reduction_block_hash(block, &simulation->mesh, interface->dofs, interface->count, &hash);
+        hash_write(&hash, shape->basis);
+    }
+    TRY(basis_cache_load(shape->basis, scene->output.fields, &simulation->reduced, found,
+                         simulation->cache_note, err));
+    if (*found) goto cleanup;
+    TRY(reduction_build(&block->bulk, interface->dofs, interface->count, &def,
+                        &simulation->reduced, err));
+    basis_cache_store(shape->basis, &simulation->reduced, simulation->cache_note);
 cleanup:
-    bulk_operator_destroy(&full);
-    bulk_operator_destroy(&tried);
     return error_is_clean(err);
 }
 
-// Reduces the assembled bulk; key: where the cache keeps it, empty for nowhere.
+// Reduces the assembled bulk; key: where the cache keeps the shape, empty for nowhere.
 static bool reduce_bulk(Simulation *simulation, const char *key, Error *err)
 {
     const Bulk *bulk = &simulation->bulk;
     double reference = load_reference(&simulation->scene);
     double load = dense_max_abs(bulk->load, bulk->dof_count);
-    ReductionDef def = {.tolerance = reduction_tolerance(&simulation->scene),
-                        .scales = bulk_scales(simulation, load)};
+    ReductionBlock block = {0};
     Shape shape = {.sizes = {.length = simulation->model.length,
                              .height = simulation->model.height,
                              .area = bulk->area,
                              .elements = simulation->model.elements,
+                             .full_dofs = bulk->dof_count,
                              .load_size = load / reference,
                              .load_resultant = simulation->scales.load / reference}};
     shape.interface = simulation->interface;
     simulation->interface = (Interface){0};
-    const Interface *interface = &shape.interface;
-    shape.rotation = NEW_ARRAY(double, interface->count, err);
-    if (!shape.rotation) goto cleanup;
-    for (int32_t k = 0; k < interface->count; k++) {
-        const double *position = simulation->mesh.position + 2 * (interface->dofs[k] / 2);
-        shape.rotation[k] = interface->dofs[k] % 2 == 0 ? -position[1] : position[0];
-    }
-    TRY(build_checked(simulation, &def, &shape, err));
+    TRY(reduction_block_create(&simulation->mesh, bulk, &simulation->material, load, &block, err));
+    TRY(list_rotation(simulation, &block, &shape, err));
+    TRY(obtain_basis(simulation, &block, &shape, err));
     shape_cache_store(key, &shape, simulation->cache_note);
     TRY(adopt_shape(simulation, &shape, err));
 cleanup:
+    reduction_block_destroy(&block);
     shape_destroy(&shape);
     return error_is_clean(err);
 }
@@ -310,32 +309,34 @@ static bool find_key(Simulation *simulation, char key[HASH_TEXT_SIZE], Error *er
     return shape_key(scene, reduction_tolerance(scene), key, err);
 }
 
-bool model_obtain(Simulation *simulation, Error *err)
+// A shape and its basis, both from the cache; *found: they were there.
+static bool find_shape(Simulation *simulation, const char *key, Shape *shape, bool *found,
+                       Error *err)
+{
+    *found = false;
+    if (!key[0]) return true;
+    TRY(shape_cache_load(key, shape, found, simulation->cache_note, err));
+    if (*found)
+        TRY(basis_cache_load(shape->basis, simulation->scene.output.fields, &simulation->reduced,
+                             found, simulation->cache_note, err));
+    *found = *found && simulation->reduced.interface_count == shape->interface.count;
+    if (!*found) {
+        shape_destroy(shape);
+        reduction_destroy(&simulation->reduced);
+    }
+    simulation->model.from_cache = *found;
+cleanup:
+    return error_is_clean(err);
+}
+
+// What velocities and times are measured with.
+static void set_scales(Simulation *simulation)
 {
     const Scene *scene = &simulation->scene;
-    double started = clock_seconds();
-    char key[HASH_TEXT_SIZE];
-    Shape shape = {0};
-    bool found = false;
-    translate_materials(simulation);
-    TRY(find_key(simulation, key, err));
-    if (key[0])
-        TRY(shape_cache_load(key, scene->output.fields, &shape, &found, simulation->cache_note,
-                             err));
-    if (!found || scene->output.fields) TRY(model_read_mesh(simulation, err));
-    if (found)
-        TRY(adopt_shape(simulation, &shape, err));
-    else
-        TRY(assemble_operator(simulation, key, err));
-    RunModel *model = &simulation->model;
-    model->from_cache = found;
-    model->contact_nodes = simulation->interface.contact_count;
-    model->rod_nodes = simulation->interface.rod_count;
-    model->full_dofs = found ? simulation->reduced.full_dofs : simulation->bulk.dof_count;
-    model->reduced_dofs = simulation->system.dof_count;
     const Material *material = &simulation->material;
-    simulation->scales.length = model->length;
-    simulation->scales.time = model->length / material_speeds(material).longitudinal +
+    double length = simulation->model.length;
+    simulation->scales.length = length;
+    simulation->scales.time = length / material_speeds(material).longitudinal +
                               (material->eta1 + material->eta2) / material->young;
     simulation->scales.slip_velocity = scene->rod.velocity > 0 ? scene->rod.velocity
                                                                : scene->friction.critical_velocity;
@@ -343,6 +344,26 @@ bool model_obtain(Simulation *simulation, Error *err)
     if (!(simulation->scales.slip_velocity > 0))
         simulation->scales.slip_velocity = simulation->scales.load / material->young /
                                            simulation->scales.time;
+}
+
+bool model_obtain(Simulation *simulation, Error *err)
+{
+    double started = clock_seconds();
+    char key[HASH_TEXT_SIZE];
+    Shape shape = {0};
+    bool found = false;
+    translate_materials(simulation);
+    TRY(find_key(simulation, key, err));
+    TRY(find_shape(simulation, key, &shape, &found, err));
+    if (!found || simulation->scene.output.fields) TRY(model_read_mesh(simulation, err));
+    if (found)
+        TRY(adopt_shape(simulation, &shape, err));
+    else
+        TRY(assemble_operator(simulation, key, err));
+    simulation->model.contact_nodes = simulation->interface.contact_count;
+    simulation->model.rod_nodes = simulation->interface.rod_count;
+    simulation->model.reduced_dofs = simulation->system.dof_count;
+    set_scales(simulation);
 cleanup:
     shape_destroy(&shape);
     simulation->timing.reduce = clock_seconds() - started - simulation->timing.mesh;

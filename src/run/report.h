@@ -12,7 +12,8 @@
 // The largest of each kind of error over a run's accepted steps, relative (run/observation).
 typedef struct RunErrors {
     double energy, complementarity, moment, equation;
-    double reduction;   // of the interface operator, measured (bulk/reduction_check); 0: full mesh
+    double reduction;   // of the interface operator, measured when the basis was built, at the
+                        // steps that were accepted (bulk/reduction); 0: full mesh
     double moment_quasi_static;   // without inertia, over frames in which nothing is fast
 } RunErrors;
 
@@ -25,7 +26,7 @@ typedef struct RunModel {
     double length, height;
     WaveSpeeds speeds;   // elastic, of the material
     int64_t relaxation_steps;
-    bool from_cache;   // the shape was: no mesh read, nothing factored
+    bool from_cache;   // the basis was: nothing of the full mesh was factored
 } RunModel;
 
 // Nothing is owned.

@@ -178,7 +178,7 @@ static bool finish_run(Simulation *simulation, const Error *failure, RunSummary 
 {
     double started = clock_seconds();
     events_close(&simulation->events, &simulation->seen);
-    simulation->errors.reduction = simulation->reduced.error;
+    simulation->errors.reduction = ladder_reduction_error(&simulation->control.ladder);
     PeaksSummary peaks = peaks_summarise(&simulation->peaks);
     RunCounters counters = summary_count(simulation);
     if (simulation->history.file) {

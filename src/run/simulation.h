@@ -23,7 +23,7 @@ struct Simulation {
     FrictionLaw law;
     Bulk bulk;
     Interface interface;
-    char cache_note[SHAPE_NOTE_SIZE];   // why a cached basis was not used or kept; empty: nothing
+    char cache_note[CACHE_NOTE_SIZE];   // why a cached basis was not used or kept; empty: nothing
     ReducedBulk reduced;   // count 0: the full mesh is stepped
     BulkOperator system;
     Rod rod;

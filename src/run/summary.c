@@ -27,9 +27,9 @@ static void list_phases(const Simulation *simulation, RunSummary *summary)
     double inside = solver->seconds + certificate->seconds + control->ladder.seconds;
     char note[96];
     add_phase(summary, "mesh", timing->mesh, model->elements,
-              !cached  ? "elements, read through gmsh"
-              : fields ? "elements: fields need the mesh"
-                       : "skipped: the shape is in the cache");
+              simulation->mesh.element_count == 0 ? "skipped: the shape is in the cache"
+              : fields && cached                  ? "elements: fields need the mesh"
+                                                  : "elements, read through gmsh");
     snprintf(note, sizeof note, "unknowns for %d%s", model->full_dofs,
              cached    ? ", from the cache"
              : reduced ? ""

@@ -37,14 +37,30 @@ int32_t ladder_find(const Ladder *ladder, double step)
     return k;
 }
 
+// A of SDIRK2, over gamma dt.
+static OperatorTerms rung_terms(const Ladder *ladder, int32_t k)
+{
+    double scaled = ladder_reach(ladder, k);
+    return (OperatorTerms){.mass = 1 / scaled, .damping = 1, .stiffness = scaled};
+}
+
 InterfaceOperator *ladder_rung(Ladder *ladder, int32_t k, Error *err)
 {
     if (!ladder->rung[k]) {
-        double started = clock_seconds(), scaled = ladder_reach(ladder, k);
-        OperatorTerms terms = {.mass = 1 / scaled, .damping = 1, .stiffness = scaled};
-        ladder->rung[k] = interface_operator_create(ladder->system, terms, err);
+        double started = clock_seconds();
+        ladder->rung[k] = interface_operator_create(ladder->system, rung_terms(ladder, k), err);
         ladder->seconds += clock_seconds() - started;
         if (!ladder->rung[k]) error_context(err, "step %g", ladder_step(ladder, k));
     }
     return ladder->rung[k];
+}
+
+double ladder_reduction_error(const Ladder *ladder)
+{
+    double error = 0;
+    for (int32_t k = 0; ladder->system && k < ladder->rung_count; k++) {
+        if (ladder->accepted[k] > 0)
+            error = fmax(error, bulk_operator_error(ladder->system, rung_terms(ladder, k)));
+    }
+    return error;
 }

@@ -31,4 +31,7 @@ int32_t ladder_find(const Ladder *ladder, double step);
 // NULL with the error set when the matrix cannot be factored.
 InterfaceOperator *ladder_rung(Ladder *ladder, int32_t k, Error *err);
 
+// The largest error that the reduction of the bulk left in a rung that steps were accepted on.
+double ladder_reduction_error(const Ladder *ladder);
+
 #endif

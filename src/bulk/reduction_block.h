@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The block that a basis is made of: a scene's block, its lengths over L, in units in which
+// E = eta1 + eta2 = rho = 1 and the largest nodal load is 1. Blocks that are geometrically similar
+// give the same one, to the last bit: what differs by rounding only is rounded away. So a basis is
+// a function of its name, whichever length asked for it first. Called by run/model_shape.
+#ifndef AMONTONS_BULK_REDUCTION_BLOCK_H
+#define AMONTONS_BULK_REDUCTION_BLOCK_H
+
+#include "base/hash.h"
+#include "bulk/assembly.h"
+
+typedef struct ReductionBlock {
+    double *position;    // [nodes * 2] over L, from the trailing end on; owned
+    Material material;   // normalised
+    Bulk bulk;           // M / (rho L^2), C / (eta1 + eta2), K / E, f / load_size; owned
+} ReductionBlock;
+
+// bulk: assembled on `mesh` with `material`; its load and held unknowns are taken over.
+// load_size: its largest nodal load.
+bool reduction_block_create(const Mesh *mesh, const Bulk *bulk, const Material *material,
+                            double load_size, ReductionBlock *block, Error *err);
+void reduction_block_destroy(ReductionBlock *block);
+
+// Adds all that a basis of the block depends on. dofs: [dof_count] the interface.
+void reduction_block_hash(const ReductionBlock *block, const Mesh *mesh, const int32_t *dofs,
+                          int32_t dof_count, Hash *hash);
+
+#endif

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Reduced bulks, kept on disk under what they depend on (bulk/reduction_block) and nothing else: one
+// serves every length, pressure, density, viscosity (eta2/eta1 alike), velocity and friction law.
+// Called by run/model_shape.
+//
+//     CACHE/<name>.basis     sizes, reduced M, C, K and load, what it is off
+//     CACHE/<name>.modes     u = modes [u_b; q], read only where fields of the bulk are asked for
+#ifndef AMONTONS_RUN_BASIS_CACHE_H
+#define AMONTONS_RUN_BASIS_CACHE_H
+
+#include "bulk/reduction.h"
+#include "bulk/reduction_block.h"
+#include "run/shape_cache.h"
+
+// Stands in every key. A basis that comes out otherwise than before, or arrays with a new meaning,
+// need a new number: tests/unit/run/test_basis_cache.c notices.
+extern const char BASIS_FORMAT[];
+
+// Fills `reduced`, scales left at 0. *found: false when there is nothing, or nothing to be trusted:
+// `note` then says why. with_modes: the modes must be there too. name: empty for none.
+bool basis_cache_load(const char *name, bool with_modes, ReducedBulk *reduced, bool *found,
+                      char note[CACHE_NOTE_SIZE], Error *err);
+
+// Never an error: what could not be stored is told in `note`.
+void basis_cache_store(const char *name, const ReducedBulk *reduced, char note[CACHE_NOTE_SIZE]);
+
+#endif
