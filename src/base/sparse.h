@@ -51,8 +51,4 @@ bool sparse_condense(SparseFactor *factor, const double *rhs, double *g, Error *
 // x_border: [border_count] -> x: [size]; nothing is allocated after the first solve.
 bool sparse_expand(SparseFactor *factor, const double *x_border, double *x, Error *err);
 
-// Column j of x [size * border_count]: the solution with x_border = e_j and no load inside, that is
-// [-A_ii^-1 A_ib e_j; e_j]. Solved in blocks of columns.
-bool sparse_border_responses(SparseFactor *factor, double *x, Error *err);
-
 #endif

@@ -19,16 +19,16 @@ typedef enum BulkTerm { BULK_STIFFNESS, BULK_DAMPING, BULK_MASS } BulkTerm;
 typedef struct BulkOperator {
     int32_t dof_count;
     int32_t interface_count;
-    int32_t *interface_dofs;      // [interface_count] indices of unknowns; owned
-    double *load;                 // [dof_count] f, force/width; owned
-    double *rotation;             // [dof_count] the unit rotation about the origin, (-z, x); owned
-    double mass_total;            // of the block, mass/width
-    const Bulk *bulk;             // full: K, C, M; not owned; NULL when reduced
+    int32_t *interface_dofs;   // [interface_count] indices of unknowns; owned
+    double *load;   // [dof_count] f, force/width; owned
+    double *rotation;   // [dof_count] the unit rotation about the origin, (-z, x); owned
+    double mass_total;   // of the block, mass/width
+    const Bulk *bulk;   // full: K, C, M; not owned; NULL when reduced
     const ReducedBulk *reduced;   // reduced: likewise; not owned; NULL when full
-    SparseAnalysis *analysis;     // full; owned
-    double *values;               // full: [entries] work, A; owned
-    int64_t factorisations;       // counted: sparse, or dense of the interior
-    int64_t solves;               // counted
+    SparseAnalysis *analysis;   // full; owned
+    double *values;   // full: [entries] work, A; owned
+    int64_t factorisations;   // counted: sparse, or dense of the interior
+    int64_t solves;   // counted
 } BulkOperator;
 
 // position: [dof_count] of `bulk`, x and z of its nodes, length; NULL: no rotation is asked for.
@@ -55,7 +55,7 @@ void bulk_operator_recover(const BulkOperator *system, const double *x, double *
 typedef struct OperatorTerms {
     double mass, damping, stiffness;   // factors of M, C, K in A
     bool lift;   // A may be singular in the interface's own motion (C or K alone): its interface
-                 // diagonal is raised to factor it, and S lowered again
+        // diagonal is raised to factor it, and S lowered again
     bool schur_only;   // nothing but S will be asked for
 } OperatorTerms;
 

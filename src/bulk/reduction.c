@@ -29,6 +29,9 @@ enum { SLOWEST_ITERATIONS = 10 };
 // (a thin layer in linear elements with lumped mass). A tolerance of 0.01 allows a tenth of that.
 static const double MESH_SHARE = 2.5;
 
+// Errors of S below this are its rounding.
+static const double ERROR_LEAST = 1e-10;
+
 // New vectors whose part orthogonal to the others is smaller than this, squared, are rounding.
 static const double DEPENDENT = 1e-12;
 
@@ -42,14 +45,14 @@ typedef struct Builder {
     const ReductionDef *def;
     ReducedBulk *reduced;
     BulkOperator full, tried;   // of `bulk`, and of what `reduced` holds so far
-    double element_inertia;     // where mass takes over within an element
-    int32_t modes_room;         // columns that reduced->modes has room for
-    double *exact, *excess;     // [m^2] S, then its Cholesky factor; S_r - S
-    double *values;             // [m] eigenvalues
-    double *eigen_work;         // [dense_eigen_work(m)]
-    double *border;             // [m]
-    double *still;              // [m] zeros: the interface at rest
-    double *zeros, *unit_load;  // [dofs]
+    double element_inertia;   // where mass takes over within an element
+    int32_t modes_room;   // columns that reduced->modes has room for
+    double *exact, *excess;   // [m^2] S, then its Cholesky factor; S_r - S
+    double *values;   // [m] eigenvalues
+    double *eigen_work;   // [dense_eigen_work(m)]
+    double *border;   // [m]
+    double *still;   // [m] zeros: the interface at rest
+    double *zeros, *unit_load;   // [dofs]
 } Builder;
 
 void reduction_destroy(ReducedBulk *reduced)
@@ -97,15 +100,15 @@ static void builder_destroy(Builder *work)
     memory_free(work->unit_load);
 }
 
-static bool builder_create(const Bulk *bulk, const int32_t *interface_dofs, int32_t m,
-                           const ReductionDef *def, ReducedBulk *reduced, Builder *work, Error *err)
+// work: bulk, def and reduced are set, the latter's sizes and scales too.
+static bool builder_create(const int32_t *interface_dofs, Builder *work, Error *err)
 {
+    const Bulk *bulk = work->bulk;
+    const ReductionDef *def = work->def;
+    ReducedBulk *reduced = work->reduced;
+    int32_t m = reduced->interface_count;
     int64_t dofs = bulk->dof_count, square = (int64_t)m * m;
-    *work = (Builder){.bulk = bulk, .def = def, .reduced = reduced, .modes_room = 4 * m + 64};
-    *reduced = (ReducedBulk){.full_dofs = bulk->dof_count,
-                             .interface_count = m,
-                             .count = m,
-                             .scales = def->scales};
+    work->modes_room = 4 * m + 64;
     TRY(bulk_operator_create(bulk, NULL, interface_dofs, m, &work->full, err));
     work->exact = NEW_ARRAY(double, square, err);
     work->excess = NEW_ARRAY(double, square, err);
@@ -333,7 +336,7 @@ static double find_element_inertia(const Builder *work)
 static double allowed_error(const Builder *work, Point point)
 {
     double tolerance = work->def->tolerance, share = point.inertia / work->element_inertia;
-    return tolerance * (tolerance + MESH_SHARE * share);
+    return fmax(tolerance * (tolerance + MESH_SHARE * share), ERROR_LEAST);
 }
 
 static OperatorTerms point_terms(const Builder *work, Point point)
@@ -368,7 +371,7 @@ cleanup:
 // basis's answers to the same.
 typedef struct Answers {
     int32_t count;
-    double *full;    // [dofs * count]; in the end the differences
+    double *full;   // [dofs * count]; in the end the differences
     double *state;   // [reduced->count * count]
 } Answers;
 
@@ -506,12 +509,15 @@ static bool find_viscous(Builder *work, Error *err)
 bool reduction_build(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
                      const ReductionDef *def, ReducedBulk *reduced, Error *err)
 {
-    Builder work = {0};
+    Builder work = {.bulk = bulk, .def = def, .reduced = reduced};
     InterfaceOperator *statics = NULL;
     OperatorTerms terms = {.stiffness = 1 / def->scales.stiffness, .lift = true};
     double slowest = 0;
-    *reduced = (ReducedBulk){0};
-    TRY(builder_create(bulk, interface_dofs, interface_count, def, reduced, &work, err));
+    *reduced = (ReducedBulk){.full_dofs = bulk->dof_count,
+                             .interface_count = interface_count,
+                             .count = interface_count,
+                             .scales = def->scales};
+    TRY(builder_create(interface_dofs, &work, err));
     if (!(statics = interface_operator_create(&work.full, terms, err))) goto cleanup;
     TRY(start_motions(&work, statics, err));
     TRY(start_load(&work, statics, err));

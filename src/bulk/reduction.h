@@ -36,13 +36,13 @@
 // What the normalised matrices are multiplied with to be those of a scene.
 typedef struct BulkScales {
     double stiffness;   // E, stress
-    double damping;     // eta1 + eta2, stress * time
-    double mass;        // rho L^2, mass/width
-    double load;        // size of the load vector, force/width
+    double damping;   // eta1 + eta2, stress * time
+    double mass;   // rho L^2, mass/width
+    double load;   // size of the load vector, force/width
 } BulkScales;
 
 typedef struct ReductionDef {
-    double tolerance;    // of responses, relative, in the energy norm
+    double tolerance;   // of responses, relative, in the energy norm
     BulkScales scales;   // of the bulk to reduce
 } ReductionDef;
 
@@ -56,20 +56,20 @@ enum { REDUCTION_LEVELS_MAX = 64 };
 typedef struct ReductionErrors {
     int32_t count;
     double inertia[REDUCTION_LEVELS_MAX];   // [count] ascending; the last stands for infinity
-    double error[REDUCTION_LEVELS_MAX];     // [count] the larger of those at viscosity 0 and 1
+    double error[REDUCTION_LEVELS_MAX];   // [count] the larger of those at viscosity 0 and 1
 } ReductionErrors;
 
 typedef struct ReducedBulk {
     int32_t full_dofs;
     int32_t interface_count;   // m
-    int32_t interior_count;    // r
-    int32_t count;             // m + r
-    double *mass, *damping;    // [count^2] symmetric, both triangles, normalised; owned
-    double *stiffness;         // [m^2] S_K; the interior block is the unit matrix; owned
-    double *viscous;           // [m^2] S of C alone; owned; NULL: not at hand
-    double *load;              // [count] of the unit load; owned
-    double *modes;             // [full_dofs * count] u = modes [u_b; q]; owned; NULL: not at hand
-    double *storage;           // the array that those above lie in (a file's); owned; NULL: none
+    int32_t interior_count;   // r
+    int32_t count;   // m + r
+    double *mass, *damping;   // [count^2] symmetric, both triangles, normalised; owned
+    double *stiffness;   // [m^2] S_K; the interior block is the unit matrix; owned
+    double *viscous;   // [m^2] S of C alone; owned; NULL: not at hand
+    double *load;   // [count] of the unit load; owned
+    double *modes;   // [full_dofs * count] u = modes [u_b; q]; owned; NULL: not at hand
+    double *storage;   // the array that those above lie in (a file's); owned; NULL: none
     ReductionErrors errors;
     BulkScales scales;
 } ReducedBulk;

@@ -10,9 +10,9 @@
 #include "bulk/assembly.h"
 
 typedef struct ReductionBlock {
-    double *position;    // [nodes * 2] over L, from the trailing end on; owned
+    double *position;   // [nodes * 2] over L, from the trailing end on; owned
     Material material;   // normalised
-    Bulk bulk;           // M / (rho L^2), C / (eta1 + eta2), K / E, f / load_size; owned
+    Bulk bulk;   // M / (rho L^2), C / (eta1 + eta2), K / E, f / load_size; owned
 } ReductionBlock;
 
 // bulk: assembled on `mesh` with `material`; its load and held unknowns are taken over.

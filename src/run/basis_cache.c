@@ -109,10 +109,13 @@ cleanup:
     return error_is_clean(err);
 }
 
-void basis_cache_store(const char *name, const ReducedBulk *reduced, char note[CACHE_NOTE_SIZE])
+bool basis_cache_store(const char *name, const ReducedBulk *reduced, char note[CACHE_NOTE_SIZE])
 {
     Error err = {0};
-    if (name[0] && !store_basis(name, reduced, &err))
+    if (!name[0]) return false;
+    bool stored = store_basis(name, reduced, &err);
+    if (!stored)
         snprintf(note, CACHE_NOTE_SIZE, "the basis is not kept for the next run: %.180s",
                  err.message);
+    return stored;
 }

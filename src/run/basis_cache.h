@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Reduced bulks, kept on disk under what they depend on (bulk/reduction_block) and nothing else: one
-// serves every length, pressure, density, viscosity (eta2/eta1 alike), velocity and friction law.
-// Called by run/model_shape.
+// Reduced bulks, kept on disk under what they depend on (bulk/reduction_block) and nothing else:
+// one serves every length, pressure, density, viscosity (eta2/eta1 alike), velocity and friction
+// law. Called by run/model_shape.
 //
 //     CACHE/<name>.basis     sizes, reduced M, C, K and load, what it is off
 //     CACHE/<name>.modes     u = modes [u_b; q], read only where fields of the bulk are asked for
@@ -21,7 +21,7 @@ extern const char BASIS_FORMAT[];
 bool basis_cache_load(const char *name, bool with_modes, ReducedBulk *reduced, bool *found,
                       char note[CACHE_NOTE_SIZE], Error *err);
 
-// Never an error: what could not be stored is told in `note`.
-void basis_cache_store(const char *name, const ReducedBulk *reduced, char note[CACHE_NOTE_SIZE]);
+// false: it could not be stored, `note` says why. Never an error.
+bool basis_cache_store(const char *name, const ReducedBulk *reduced, char note[CACHE_NOTE_SIZE]);
 
 #endif

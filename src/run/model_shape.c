@@ -170,7 +170,8 @@ static bool list_rotation(const Simulation *simulation, const ReductionBlock *bl
     return shape->rotation != NULL;
 }
 
-// The basis of `block`, from the cache or built and kept there; its name goes into the shape.
+// The basis of `block`, from the cache or built and kept there; where it is kept, its name goes
+// into the shape.
 static bool obtain_basis(Simulation *simulation, const ReductionBlock *block, Shape *shape,
                          Error *err)
 {
@@ -189,9 +190,10 @@ static bool obtain_basis(Simulation *simulation, const ReductionBlock *block, Sh
     TRY(basis_cache_load(shape->basis, scene->output.fields, &simulation->reduced, found,
                          simulation->cache_note, err));
     if (*found) goto cleanup;
-    TRY(reduction_build(&block->bulk, interface->dofs, interface->count, &def,
-                        &simulation->reduced, err));
-    basis_cache_store(shape->basis, &simulation->reduced, simulation->cache_note);
+    TRY(reduction_build(&block->bulk, interface->dofs, interface->count, &def, &simulation->reduced,
+                        err));
+    if (!basis_cache_store(shape->basis, &simulation->reduced, simulation->cache_note))
+        shape->basis[0] = 0;
 cleanup:
     return error_is_clean(err);
 }
@@ -215,7 +217,7 @@ static bool reduce_bulk(Simulation *simulation, const char *key, Error *err)
     TRY(reduction_block_create(&simulation->mesh, bulk, &simulation->material, load, &block, err));
     TRY(list_rotation(simulation, &block, &shape, err));
     TRY(obtain_basis(simulation, &block, &shape, err));
-    shape_cache_store(key, &shape, simulation->cache_note);
+    if (shape.basis[0]) shape_cache_store(key, &shape, simulation->cache_note);
     TRY(adopt_shape(simulation, &shape, err));
 cleanup:
     reduction_block_destroy(&block);

@@ -162,10 +162,11 @@ static const SceneKey keys[] = {
      .choices = reduce_choices},
     {"reduction.tolerance", KEY_NUMBER, offsetof(Scene, reduction.tolerance), "1",
      RANGE_PART_OR_ZERO, "0",
-     .sentence = "Interior responses smaller than this, relative, are left out of the basis; 0: by "
-                 "time.accuracy."},
+     .sentence =
+         "Error allowed to the answers of the reduced interior, relative, in the energy norm; "
+         "0: by time.accuracy."},
     {"reduction.cache", KEY_FLAG, offsetof(Scene, reduction.cache), "1", RANGE_ANY, "true",
-     .sentence = "Keep the basis on disk for the next run of the same shape."},
+     .sentence = "Keep the basis on disk for the next run of the same shape, of whatever length."},
     {"output.history", KEY_FLAG, offsetof(Scene, output.history), "1", RANGE_ANY, "true",
      .sentence = "Write history.h5: time series and the interface at every step."},
     {"output.fields", KEY_FIELDS, offsetof(Scene, output.fields), "1", RANGE_ANY, "none",

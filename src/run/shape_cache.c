@@ -202,8 +202,7 @@ static bool store_shape(const char *key, const Shape *shape, Error *err)
     double *copy = NEW_ARRAY(double, 2 * contact + rod + m + names, err), *name_copy;
     if (!copy || !cache_file_path(key, "shape", path)) goto cleanup;
     name_copy = copy + 2 * contact + rod + m;
-    if (interface->pad_name)
-        memcpy(name_copy, interface->pad_name, (size_t)names * sizeof(double));
+    if (interface->pad_name) memcpy(name_copy, interface->pad_name, (size_t)names * sizeof(double));
     CacheArray arrays[] = {
         list_numbers("counts", counts, COUNTS),
         list_numbers("sizes", &shape->sizes.length, sizeof(ShapeSizes) / sizeof(double)),

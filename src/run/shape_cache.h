@@ -18,17 +18,17 @@ enum { CACHE_NOTE_SIZE = 256 };
 // Sizes that a run needs beside the arrays.
 typedef struct ShapeSizes {
     double length, height;   // L, H, length
-    double area;             // length^2
-    double elements;         // of the mesh
-    double full_dofs;        // unknowns of the mesh
-    double load_size;        // largest nodal load per unit of load_reference()
+    double area;   // length^2
+    double elements;   // of the mesh
+    double full_dofs;   // unknowns of the mesh
+    double load_size;   // largest nodal load per unit of load_reference()
     double load_resultant;   // F_N per unit of load_reference()
 } ShapeSizes;
 
 typedef struct Shape {
     ShapeSizes sizes;
     Interface interface;
-    double *rotation;             // [interface.count] of the unit rotation, length; owned
+    double *rotation;   // [interface.count] of the unit rotation, length; owned
     char basis[HASH_TEXT_SIZE];   // its name; empty: none
 } Shape;
 

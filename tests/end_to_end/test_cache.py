@@ -50,6 +50,9 @@ class Cached(unittest.TestCase):
     def files(self):
         return sorted(self.cache.glob("*")) if self.cache.is_dir() else []
 
+    def endings(self):
+        return sorted(path.suffix for path in self.files())
+
     def assert_same_history(self, one, other):
         arrays = []
         with h5py.File(one / "history.h5") as left, h5py.File(other / "history.h5") as right:
@@ -73,7 +76,7 @@ class SameBits(Cached):
         none, uncached = self.run_scene(*PLAIN, cache="")
         self.assertFalse(self.cache.exists())
         first, made = self.run_scene(*PLAIN)
-        self.assertEqual([path.suffix for path in self.files()], [".modes", ".shape"])
+        self.assertEqual(self.endings(), [".basis", ".modes", ".shape"])
         second, read = self.run_scene(*PLAIN)
         self.assertEqual([run["model"]["from_cache"] for run in (uncached, made, read)],
                          [False, False, True])
@@ -114,20 +117,24 @@ class SameBits(Cached):
         self.run_scene(*PLAIN)
         for setting in ("load.pressure=0.004", "rod.velocity=2e-5", "friction.mu_static=0.4",
                         "friction.law=exponential-weakening", "start.friction=off",
-                        "rod.kind=bonded", "material.density=1.2"):
+                        "rod.kind=bonded", "material.density=120"):
             self.assertTrue(self.model(*PLAIN, setting)["from_cache"], setting)
-        self.assertEqual(len(self.files()), 2)
+        self.assertEqual(len(self.files()), 3)
         self.assertFalse(self.model(*PLAIN, "mesh.set.nz=12")["from_cache"])
         self.assertFalse(self.model(*PLAIN, "reduction.tolerance=1e-3")["from_cache"])
-        self.assertEqual(len(self.files()), 6)
+        self.assertEqual(len(self.files()), 9)
 
     def test_what_has_no_shape(self):
-        for setting in ("reduction.cache=false", "reduction.use=never", "start.velocity_x=1e-9"):
+        for setting in ("reduction.cache=false", "reduction.use=never"):
             self.assertFalse(self.model(*PLAIN, setting)["from_cache"], setting)
             self.assertEqual(self.files(), [], setting)
+        # Its start needs the mesh each time; the basis is the same.
+        for cached in (False, True):
+            self.assertEqual(self.model(*PLAIN, "start.velocity_x=1e-9")["from_cache"], cached)
+            self.assertEqual(self.endings(), [".basis", ".modes"])
 
     def test_msh_and_include(self):
-        """A mesh by its content, text or not; a .geo that draws on others not at all."""
+        """A mesh by its content, text or not; a .geo that draws on others is meshed each time."""
         text = SCENE.read_text()
         scene = self.folder / "msh.yaml"
         scene.write_text(text.replace(text[text.index("  file:"):text.index("material:")],
@@ -136,16 +143,78 @@ class SameBits(Cached):
             subprocess.run(["gmsh", "-2", SOURCE / "meshes" / "block.geo", "-setnumber", "nx", "8",
                             "-setnumber", "nz", "8", *binary, "-o", self.folder / "block.msh"],
                            check=True, capture_output=True)
-            for again in (False, True):
-                model = self.model(*PLAIN, scene=scene, settings=SHORT[2:])
-                self.assertEqual((model["from_cache"], model["elements"]), (again, 64))
+            for again in (False, True):   # read once each; both hold the same nodes: one basis
+                _, report = self.run_scene(*PLAIN, scene=scene, settings=SHORT[2:])
+                self.assertEqual(report["timing_s"]["mesh"] == 0, again)
+                self.assertEqual(report["model"]["from_cache"], again or bool(binary))
+                self.assertEqual(report["model"]["elements"], 64)
         (self.folder / "all.geo").write_text(f'Include "{SOURCE}/meshes/block.geo";\n')
         scene = self.folder / "include.yaml"
         scene.write_text(SCENE.read_text().replace("../../meshes/block.geo", "all.geo"))
-        count = len(self.files())
+        count = len(self.files())   # gmsh makes it out of the same nodes: the same basis
         for _ in range(2):
-            self.assertFalse(self.model(*PLAIN, scene=scene)["from_cache"])
+            _, report = self.run_scene(*PLAIN, scene=scene)
+            self.assertTrue(report["model"]["from_cache"])
+            self.assertGreater(report["timing_s"]["mesh"], 0)
         self.assertEqual(len(self.files()), count)
+
+
+class OneBasis(Cached):
+    """Blocks of one shape, whatever their length, step on one basis: made once."""
+    LENGTHS = (0.25, 1, 4)
+
+    def settings(self, length):
+        return [f"mesh.set={{length: {length}, height: {length / 2}, nx: 10, nz: 10}}",
+                f"rod={{velocity: 1e-5, height: {length / 4}, width: {length / 10}}}",
+                f"time.until.U={0.0036 * length}", "output.figures=[]", *PLAIN]
+
+    def run_length(self, length, *more, **where):
+        return self.run_scene(*more, settings=self.settings(length), **where)
+
+    def test_every_length(self):
+        peaks = {}
+        for k, length in enumerate(self.LENGTHS):
+            folder, report = self.run_length(length)
+            self.assertEqual(report["model"]["from_cache"], k > 0)
+            self.assertEqual(report["model"]["length"], length)
+            again, read = self.run_length(length)
+            self.assertEqual(read["timing_s"]["mesh"], 0)
+            self.assert_same_history(folder, again)
+            alone, made = self.run_length(length, cache="")
+            self.assertFalse(made["model"]["from_cache"])
+            self.assert_same_history(folder, alone)   # to the last bit, whoever made the basis
+            peaks[length] = [peak["mu"] for peak in report["results"]["peaks"]]
+        self.assertEqual(self.endings(), [".basis", ".modes"] + 3 * [".shape"])
+        self.assertGreater(peaks[0.25][0], 1.02 * peaks[4][0])   # they are not the same block
+
+    def test_against_the_full_mesh(self):
+        self.run_length(1)
+        for length in (0.25, 4):
+            _, report = self.run_length(length)
+            self.assertTrue(report["model"]["from_cache"])
+            _, full = self.run_length(length, "reduction.use=never")
+            mine, wanted = ([peak["mu"] for peak in one["results"]["peaks"]]
+                            for one in (report, full))
+            self.assertGreater(len(wanted), 0)
+            np.testing.assert_allclose(mine, wanted, rtol=1e-3)
+            # At L = 4 waves are as short as these elements: what is said there is what is allowed.
+            self.assertLess(report["errors"]["reduction"], 0.06 if length == 4 else 0.002)
+            self.assertGreater(report["errors"]["reduction"], 1e-7)
+            self.assertEqual(full["errors"]["reduction"], 0)
+
+    def test_another_shape(self):
+        """A rod that is not scaled along, or other proportions, need their own."""
+        self.run_length(1)
+        for setting in ("rod.height=0.3", "mesh.set.height=0.6", "material.poisson=0.3",
+                        "material.eta2=0.5"):
+            self.assertFalse(self.run_length(1, setting)[1]["model"]["from_cache"], setting)
+
+    def test_fields(self):
+        self.run_length(1)
+        folder, report = self.run_length(4, "output.fields={every_U: 5e-3}")
+        self.assertTrue(report["model"]["from_cache"])
+        alone, _ = self.run_length(4, "output.fields={every_U: 5e-3}", cache="")
+        self.assert_same_fields(folder, alone)
 
 
 class NotTrusted(Cached):
@@ -171,8 +240,20 @@ class NotTrusted(Cached):
         for change, reason in ((half, "cut off"), (flip, "checksum"), (older, "version"),
                                (lambda data: b"", "version"),
                                (lambda data: data + b"x", "checksum")):
-            self.spoil(".shape", change)
+            self.spoil(".basis", change)
             self.assert_rebuilt(reason, *PLAIN)
+
+    def test_spoilt_shape(self):
+        """The mesh is read again, its basis is not made again."""
+        first, _ = self.run_scene(*PLAIN)
+        self.spoil(".shape", lambda data: data[:-1])
+        folder, report = self.run_scene(*PLAIN)
+        self.assertIn("a cached shape is not used", report["model"]["cache_note"])
+        self.assertTrue(report["model"]["from_cache"])
+        self.assertGreater(report["timing_s"]["mesh"], 0)
+        self.assert_same_history(first, folder)
+        _, again = self.run_scene(*PLAIN)   # and put right
+        self.assertEqual((again["timing_s"]["mesh"], again["model"]["cache_note"]), (0, None))
 
     def test_spoilt_modes(self):
         self.run_scene(*FIELDS)
@@ -197,7 +278,7 @@ class NotTrusted(Cached):
         """A limit on file sizes stands in for a full disk: results fit, the basis does not."""
         folder = self.folder / "small"
         done = subprocess.run(
-            ["bash", "-c", "trap '' XFSZ; ulimit -f 100; exec \"$@\"", "-", BIN / "amontons", "run",
+            ["bash", "-c", "trap '' XFSZ; ulimit -f 40; exec \"$@\"", "-", BIN / "amontons", "run",
              SCENE, "-o", folder, "--quiet", "--set", *SHORT, *PLAIN, "output.history=false"],
             env=dict(os.environ, AMONTONS_CACHE=str(self.cache)), capture_output=True, text=True,
             timeout=60)
@@ -214,7 +295,7 @@ class NotTrusted(Cached):
                                   "--quiet", "--set", *SHORT, *PLAIN], env=environment)
                 for k in range(4)]
         self.assertEqual([run.wait(60) for run in runs], [0] * 4)
-        self.assertEqual([path.suffix for path in self.files()], [".modes", ".shape"])
+        self.assertEqual(self.endings(), [".basis", ".modes", ".shape"])
         self.assertTrue(self.model(*PLAIN)["from_cache"])
         for k in range(1, 4):
             self.assert_same_history(self.folder / "side-0", self.folder / f"side-{k}")

@@ -200,6 +200,20 @@ static void test_apply(void **state)
     free_case(&made);
 }
 
+static void test_entries(void **state)
+{
+    (void)state;
+    Random random = {.state = 22};
+    Case made;
+    make_case(&random, 40, 0, &made);
+    for (int32_t row = 0; row < 40; row++) {
+        for (int32_t k = made.pattern.start[row]; k < made.pattern.start[row + 1]; k++)
+            assert_int_equal(sparse_entry(&made.pattern, row, made.pattern.index[k]), k);
+    }
+    sparse_pattern_destroy(&made.pattern);
+    memory_free(made.values);
+}
+
 static void test_not_definite(void **state)
 {
     (void)state;
@@ -252,6 +266,7 @@ int main(void)
         cmocka_unit_test(test_random_matrices),
         cmocka_unit_test(test_two_factors_without_allocation),
         cmocka_unit_test(test_apply),
+        cmocka_unit_test(test_entries),
         cmocka_unit_test(test_not_definite),
         cmocka_unit_test(test_memory_faults),
     };

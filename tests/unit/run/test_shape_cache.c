@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The key of a shape changes when and only when the reduced matrices do, and what the cache gives
-// back is what was put in, or nothing with a reason.
+// The key of a shape changes when and only when its interface or basis does, and what the cache
+// gives back is what was put in, or nothing with a reason.
 #include "run/shape_cache.h"
 
 #include "base/memory.h"
@@ -95,7 +95,6 @@ static void test_what_changes_the_key(void **state)
         {3, "material: {young: 2, poisson: 0.31, density: 1.5, eta1: 1.2, eta2: 0.8}"},
         {3, "material: {young: 2, poisson: 0.3, density: 1.5, eta1: 1.2, eta2: 0.81}"},
         {3, "material: {young: 2, poisson: 0.3, density: 1.5, eta1: 0.8, eta2: 1.2}"},
-        {3, "material: {young: 2, poisson: 0.3, density: 150, eta1: 1.2, eta2: 0.8}"},
         {3,
          "material: {young: 2, poisson: 0.3, density: 1.5, eta1: 1.2, eta2: 0.8, plane: strain}"},
         {5, "load: {pressure: 0.01, tractions: [{group: leading, x: 0.003, z: 0}]}"},
@@ -133,6 +132,7 @@ static void test_what_does_not(void **state)
         {1, "mesh: {file: copy.geo, set: {nx: 4, nz: 6, shape: quad}}"},   // content, not name
         {1, "mesh: {file: ./block.geo, set: {nx: 4.0, nz: 6, shape: quad}}"},
         {3, "material: {young: 2.2, poisson: 0.3, density: 1.6, eta1: 1.2, eta2: 0.8}"},
+        {3, "material: {young: 2, poisson: 0.3, density: 150, eta1: 1.2, eta2: 0.8}"},
         {3, "material: {young: 8, poisson: 0.3, density: 1.5, eta1: 2.4, eta2: 1.6}"},
         {4, "friction: {mu_static: 0.6, mu_kinetic: 0.1, critical_velocity: 1e-5}"},
         {4, "friction: {law: coulomb, mu_static: 0.6}"},
@@ -193,12 +193,14 @@ static int32_t *index_array(Random *random, int32_t count)
     return array;
 }
 
-// Three contact nodes on two pads, a rod node, four interior modes; numbers at random.
+static const char BASIS[] = "ffeeddccbbaa99887766554433221100";
+
+// Three contact nodes on two pads, a rod node; numbers at random.
 static void make_shape(uint64_t seed, Shape *shape)
 {
-    enum { M = 7, ALL = 11, DOFS = 40 };
+    enum { M = 7 };
     Random random = {.state = seed};
-    *shape = (Shape){.sizes = {1.5, 0.5, 0.75, 36, 0.01, 1.4}};
+    *shape = (Shape){.sizes = {1.5, 0.5, 0.75, 36, 98, 0.01, 1.4}};
     shape->interface = (Interface){.contact_count = 3,
                                    .node = index_array(&random, 3),
                                    .x = random_array(&random, 3),
@@ -211,28 +213,23 @@ static void make_shape(uint64_t seed, Shape *shape)
                                    .rod_share = random_array(&random, 1),
                                    .count = M,
                                    .dofs = index_array(&random, M)};
-    shape->reduced = (ReducedBulk){.full_dofs = DOFS,
-                                   .interface_count = M,
-                                   .interior_count = ALL - M,
-                                   .count = ALL,
-                                   .mass = random_array(&random, ALL * ALL),
-                                   .damping = random_array(&random, ALL * ALL),
-                                   .stiffness = random_array(&random, M * M),
-                                   .load = random_array(&random, ALL),
-                                   .modes = random_array(&random, DOFS * ALL),
-                                   .error = 1e-5,
-                                   .dropped = 3e-3};
+    Error err = {0};
+    shape->interface.pad_name = memory_array(2, GROUP_NAME_SIZE, &err);
+    snprintf(shape->interface.pad_name[0], GROUP_NAME_SIZE, "left");
+    snprintf(shape->interface.pad_name[1], GROUP_NAME_SIZE, "%063d", 7);   // as long as allowed
+    snprintf(shape->basis, sizeof shape->basis, "%s", BASIS);
     shape->rotation = random_array(&random, M);
 }
 
-static void assert_same_shape(const Shape *a, const Shape *b, bool with_modes)
+static void assert_same_shape(const Shape *a, const Shape *b)
 {
     const Interface *i = &a->interface, *j = &b->interface;
-    const ReducedBulk *r = &a->reduced, *s = &b->reduced;
     assert_memory_equal(&a->sizes, &b->sizes, sizeof a->sizes);
+    assert_string_equal(a->basis, BASIS);
     assert_true(i->contact_count == 3 && i->rod_count == 1 && i->pad_count == 2 && i->count == 7);
     assert_memory_equal(i->node, j->node, 3 * sizeof(int32_t));
     assert_memory_equal(i->pad, j->pad, 3 * sizeof(int32_t));
+    assert_memory_equal(i->pad_name, j->pad_name, 2 * GROUP_NAME_SIZE);
     assert_memory_equal(i->rod_node, j->rod_node, sizeof(int32_t));
     assert_memory_equal(i->dofs, j->dofs, 7 * sizeof(int32_t));
     assert_memory_equal(i->x, j->x, 3 * sizeof(double));
@@ -240,27 +237,20 @@ static void assert_same_shape(const Shape *a, const Shape *b, bool with_modes)
     assert_memory_equal(i->rod_z, j->rod_z, sizeof(double));
     assert_memory_equal(i->rod_share, j->rod_share, sizeof(double));
     assert_memory_equal(a->rotation, b->rotation, 7 * sizeof(double));
-    assert_true(r->full_dofs == 40 && r->interface_count == 7 && r->interior_count == 4);
-    assert_true(r->count == 11 && r->error == s->error && r->dropped == s->dropped);
-    assert_memory_equal(r->mass, s->mass, 121 * sizeof(double));
-    assert_memory_equal(r->damping, s->damping, 121 * sizeof(double));
-    assert_memory_equal(r->stiffness, s->stiffness, 49 * sizeof(double));
-    assert_memory_equal(r->load, s->load, 11 * sizeof(double));
-    if (with_modes) assert_memory_equal(r->modes, s->modes, 440 * sizeof(double));
-    if (!with_modes) assert_null(r->modes);
 }
 
 static const char KEY[] = "00112233445566778899aabbccddeeff";
 
-static bool load(const char *key, bool with_modes, Shape *shape, char note[SHAPE_NOTE_SIZE])
+static bool load(const char *key, Shape *shape, char note[CACHE_NOTE_SIZE])
 {
     Error err = {0};
     bool found = true;
-    if (!shape_cache_load(key, with_modes, shape, &found, note, &err)) fail_msg("%s", err.message);
+    note[0] = 0;
+    if (!shape_cache_load(key, shape, &found, note, &err)) fail_msg("%s", err.message);
     return found;
 }
 
-static void store(const char *key, uint64_t seed, char note[SHAPE_NOTE_SIZE])
+static void store(const char *key, uint64_t seed, char note[CACHE_NOTE_SIZE])
 {
     Shape shape;
     note[0] = 0;
@@ -273,56 +263,39 @@ static void test_round_trip(void **state)
 {
     (void)state;
     Shape made, read;
-    char note[SHAPE_NOTE_SIZE];
+    char note[CACHE_NOTE_SIZE];
     int64_t live = memory_counters().live;
-    assert_false(load(KEY, false, &read, note));   // nothing there: no reason to say anything
+    assert_false(load(KEY, &read, note));   // nothing there: no reason to say anything
     assert_string_equal(note, "");
     store(KEY, 5, note);   // makes the folder, and the one above it
     assert_string_equal(note, "");
     make_shape(5, &made);
-    for (int with_modes = 0; with_modes < 2; with_modes++) {
-        assert_true(load(KEY, with_modes, &read, note));
-        assert_string_equal(note, "");
-        assert_same_shape(&read, &made, with_modes);
-        shape_destroy(&read);
-    }
+    assert_true(load(KEY, &read, note));
+    assert_string_equal(note, "");
+    assert_same_shape(&read, &made);
+    shape_destroy(&read);
     shape_destroy(&made);
     assert_int_equal(memory_counters().live, live);
 }
 
-// A spoilt file, a shape without its modes, another shape's modes: not used, and a reason given
-// where there is something to mend.
+// A spoilt file, or another shape's: not used, and a reason given.
 static void test_not_trusted(void **state)
 {
     (void)state;
     Shape read;
-    char note[SHAPE_NOTE_SIZE], path[PATH_SIZE], modes[PATH_SIZE];
+    char note[CACHE_NOTE_SIZE], path[PATH_SIZE], other[PATH_SIZE];
     static const char OTHER[] = "00112233445566778899aabbccddeef0";
     snprintf(path, sizeof path, "%s/%s.shape", cache, KEY);
-    snprintf(modes, sizeof modes, "%s/%s.modes", cache, KEY);
+    snprintf(other, sizeof other, "%s/%s.shape", cache, OTHER);
     int64_t live = memory_counters().live;
     store(KEY, 5, note);
-    assert_int_equal(truncate(path, 1000), 0);
-    assert_false(load(KEY, false, &read, note));
-    assert_string_equal(note, "a cached basis is not used: it is cut off");
-    store(KEY, 5, note);
-    assert_int_equal(truncate(modes, 1000), 0);
-    assert_true(load(KEY, false, &read, note));   // modes are not asked for
-    shape_destroy(&read);
-    assert_false(load(KEY, true, &read, note));
-    assert_string_equal(note, "a cached basis is not used: it is cut off");
-    assert_int_equal(unlink(modes), 0);
-    assert_false(load(KEY, true, &read, note));
-    assert_string_equal(note, "");
-
-    char other[PATH_SIZE];   // a shape's file under another's name
-    snprintf(other, sizeof other, "%s/%s.shape", cache, OTHER);
+    assert_int_equal(truncate(path, 500), 0);
+    assert_false(load(KEY, &read, note));
+    assert_string_equal(note, "a cached shape is not used: it is cut off");
     store(KEY, 5, note);
     assert_int_equal(rename(path, other), 0);
-    assert_false(load(OTHER, false, &read, note));
-    assert_string_equal(note, "a cached basis is not used: it belongs to another shape");
-    snprintf(other, sizeof other, "%s/%s.modes", cache, OTHER);
-    assert_int_equal(access(other, F_OK), -1);
+    assert_false(load(OTHER, &read, note));
+    assert_string_equal(note, "a cached shape is not used: it belongs to another shape");
     assert_int_equal(memory_counters().live, live);
 }
 
@@ -331,20 +304,20 @@ static void test_nowhere(void **state)
 {
     (void)state;
     Shape read;
-    char note[SHAPE_NOTE_SIZE], path[PATH_SIZE];
+    char note[CACHE_NOTE_SIZE], path[PATH_SIZE];
     store("", 5, note);
     assert_string_equal(note, "");
-    assert_false(load("", false, &read, note));
+    assert_false(load("", &read, note));
     setenv("AMONTONS_CACHE", "", 1);
     store(KEY, 5, note);
     assert_string_equal(note, "");
-    assert_false(load(KEY, false, &read, note));
+    assert_false(load(KEY, &read, note));
     snprintf(path, sizeof path, "%s/block.geo/cache", folder);   // under a file
     setenv("AMONTONS_CACHE", path, 1);
     store(KEY, 5, note);
-    assert_non_null(strstr(note, "the basis is not kept for the next run: cannot write"));
+    assert_non_null(strstr(note, "the shape is not kept for the next run: cannot write"));
     assert_non_null(strstr(note, "Not a directory"));
-    assert_false(load(KEY, false, &read, note));
+    assert_false(load(KEY, &read, note));
     assert_string_equal(note, "");
     // Where it stands without AMONTONS_CACHE.
     unsetenv("AMONTONS_CACHE");
@@ -363,7 +336,7 @@ static void test_nowhere(void **state)
 static void test_memory_faults(void **state)
 {
     (void)state;
-    char note[SHAPE_NOTE_SIZE];
+    char note[CACHE_NOTE_SIZE];
     Shape read;
     store(KEY, 5, note);
     int64_t live = memory_counters().live;
@@ -371,7 +344,7 @@ static void test_memory_faults(void **state)
     for (int32_t k = 0; !done; k++) {
         Error err = {0};
         memory_fail_after(k);
-        done = shape_cache_load(KEY, true, &read, &found, note, &err);
+        done = shape_cache_load(KEY, &read, &found, note, &err);
         memory_fail_after(-1);
         assert_int_equal(err.code, done ? ERROR_NONE : ERROR_MEMORY);
         if (done) assert_true(found);
@@ -382,12 +355,12 @@ static void test_memory_faults(void **state)
     Shape made;
     make_shape(6, &made);
     live = memory_counters().live;
-    for (int32_t k = 0; k < 4; k++) {   // a basis that cannot be stored is no failure
+    for (int32_t k = 0; k < 1; k++) {   // a shape that cannot be stored is no failure
         note[0] = 0;
         memory_fail_after(k);
         shape_cache_store(KEY, &made, note);
         memory_fail_after(-1);
-        assert_non_null(strstr(note, "the basis is not kept for the next run"));
+        assert_non_null(strstr(note, "the shape is not kept for the next run"));
         assert_int_equal(memory_counters().live, live);
     }
     shape_destroy(&made);
