@@ -45,10 +45,11 @@ typedef struct RunCounters {
     int64_t rejected;   // steps undone by error control or by the certificate
     int64_t rejected_uncertified;   // of these: a large step that led to an uncertified state
     int64_t over_swings;   // accepted steps over swings of slow slip that stay small
-    int64_t unsolved_retries;   // steps undone because the contact problem had no solution
+    int64_t unsolved_retries;   // steps undone because the contact problem was not solved
     int64_t factorisations, solves;   // sparse; a solve is forward plus backward
     int64_t contact_solves, contact_iterations;   // contact problems, two a step; over all
     int64_t contact_fallbacks;   // contact problems that the plain iteration did not settle
+    int64_t contact_rescued;   // of these: solved by a path only
     int64_t certificates;   // dissipativity checks
     int64_t loop_allocations;   // arrays allocated in the time loop (0 but new rungs, output)
 } RunCounters;

@@ -24,11 +24,12 @@ bool contact_solver_create(const Interface *interface, ContactSolverDef def, Con
     solver->step = NEW_ARRAY(double, count, err);
     solver->kept_free = NEW_ARRAY(int32_t, count, err);
     solver->kept_status = NEW_ARRAY(uint8_t, interface->contact_count + interface->rod_count, err);
-    return error_is_clean(err);
+    return error_is_clean(err) && contact_path_create(interface, &solver->path, err);
 }
 
 void contact_solver_destroy(ContactSolver *solver)
 {
+    contact_path_destroy(&solver->path);
     memory_free(solver->free);
     memory_free(solver->pivots);
     memory_free(solver->matrix);
@@ -306,7 +307,6 @@ static void free_reactions(const ContactProblem *problem, ContactSolution *solut
 static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
                            ContactSolution *solution)
 {
-    solver->solves++;
     fix_rod_kind(problem, solution);
     int32_t limit = solver->def.iterations_all + solver->def.iterations_one;
     double before = INFINITY;   // residual of the step before, where the matrix was reused
@@ -338,7 +338,6 @@ static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
         hold_unknowns(problem, solution);
         compute_reaction(problem, solution);
     }
-    solver->unsolved++;
     return false;
 }
 
@@ -346,6 +345,12 @@ bool contact_solve(ContactSolver *solver, const ContactProblem *problem, Contact
 {
     double started = clock_seconds();
     bool solved = solve_statuses(solver, problem, solution);
+    if (!solved && contact_path_follow(&solver->path, problem, solution)) {
+        solved = solve_statuses(solver, problem, solution);
+        solver->rescued += solved;
+    }
+    solver->solves++;
+    solver->unsolved += !solved;
     solver->seconds += clock_seconds() - started;
     return solved;
 }

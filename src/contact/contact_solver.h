@@ -10,11 +10,13 @@
 // linear system is dense and unsymmetric; its factors are kept and used again (by the next
 // iteration, stage or step) while operator and statuses stay and they still gain a digit a step.
 // When statuses cycle, only the worst one is changed at a time; when that does not settle either,
-// the problem counts as unsolved and the caller must take a smaller step (with mu_S > 1 it may have
-// no solution). Called by stepping/sdirk2.
+// a path to a solution is followed (contact/contact_path): there is one, as S is positive definite
+// and mu bounded and continuous. Where even that is not found the problem counts as unsolved and
+// the caller must take a smaller step. Called by stepping/sdirk2.
 #ifndef AMONTONS_CONTACT_CONTACT_SOLVER_H
 #define AMONTONS_CONTACT_CONTACT_SOLVER_H
 
+#include "contact/contact_path.h"
 #include "contact/contact_problem.h"
 
 typedef struct ContactSolverDef {
@@ -42,6 +44,8 @@ typedef struct ContactSolver {
     int64_t solves;   // counted
     int64_t iterations;   // counted, Newton steps
     int64_t fallbacks;   // counted, solves in which only the worst status was changed
+    ContactPath path;   // the fall-back; owned
+    int64_t rescued;   // counted, solves in which the path found what Newton did not
     int64_t unsolved;   // counted
     double seconds;   // wall time spent
 } ContactSolver;

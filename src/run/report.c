@@ -20,6 +20,7 @@ static void write_steps(JsonWriter *json, const RunCounters *counters)
     json_integer(json, "contact_solves", counters->contact_solves);
     json_integer(json, "contact_iterations", counters->contact_iterations);
     json_integer(json, "contact_fallbacks", counters->contact_fallbacks);
+    json_integer(json, "contact_rescued", counters->contact_rescued);
     json_integer(json, "certificates", counters->certificates);
     json_integer(json, "loop_allocations", counters->loop_allocations);
     json_end(json);

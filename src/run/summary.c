@@ -70,6 +70,7 @@ RunCounters summary_count(const Simulation *simulation)
                          .contact_solves = solver->solves,
                          .contact_iterations = solver->iterations,
                          .contact_fallbacks = solver->fallbacks,
+                         .contact_rescued = solver->rescued,
                          .certificates = control->certificate.checks,
                          .loop_allocations = simulation->allocations_before > 0
                                                  ? memory_counters().allocations -
