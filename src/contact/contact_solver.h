@@ -12,7 +12,7 @@
 // When statuses cycle, only the worst one is changed at a time; when that does not settle either,
 // a path to a solution is followed (contact/contact_path): there is one, as S is positive definite
 // and mu bounded and continuous. Where even that is not found the problem counts as unsolved and
-// the caller must take a smaller step. Called by stepping/sdirk2.
+// the caller must take a smaller step. Called by stepping/sdirk.
 #ifndef AMONTONS_CONTACT_CONTACT_SOLVER_H
 #define AMONTONS_CONTACT_CONTACT_SOLVER_H
 

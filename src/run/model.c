@@ -31,6 +31,12 @@ static double half_plane(double d[3][3])
     return d[0][0] > 0 ? 4 * d[2][2] * (d[0][0] - d[2][2]) / d[0][0] : 0;
 }
 
+// Before an explicit run the block relaxes by SDIRK2.
+static const TableauKind TABLEAUS[] = {[SCHEME_SDIRK2] = TABLEAU_SDIRK2,
+                                       [SCHEME_EXPLICIT] = TABLEAU_SDIRK2,
+                                       [SCHEME_EULER] = TABLEAU_EULER,
+                                       [SCHEME_SDIRK3] = TABLEAU_SDIRK3};
+
 bool model_build_rod(Simulation *simulation, RodKind kind, Error *err)
 {
     const Material *material = &simulation->material;
@@ -54,14 +60,15 @@ bool model_prepare_steps(Simulation *simulation, Error *err)
     double tolerance = scene->time.tolerance > 0 ? scene->time.tolerance
                                                  : TOLERANCES[scene->time.accuracy];
     bool driven = scene->rod.kind != ROD_NONE;
-    StepControlDef def = {.tolerance = tolerance * slip,
+    StepControlDef def = {.scheme = TABLEAUS[scene->time.scheme],
+                          .tolerance = tolerance * slip,
                           .step_max = driven ? STEP_MAX_SLIP * slip / velocity
                                              : simulation->t_end / STEPS_AT_LEAST,
                           .relax_step = simulation->scales.time,
                           .energy_tolerance = scene->time.energy_tolerance,
                           .growth_max = 2,
                           .use_certificate = scene->time.certificate};
-    bool implicit = scene->time.scheme == SCHEME_SDIRK2;   // the keys mean the scheme named
+    bool implicit = scene->time.scheme != SCHEME_EXPLICIT;   // the keys mean the scheme named
     def.wave_step = scene->time.wave_step * simulation->model.length /
                     material_speeds(&simulation->material).longitudinal;
     // Rungs are halvings of the longest step: it is raised so that the wave step, at which most

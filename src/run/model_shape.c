@@ -229,7 +229,7 @@ cleanup:
 // made.
 static bool is_reducible(const Scene *scene)
 {
-    bool implicit = scene->time.scheme == SCHEME_SDIRK2;   // explicit steps are those of the mesh
+    bool implicit = scene->time.scheme != SCHEME_EXPLICIT;   // explicit steps are those of the mesh
     return scene->reduction.use != REDUCE_NEVER && implicit && scene->material.eta1 > 0 &&
            starts_at_interface(scene);
 }

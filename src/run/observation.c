@@ -34,7 +34,7 @@ static Moments sum_moments(const StepControl *control)
 
 Observation observe(const StepControl *control, const ObservationScales *scales)
 {
-    const Sdirk2 *scheme = &control->scheme;
+    const Sdirk *scheme = &control->scheme;
     const Interface *interface = scheme->interface;
     const State *state = &control->now;
     Observation seen = {.state = state,

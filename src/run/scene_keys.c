@@ -17,7 +17,7 @@ static const char *const rod_choices[] = {"push", "bonded", "none", NULL};
 static const char *const switch_choices[] = {"off", "on", NULL};
 static const char *const start_rod_choices[] = {"away", "held", NULL};
 static const char *const start_state_choices[] = {"relaxed", "undeformed", NULL};
-static const char *const scheme_choices[] = {"sdirk2", "explicit", NULL};
+static const char *const scheme_choices[] = {"sdirk2", "explicit", "euler", "sdirk3", NULL};
 static const char *const reduce_choices[] = {"auto", "always", "never", NULL};
 static const char *const accuracy_choices[] = {"draft", "standard", "fine", NULL};
 static const char *const figure_choices[] = {
@@ -126,8 +126,10 @@ static const SceneKey keys[] = {
     {"time.until.periodic", KEY_FLAG, offsetof(Scene, time.until_periodic), "1", RANGE_ANY, "false",
      .sentence = "Stop earlier when the periodic regime is established."},
     {"time.scheme", KEY_CHOICE, offsetof(Scene, time.scheme), "1", RANGE_ANY, "sdirk2",
-     .sentence = "`sdirk2`: implicit, steps as long as the answer allows. `explicit`: central "
-                 "differences at the stable step, an independent check that takes far longer.",
+     .sentence = "`sdirk2`: implicit, of order 2, steps as long as the answer allows. `euler`, "
+                 "`sdirk3`: the same with backward Euler (order 1), three stages (order 3). "
+                 "`explicit`: central differences at the stable step, an independent check that "
+                 "takes far longer.",
      .choices = scheme_choices},
     {"time.accuracy", KEY_CHOICE, offsetof(Scene, time.accuracy), "1", RANGE_ANY, "standard",
      .sentence = "Sets the step tolerance where time.tolerance does not.",

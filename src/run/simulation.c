@@ -161,7 +161,7 @@ bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *fini
     TRY(record_step(simulation, err));
     // What is left is less than a rung that is built: not worth a factorisation.
     remaining = simulation->t_end - control->now.time;
-    bool implicit = simulation->scene.time.scheme == SCHEME_SDIRK2;
+    bool implicit = simulation->scene.time.scheme != SCHEME_EXPLICIT;
     *finished = remaining <= 1e-9 * simulation->t_end ||
                 (implicit && !step_control_fits(control, remaining));
     if (simulation->scene.time.until_periodic && simulation->events.ended)

@@ -2,14 +2,14 @@
 #include "stepping/ladder.h"
 
 #include "base/clock.h"
+#include "stepping/tableau.h"
 
 #include <math.h>
 
-const double SDIRK2_GAMMA = 1.0 - 0.70710678118654752440;
-
 void ladder_init(BulkOperator *system, double step_max, double step_min, Ladder *ladder)
 {
-    *ladder = (Ladder){.system = system, .step_max = step_max};
+    *ladder =
+        (Ladder){.system = system, .step_max = step_max, .gamma = tableau_of(TABLEAU_SDIRK2).gamma};
     double rungs = floor(log2(step_max / step_min) * (1 + 1e-12)) + 1;
     ladder->rung_count = (int32_t)fmin(fmax(rungs, 1), LADDER_RUNGS_MAX);
 }
@@ -27,7 +27,7 @@ double ladder_step(const Ladder *ladder, int32_t k)
 
 double ladder_reach(const Ladder *ladder, int32_t k)
 {
-    return SDIRK2_GAMMA * ladder_step(ladder, k);
+    return ladder->gamma * ladder_step(ladder, k);
 }
 
 int32_t ladder_find(const Ladder *ladder, double step)

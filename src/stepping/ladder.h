@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The step sizes dt_max 2^-k. A rung's matrix A = M/(gamma dt) + C + gamma dt K is factored when
-// the rung is first used and kept; changing the step then costs nothing. Used by stepping/sdirk2.
+// the rung is first used and kept; changing the step then costs nothing. Used by stepping/sdirk.
 #ifndef AMONTONS_STEPPING_LADDER_H
 #define AMONTONS_STEPPING_LADDER_H
 
@@ -8,12 +8,10 @@
 
 enum { LADDER_RUNGS_MAX = 128 };
 
-// gamma = 1 - 1/sqrt(2): the two-stage scheme is then of order 2 and L-stable.
-extern const double SDIRK2_GAMMA;
-
 typedef struct Ladder {
     BulkOperator *system;   // not owned
     double step_max;   // of rung 0, time
+    double gamma;   // of the scheme that steps on it; at first that of SDIRK2
     int32_t rung_count;   // usable rungs: 0 .. rung_count - 1
     InterfaceOperator *rung[LADDER_RUNGS_MAX];   // NULL: not built; owned
     int64_t accepted[LADDER_RUNGS_MAX];   // steps, counted by step_control

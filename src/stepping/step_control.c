@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The rung follows the error as dt ~ error^(-1/3), the order of the estimate (Hairer and Wanner,
+// The rung follows the error as dt ~ error^(-1/(p + 1)), p the scheme's order (Hairer and Wanner,
 // Solving ODEs II, IV.8), rounded down to the ladder.
 #include "stepping/step_control.h"
 
@@ -7,7 +7,6 @@
 
 // A longer step is tried only when its error is expected to be this fraction of the tolerance.
 static const double SAFETY = 0.5;
-static const double ESTIMATE_ORDER = 3;
 
 // A step may leave the first part of what it turned over unaccounted, in units of the ledger's
 // tolerance; or the second part of all that was turned over so far. Nothing is asked of steps below
@@ -34,7 +33,7 @@ bool step_control_create(const Block *block, const StepControlDef *def, StepCont
     double longest = def->step_max;
     while (longest < def->relax_step) longest *= 2;   // so that step_max is a rung
     ladder_init(block->system, longest, def->step_min, &control->ladder);
-    TRY(sdirk2_create(block, &control->ladder, &control->scheme, err));
+    TRY(sdirk_create(block, def->scheme, &control->ladder, &control->scheme, err));
     TRY(certificate_create(block, &control->certificate, err));
     TRY(watch_create(block, def->watch_time, &control->watch, err));
     TRY(state_create(block->system, block->interface, &control->now, err));
@@ -47,7 +46,7 @@ cleanup:
 void step_control_destroy(StepControl *control)
 {
     ladder_destroy(&control->ladder);
-    sdirk2_destroy(&control->scheme);
+    sdirk_destroy(&control->scheme);
     certificate_destroy(&control->certificate);
     watch_destroy(&control->watch);
     state_destroy(&control->now);
@@ -80,7 +79,7 @@ typedef enum Verdict {
 static EnergyLedger book_step(const StepControl *control, int32_t k, const StepOutcome *outcome)
 {
     EnergyLedger ledger = control->ledger;
-    sdirk2_add_energy(outcome, ladder_step(&control->ladder, k), &ledger);
+    sdirk_add_energy(&control->scheme, outcome, ladder_step(&control->ladder, k), &ledger);
     energy_store(&control->next, &ledger);
     return ledger;
 }
@@ -176,13 +175,19 @@ static Verdict judge_step(StepControl *control, int32_t k, const StepOutcome *ou
     return STEP_ACCEPTED;
 }
 
+static double estimate_order(const StepControl *control)
+{
+    return control->scheme.tableau.order + 1;
+}
+
 // The rung after a rejection: at least one further down.
 static int32_t smaller_rung(const StepControl *control, int32_t k, Verdict verdict,
                             const StepOutcome *outcome)
 {
     int32_t target = k + 1;
     if (verdict == STEP_INACCURATE) {
-        double shrink = pow(SAFETY * control->def.tolerance / outcome->error, 1 / ESTIMATE_ORDER);
+        double allowed = SAFETY * control->def.tolerance / outcome->error;
+        double shrink = pow(allowed, 1 / estimate_order(control));
         target = ladder_find(&control->ladder, ladder_step(&control->ladder, k) * shrink);
     }
     if (verdict == STEP_UNCERTIFIED) {
@@ -203,7 +208,7 @@ static void hold_rung(StepControl *control)
 static int32_t next_rung(StepControl *control, int32_t k, double error, bool retried)
 {
     double stretch = control->def.growth_max;
-    double expected = error * pow(stretch, ESTIMATE_ORDER);
+    double expected = error * pow(stretch, estimate_order(control));
     bool held = control->counters.accepted < control->hold_end;
     bool grows = !retried && !held && k > control->coarsest &&
                  expected < SAFETY * control->def.tolerance;
@@ -280,7 +285,7 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
     bool shortened = k != control->rung, retried = false, certified = true;
     for (;;) {
         StepOutcome outcome;
-        TRY(sdirk2_step(&control->scheme, k, &control->now, &control->next, &outcome, err));
+        TRY(sdirk_step(&control->scheme, k, &control->now, &control->next, &outcome, err));
         Verdict verdict = judge_step(control, k, &outcome, &certified);
         if (verdict == STEP_ACCEPTED) {
             control->certified = certified;

@@ -13,10 +13,11 @@
 #define AMONTONS_STEPPING_STEP_CONTROL_H
 
 #include "stepping/certificate.h"
-#include "stepping/sdirk2.h"
+#include "stepping/sdirk.h"
 #include "stepping/watch.h"
 
 typedef struct StepControlDef {
+    TableauKind scheme;
     double tolerance;   // of the local error of u in one step, length
     double step_max;   // longest, time
     double relax_step;   // while relaxing steps may be so long, also where step_max is less, time
@@ -37,7 +38,7 @@ typedef struct StepCounters {
 typedef struct StepControl {
     StepControlDef def;
     Ladder ladder;   // owned, like all that follows
-    Sdirk2 scheme;
+    Sdirk scheme;
     Certificate certificate;
     Watch watch;
     State now;   // the last accepted state

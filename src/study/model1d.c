@@ -51,7 +51,7 @@ static bool check_options(const Scene *scene, const Model1dOptions *options, Err
     if (options->nodes < NODES_MIN || options->nodes > NODES_MAX)
         FAIL(err, ERROR_INPUT, "the line has %d nodes; %d to %d are allowed", options->nodes,
              NODES_MIN, NODES_MAX);
-    if (scene->time.scheme != SCHEME_SDIRK2)
+    if (scene->time.scheme == SCHEME_EXPLICIT)
         FAIL(err, ERROR_INPUT,
              "%s: the 1D model is stepped implicitly: --set time.scheme=sdirk2, or ask for its "
              "theory only",

@@ -34,7 +34,7 @@ static bool check_scene(const Scene *scene, Error *err)
              "%s: stability follows the slip that a rod drives: rod.velocity must be above 0 and "
              "rod.kind push or bonded",
              scene->path);
-    if (scene->time.scheme != SCHEME_SDIRK2)
+    if (scene->time.scheme == SCHEME_EXPLICIT)
         FAIL(err, ERROR_INPUT,
              "%s: the quasi-static path needs implicit steps: --set time.scheme=sdirk2",
              scene->path);

@@ -50,7 +50,7 @@ static double force_scale(const BlockRig *rig, const State *now)
                 dense_max_abs(rig->system.load, rig->system.dof_count));
 }
 
-static void check_contact(const BlockRig *rig, const Sdirk2 *scheme, const State *now)
+static void check_contact(const BlockRig *rig, const Sdirk *scheme, const State *now)
 {
     const double *schur = interface_operator_schur(scheme->ladder->rung[0]);
     int32_t count = rig->interface.count;
@@ -90,20 +90,19 @@ static void test_every_step(void **state)
         RigDef def = random_def(&random);
         BlockRig rig;
         Ladder ladder;
-        Sdirk2 scheme;
+        Sdirk scheme;
         State now, next;
         rig_build(&def, &rig);
         double duration = exp(random_between(&random, -4, 1)) * def.block.length *
                           sqrt(def.material.density);
         ladder_init(&rig.system, duration, duration * 1e-5, &ladder);
-        assert_true(sdirk2_create(&rig.block, &ladder, &scheme, &err));
+        assert_true(sdirk_create(&rig.block, TABLEAU_SDIRK2, &ladder, &scheme, &err));
         assert_true(state_create(&rig.system, &rig.interface, &now, &err));
         assert_true(state_create(&rig.system, &rig.interface, &next, &err));
         assert_non_null(ladder_rung(&ladder, 0, &err));
         for (int32_t s = 0; s < STEPS; s++) {
             StepOutcome outcome;
-            assert_true(
-                sdirk2_step(&scheme, random_index(&random, 3), &now, &next, &outcome, &err));
+            assert_true(sdirk_step(&scheme, random_index(&random, 3), &now, &next, &outcome, &err));
             if (!outcome.solved) {
                 unsolved++;
                 continue;
@@ -117,7 +116,7 @@ static void test_every_step(void **state)
             assert_true(isfinite(outcome.error) && outcome.residual <= 1e-8 * force);
             assert_true(ledger.elastic >= 0 && ledger.kinetic >= 0);
             double fastest = fmax(dense_max_abs(now.velocity, now.dof_count),
-                                  dense_max_abs(scheme.v1, now.dof_count));
+                                  dense_max_abs(scheme.stage_velocity, now.dof_count));
             double viscous = dense_max_abs(rig.bulk.damping, rig.bulk.pattern.start[now.dof_count]);
             check_powers(&outcome, (force + viscous * fastest) * fastest);
             check_contact(&rig, &scheme, &now);
@@ -125,7 +124,7 @@ static void test_every_step(void **state)
         }
         state_destroy(&now);
         state_destroy(&next);
-        sdirk2_destroy(&scheme);
+        sdirk_destroy(&scheme);
         ladder_destroy(&ladder);
         rig_destroy(&rig);
     }

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "stepping/sdirk.h"
+
+#include "base/dense.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+bool sdirk_create(const Block *block, TableauKind kind, Ladder *ladder, Sdirk *scheme, Error *err)
+{
+    const BulkOperator *system = block->system;
+    const Interface *interface = block->interface;
+    *scheme = (Sdirk){.tableau = tableau_of(kind),
+                      .system = block->system,
+                      .interface = interface,
+                      .law = block->law,
+                      .rod = block->rod,
+                      .ladder = ladder};
+    scheme->rhs = NEW_ARRAY(double, system->dof_count, err);
+    scheme->force = NEW_ARRAY(double, system->dof_count, err);
+    scheme->viscous = NEW_ARRAY(double, system->dof_count, err);
+    int64_t earlier = scheme->tableau.stages - 1, dofs = system->dof_count;
+    ladder->gamma = scheme->tableau.gamma;
+    scheme->stage_velocity = NEW_ARRAY(double, earlier *dofs, err);
+    scheme->stage_impulse = NEW_ARRAY(double, earlier *dofs, err);
+    scheme->stage_reaction = NEW_ARRAY(double, earlier * interface->count, err);
+    scheme->predictor = NEW_ARRAY(double, system->dof_count, err);
+    scheme->g = NEW_ARRAY(double, interface->count, err);
+    scheme->bound = NEW_ARRAY(double, interface->count, err);
+    if (!error_is_clean(err)) return false;
+    return contact_solver_create(interface, contact_solver_def(), &scheme->solver, err);
+}
+
+void sdirk_destroy(Sdirk *scheme)
+{
+    contact_solver_destroy(&scheme->solver);
+    memory_free(scheme->rhs);
+    memory_free(scheme->force);
+    memory_free(scheme->viscous);
+    memory_free(scheme->predictor);
+    memory_free(scheme->g);
+    memory_free(scheme->bound);
+    memory_free(scheme->stage_velocity);
+    memory_free(scheme->stage_impulse);
+    memory_free(scheme->stage_reaction);
+    *scheme = (Sdirk){0};
+}
+
+// Every so many steps the end state is put into the full equation, every term computed anew.
+enum { AUDIT_EVERY = 32 };
+
+// bound = (position to reach at `time` - u*) / (gamma dt): the plane for normals, the rod for rods.
+static void fill_bounds(Sdirk *scheme, const double *predictor, double time, double scaled_step)
+{
+    const Interface *interface = scheme->interface;
+    const int32_t *dofs = scheme->system->interface_dofs;
+    scheme->reach = scaled_step;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        int32_t n = interface_normal(i);
+        scheme->bound[n] = -predictor[dofs[n]] / scaled_step;
+    }
+    for (int32_t j = 0; j < interface->rod_count; j++) {
+        int32_t x = interface_rod(interface, j);
+        scheme->bound[x] = rod_bound(scheme->rod, j, predictor[dofs[x]], time, scaled_step);
+    }
+}
+
+// Solves A v = rhs + r with the interface's conditions. *solved says whether contact was settled.
+static bool solve_stage(Sdirk *scheme, InterfaceOperator *rung, ContactSolution *contact, double *v,
+                        bool *solved, Error *err)
+{
+    const Interface *interface = scheme->interface;
+    TRY(interface_operator_condense(rung, scheme->rhs, scheme->g, err));
+    ContactProblem problem = {.interface = interface,
+                              .law = scheme->law,
+                              .rod_kind = scheme->rod->kind,
+                              .rod_softness = scheme->rod->softness,
+                              .rod_reach = scheme->reach + scheme->rod->lag,
+                              .schur = interface_operator_schur(rung),
+                              .g = scheme->g,
+                              .bound = scheme->bound};
+    *solved = contact_solve(&scheme->solver, &problem, contact);
+    if (!*solved) goto cleanup;
+    TRY(interface_operator_expand(rung, contact->velocity, v, err));
+    // What is held is held exactly, not to the rounding of the substitution.
+    for (int32_t k = 0; k < interface->count; k++)
+        v[scheme->system->interface_dofs[k]] = contact->velocity[k];
+cleanup:
+    return error_is_clean(err);
+}
+
+// y += factor x
+static void add_scaled(double factor, const double *x, int32_t count, double *y)
+{
+    for (int32_t k = 0; k < count; k++) y[k] += factor * x[k];
+}
+
+// Size of the local error of u, as stepping/tableau estimates it.
+static double estimate_error(Sdirk *scheme, const State *from, const State *to, double step)
+{
+    const Tableau *tableau = &scheme->tableau;
+    int32_t dofs = scheme->system->dof_count, stages = tableau->stages;
+    double *error = scheme->rhs;
+    for (int32_t k = 0; k < dofs; k++)
+        error[k] = step * (tableau->error[0] * from->velocity[k] +
+                           tableau->error[stages] * to->velocity[k]);
+    for (int32_t i = 0; i + 1 < stages; i++)
+        add_scaled(step * tableau->error[i + 1], scheme->stage_velocity + (int64_t)i * dofs, dofs,
+                   error);
+    return bulk_operator_size(scheme->system, error);
+}
+
+// scheme->viscous = C v of a stage that was solved, from its own equation: rhs + r - M v/(gamma dt)
+// - gamma dt K v. With M v at hand this costs one K v, which a reduced bulk has almost for nothing.
+static void find_viscous(Sdirk *scheme, const double *v, const double *momentum,
+                         const ContactSolution *contact, double scaled)
+{
+    const BulkOperator *system = scheme->system;
+    double *viscous = scheme->viscous;
+    bulk_operator_apply(system, BULK_STIFFNESS, v, viscous);
+    for (int32_t i = 0; i < system->dof_count; i++)
+        viscous[i] = scheme->rhs[i] - momentum[i] / scaled - scaled * viscous[i];
+    for (int32_t k = 0; k < system->interface_count; k++)
+        viscous[system->interface_dofs[k]] += contact->reaction[k];
+}
+
+// Largest |M a + C v + K u - f - r|, C v computed for it.
+static double end_residual(const Sdirk *scheme, const State *to)
+{
+    const BulkOperator *system = scheme->system;
+    double *viscous = scheme->viscous;
+    bulk_operator_apply(system, BULK_DAMPING, to->velocity, viscous);
+    for (int32_t k = 0; k < to->dof_count; k++)
+        viscous[k] += to->inertia[k] + to->elastic_force[k] - system->load[k];
+    for (int32_t k = 0; k < to->interface_count; k++)
+        viscous[system->interface_dofs[k]] -= to->reaction[k];
+    return dense_max_abs(viscous, to->dof_count);
+}
+
+// The contact as it was, a first guess for the stages.
+static void guess_contact(const State *from, State *to)
+{
+    size_t bytes = (size_t)from->interface_count * sizeof(double);
+    memcpy(to->status, from->status, (size_t)from->contact_count);
+    memcpy(to->rod_touches, from->rod_touches, (size_t)from->rod_count);
+    memcpy(to->slip_rate, from->slip_rate, bytes);
+    memcpy(to->reaction, from->reaction, bytes);
+}
+
+// A step on its way: the rung's step and matrix, and where it starts and ends.
+typedef struct Trial {
+    double step, scaled;   // dt, gamma dt
+    InterfaceOperator *condensed;
+    const State *from;
+    State *to;
+    StepOutcome *outcome;
+} Trial;
+
+// What stage i starts from: u_i* in scheme->predictor, K u_i* in scheme->force and M w_i in
+// to->inertia.
+static void start_stage(Sdirk *scheme, const Trial *trial, int32_t i)
+{
+    const State *from = trial->from;
+    int32_t dofs = from->dof_count;
+    size_t bytes = (size_t)dofs * sizeof(double);
+    memcpy(scheme->predictor, from->displacement, bytes);
+    memcpy(trial->to->inertia, from->momentum, bytes);
+    for (int32_t j = 0; j < i; j++) {
+        double weight = scheme->tableau.a[i][j];
+        const double *velocity = scheme->stage_velocity + (int64_t)j * dofs;
+        const double *impulse = scheme->stage_impulse + (int64_t)j * dofs;
+        add_scaled(trial->step * weight, velocity, dofs, scheme->predictor);
+        add_scaled(weight, impulse, dofs, trial->to->inertia);
+    }
+    if (i == 0)
+        memcpy(scheme->force, from->elastic_force, bytes);
+    else
+        bulk_operator_apply(scheme->system, BULK_STIFFNESS, scheme->predictor, scheme->force);
+}
+
+// The last stage is the end of the step: everything else that the state holds.
+static void end_step(Sdirk *scheme, const Trial *trial)
+{
+    const BulkOperator *system = scheme->system;
+    State *to = trial->to;
+    to->time = trial->from->time + trial->step;
+    for (int32_t k = 0; k < to->dof_count; k++) {
+        to->displacement[k] = scheme->predictor[k] + trial->scaled * to->velocity[k];
+        to->inertia[k] = (to->momentum[k] - to->inertia[k]) / trial->scaled;
+        trial->outcome->load_work += system->load[k] *
+                                     (to->displacement[k] - trial->from->displacement[k]);
+    }
+    bulk_operator_apply(scheme->system, BULK_STIFFNESS, to->displacement, to->elastic_force);
+}
+
+// Stage i: v_i, and what later stages and the ledger need of it.
+static bool solve_one_stage(Sdirk *scheme, const Trial *trial, int32_t i, Error *err)
+{
+    BulkOperator *system = scheme->system;
+    const Tableau *tableau = &scheme->tableau;
+    State *to = trial->to;
+    int32_t dofs = system->dof_count, count = to->interface_count;
+    bool last = i + 1 == tableau->stages;
+    double *velocity = last ? to->velocity : scheme->stage_velocity + (int64_t)i * dofs;
+    double *momentum = last ? to->momentum : scheme->stage_impulse + (int64_t)i * dofs;
+    ContactSolution contact = {.velocity = to->slip_rate,
+                               .reaction = to->reaction,
+                               .status = to->status,
+                               .rod_touches = to->rod_touches};
+    start_stage(scheme, trial, i);
+    for (int32_t k = 0; k < dofs; k++)
+        scheme->rhs[k] = to->inertia[k] / trial->scaled + system->load[k] - scheme->force[k];
+    fill_bounds(scheme, scheme->predictor, trial->from->time + tableau->c[i] * trial->step,
+                trial->scaled);
+    TRY(solve_stage(scheme, trial->condensed, &contact, velocity, &trial->outcome->solved, err));
+    if (!trial->outcome->solved) goto cleanup;
+    bulk_operator_apply(system, BULK_MASS, velocity, momentum);
+    find_viscous(scheme, velocity, momentum, &contact, trial->scaled);
+    trial->outcome->power[i] =
+        energy_stage(scheme->interface, velocity, scheme->viscous, dofs, &contact);
+    if (last) {
+        end_step(scheme, trial);
+        goto cleanup;
+    }
+    for (int32_t k = 0; k < dofs; k++)
+        momentum[k] = (momentum[k] - to->inertia[k]) / tableau->gamma;
+    memcpy(scheme->stage_reaction + (int64_t)i * count, to->reaction,
+           (size_t)count * sizeof(double));
+cleanup:
+    return error_is_clean(err);
+}
+
+bool sdirk_step(Sdirk *scheme, int32_t k, const State *from, State *to, StepOutcome *outcome,
+                Error *err)
+{
+    *outcome = (StepOutcome){0};
+    Trial trial = {.step = ladder_step(scheme->ladder, k),
+                   .scaled = ladder_reach(scheme->ladder, k),
+                   .condensed = ladder_rung(scheme->ladder, k, err),
+                   .from = from,
+                   .to = to,
+                   .outcome = outcome};
+    if (!trial.condensed) goto cleanup;
+    guess_contact(from, to);
+    for (int32_t i = 0; i < scheme->tableau.stages; i++) {
+        TRY(solve_one_stage(scheme, &trial, i, err));
+        if (!outcome->solved) goto cleanup;
+    }
+    outcome->error = estimate_error(scheme, from, to, trial.step);
+    bool audited = scheme->steps++ % AUDIT_EVERY == 0;
+    outcome->residual = audited ? end_residual(scheme, to) : 0;
+cleanup:
+    return error_is_clean(err);
+}
+
+void sdirk_add_energy(const Sdirk *scheme, const StepOutcome *outcome, double step,
+                      EnergyLedger *ledger)
+{
+    int32_t stages = scheme->tableau.stages;
+    for (int32_t i = 0; i < stages; i++) {
+        double weight = step * scheme->tableau.a[stages - 1][i];
+        ledger->rod_work += weight * outcome->power[i].rod;
+        ledger->viscous += weight * outcome->power[i].viscous;
+        ledger->frictional += weight * outcome->power[i].frictional;
+    }
+    ledger->load_work += outcome->load_work;
+}

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// One step of a singly diagonally implicit, stiffly accurate Runge-Kutta scheme (stepping/tableau;
+// Hairer and Wanner, Solving ODEs II, IV.6) on M v' + C v + K u = f + r, u' = v, in velocities:
+//
+//     stage i:   A v_i = M w_i/(gamma dt) + f - K u_i* + r_i,   A = M/(gamma dt) + C + gamma dt K
+//                u_i* = u_n + dt sum_j<i a_ij v_j
+//                w_i  = v_n + dt sum_j<i a_ij a_j,              a_j = (v_j - w_j)/(gamma dt)
+//
+// Contact, friction and rod hold at each stage, hence at the end of the step, which is the last
+// stage. Called by stepping/step_control.
+#ifndef AMONTONS_STEPPING_SDIRK_H
+#define AMONTONS_STEPPING_SDIRK_H
+
+#include "contact/contact_solver.h"
+#include "stepping/energy.h"
+#include "stepping/ladder.h"
+#include "stepping/tableau.h"
+
+typedef struct Sdirk {
+    Tableau tableau;
+    BulkOperator *system;   // not owned, like the next four
+    Ladder *ladder;
+    const Interface *interface;
+    const FrictionLaw *law;
+    Rod *rod;
+    ContactSolver solver;   // owned, like all that follows
+    double *rhs, *force, *viscous;   // [dof_count] work
+    double *predictor;   // [dof_count] work: u_i*
+    double *g, *bound;   // [interface_count] work; bound: of the last stage
+    double reach;   // gamma dt of the last stage, time
+    // Of all stages but the last: v_i and dt M a_i [stages - 1, dof_count], r_i [stages - 1,
+    // interface_count].
+    double *stage_velocity, *stage_impulse, *stage_reaction;
+    int64_t steps;   // tried
+} Sdirk;
+
+typedef struct StepOutcome {
+    bool solved;   // false: a contact problem had no solution; `to` has no meaning
+    double error;   // size of the estimated local error of u (bulk_operator_size), length
+    double residual;   // |M a + C v + K u - f - r| at the end, largest component, force/width; only
+        // every 32nd step is looked at, the others say 0
+    StagePower power[TABLEAU_STAGES_MAX];   // of the stages
+    double load_work;   // of the step
+} StepOutcome;
+
+// Sets the ladder's gamma, before its first rung is built.
+bool sdirk_create(const Block *block, TableauKind kind, Ladder *ladder, Sdirk *scheme, Error *err);
+void sdirk_destroy(Sdirk *scheme);
+
+// From `from` with rung k of the ladder to `to`. false: a library failed (err says what); an
+// unsolved contact problem is no error but an outcome.
+bool sdirk_step(Sdirk *scheme, int32_t k, const State *from, State *to, StepOutcome *outcome,
+                Error *err);
+
+// Powers of the stages by the step's own weights.
+void sdirk_add_energy(const Sdirk *scheme, const StepOutcome *outcome, double step,
+                      EnergyLedger *ledger);
+
+#endif
