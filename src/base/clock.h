@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Wall time. Results never depend on it.
+// Wall time and processor time. Results never depend on them.
 #ifndef AMONTONS_BASE_CLOCK_H
 #define AMONTONS_BASE_CLOCK_H
 
 double clock_seconds(void);   // monotonic, from an arbitrary origin
+
+double clock_processor_seconds(void);   // user and system, of the process since it began
 
 #endif

@@ -48,6 +48,7 @@ static void write_timing(JsonWriter *json, const RunTiming *timing)
     json_number(json, "solve", timing->solve);
     json_number(json, "output", timing->output);
     json_number(json, "total", timing->total);
+    json_number(json, "outside_loop_cpu", timing->outside);
     json_end(json);
 }
 

@@ -19,6 +19,8 @@ typedef struct RunErrors {
 
 typedef struct RunTiming {
     double mesh, reduce, relax, solve, output, total;   // s
+    double outside;   // processor time of the process outside relaxation and time loop: what it
+        // takes to begin, and to report at the end, s
 } RunTiming;
 
 typedef struct RunModel {

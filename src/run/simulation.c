@@ -132,10 +132,13 @@ bool amontons_simulation_create(const Scene *scene, const RunOptions *options, S
     if (warning) warnings_add(&simulation->warnings, "%s", warning);
     warnings_of_resolution(&simulation->control.certificate, simulation->scales.load,
                            &simulation->warnings);
+    double begun = clock_processor_seconds();
     TRY(model_relax(simulation, err));
+    simulation->timing.outside -= clock_processor_seconds() - begun;
     TRY(explicit_loop_prepare(simulation, err));
     TRY(open_recorders(simulation, err));
     TRY(record_step(simulation, err));
+    simulation->timing.outside += clock_processor_seconds();
     simulation->allocations_before = memory_counters().allocations;
 cleanup:
     return error_is_clean(err);
@@ -177,6 +180,7 @@ static bool finish_run(Simulation *simulation, const Error *failure, RunSummary 
                        Error *err)
 {
     double started = clock_seconds();
+    simulation->timing.outside -= clock_processor_seconds();
     events_close(&simulation->events, &simulation->seen);
     simulation->errors.reduction = ladder_reduction_error(&simulation->control.ladder);
     PeaksSummary peaks = peaks_summarise(&simulation->peaks);
@@ -188,6 +192,7 @@ static bool finish_run(Simulation *simulation, const Error *failure, RunSummary 
     }
     simulation->timing.output += clock_seconds() - started;
     simulation->timing.total = clock_seconds() - simulation->started;
+    simulation->timing.outside += clock_processor_seconds();
     if (writes_results(simulation)) {
         RunReport report = {.scene = &simulation->scene,
                             .failure = failure,

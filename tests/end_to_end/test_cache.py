@@ -87,6 +87,9 @@ class SameBits(Cached):
         for key in made["model"].keys() - {"from_cache"}:
             self.assertEqual(read["model"][key], made["model"][key], key)
         self.assertEqual(read["timing_s"]["mesh"], 0)
+        outside = [run["timing_s"]["outside_loop_cpu"] for run in (made, read)]
+        self.assertLess(0, outside[1])
+        self.assertLess(2 * outside[1], outside[0])   # gmsh alone takes several times that
         self.assertTrue(all(run["model"]["cache_note"] is None for run in (uncached, made, read)))
 
     def test_fields(self):
