@@ -65,6 +65,7 @@ typedef struct StabilityOptions {
     int32_t slidings;              // the path begins when so many slidings, computed by time
                                    // stepping, have ended; 0: at the relaxed start
     bool whole;                    // follow the front to the end, also beyond l_c
+    bool at_end;                   // no path: the one state in which the scene's run ends
     const char *folder;            // for stability.json and stability.h5; NULL: none
     bool overwrite;
     StepCallback on_step;          // of the time stepping before the path; NULL: none

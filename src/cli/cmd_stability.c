@@ -50,7 +50,8 @@ static void read_options(int argc, char **argv, StabilityWords *words)
     static const struct argp_option known[] = {
         {"from", OPTION_FROM, "STATE", 0,
          "Where the path begins: `sliding`, when the block has come to rest after sliding (the "
-         "default), or `start`, the relaxed block",
+         "default), or `start`, the relaxed block. `end`: no path; the growth rates of the one "
+         "state in which the scene's run ends, with a rod or without",
          0},
         {"slidings", OPTION_SLIDINGS, "N", 0,
          "With --from sliding: after the N-th one, computed by time stepping (default: 2)", 0},
@@ -77,11 +78,14 @@ static int check_options(const StabilityWords *words, StabilityOptions *options)
 {
     int status = scene_words_check(&words->common, "stability", "validation/paper/fig1.yaml");
     if (status != 0) return status;
-    bool start = words->from && strcmp(words->from, "start") == 0;
+    options->at_end = words->from && strcmp(words->from, "end") == 0;
+    bool start = options->at_end || (words->from && strcmp(words->from, "start") == 0);
     if (words->from && !start && strcmp(words->from, "sliding") != 0)
-        return report_misuse("--from %s: allowed are sliding and start", words->from);
+        return report_misuse("--from %s: allowed are sliding, start and end", words->from);
     if (start && words->slidings)
-        return report_misuse("--slidings has no meaning with --from start");
+        return report_misuse("--slidings has no meaning with --from %s", words->from);
+    if (options->at_end && words->whole)
+        return report_misuse("--whole has no meaning with --from end, which follows no path");
     options->slidings = start ? 0 : SLIDINGS_STANDARD;
     if (words->slidings) {
         char *end = NULL;
@@ -196,7 +200,7 @@ int command_stability(int argc, char **argv)
     progress_end(&table.progress);
     if (!done)
         status = report_error(&err);
-    else if (!quiet)
+    else if (!quiet && !options.at_end)
         print_answers(&summary);
     amontons_scene_destroy(scene);
     return status;

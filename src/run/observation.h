@@ -26,6 +26,7 @@ typedef struct Observation {
     double energy_error;
     double moment_error;   // of all forces and inertia about the origin, relative to F_N L
     double moment_static_error;   // the same without inertia
+    double penetration;   // deepest contact node below the plane, length; 0: none
     double contact_error;   // largest violation of the contact conditions, relative
     double equation_error;   // largest residual of M a + C v + K u = f + r, relative to F_N
 } Observation;

@@ -170,6 +170,7 @@ static void write_errors(JsonWriter *json, const RunErrors *errors)
     json_begin_object(json, "errors");
     json_number(json, "energy", errors->energy);
     json_number(json, "complementarity", errors->complementarity);
+    json_number(json, "penetration", errors->penetration);
     json_number(json, "moment", errors->moment);
     json_number(json, "moment_quasi_static", errors->moment_quasi_static);
     json_number(json, "equation", errors->equation);

@@ -75,6 +75,7 @@ static bool record_step(Simulation *simulation, Error *err)
     RunErrors *errors = &simulation->errors;
     errors->energy = fmax(errors->energy, seen.energy_error);
     errors->complementarity = fmax(errors->complementarity, seen.contact_error);
+    errors->penetration = fmax(errors->penetration, seen.penetration);
     errors->equation = fmax(errors->equation, seen.equation_error);
     // What supports take up is not known here: no balance of moments with them.
     bool balances = scene_supports_nothing(simulation);

@@ -27,9 +27,10 @@ static double friction_slip(const Simulation *simulation)
            simulation->material.young;
 }
 
-static bool check_scene(const Scene *scene, Error *err)
+static bool check_scene(const Scene *scene, const StabilityOptions *options, Error *err)
 {
-    if (scene->rod.kind == ROD_NONE || !(scene->rod.velocity > 0))
+    bool driven = scene->rod.kind != ROD_NONE && scene->rod.velocity > 0;
+    if (!options->at_end && !driven)
         FAIL(err, ERROR_INPUT,
              "%s: stability follows the slip that a rod drives: rod.velocity must be above 0 and "
              "rod.kind push or bonded",
@@ -100,9 +101,9 @@ static bool open_path(StabilityPath *path, Error *err)
     for (int32_t j = 0; j < interface->rod_count; j++) simulation->rod.origin[j] += path->U_start;
     simulation->rod.velocity = slip / step;
     step_control_restart(&path->control);
-    GrowthDef growth = growth_def(simulation->model.length,
-                                  material_speeds(&simulation->material).longitudinal,
-                                  interface->contact_count);
+    double speed = material_speeds(&simulation->material).longitudinal;
+    GrowthDef growth = growth_def(simulation->model.length, speed, interface->contact_count);
+    growth.slowest = fmin(growth.slowest, speed / (4 * simulation->model.height));   // a tall one
     path->growth = growth_create(&block, &growth, err);
     path->room = interface->contact_count + 2;
     path->points = NEW_ARRAY(StabilityPoint, path->room, err);
@@ -171,6 +172,27 @@ static bool add_point(StabilityPath *path, const Observation *seen, Error *err)
     path->count++;
     path->seconds_growth += clock_seconds() - started;
     if (path->options->on_point) path->options->on_point(point, path->options->context);
+cleanup:
+    return error_is_clean(err);
+}
+
+// The one state in which the scene's run ends.
+static bool take_end(StabilityPath *path, Error *err)
+{
+    Simulation *simulation = path->simulation;
+    bool finished = false;
+    while (!finished) {
+        if (stop_wanted(path, err)) goto cleanup;
+        TRY(amontons_simulation_step(simulation, NULL, &finished, err));
+    }
+    Observation seen = simulation->seen;
+    TRY(open_path(path, err));
+    state_copy(&simulation->control.now, &path->last);
+    if (count_slipping(&path->last) == 0)
+        FAIL(err, ERROR_INPUT, "%s: nothing slips at the scene's end, t = %g: nothing can grow",
+             simulation->scene.path, seen.t);
+    seen.U = 0;   // add_point counts from where the path begins
+    TRY(add_point(path, &seen, err));
 cleanup:
     return error_is_clean(err);
 }
@@ -260,7 +282,8 @@ static double frequency_square(const StabilityPath *path, int32_t k)
 static StabilityPoint first_loss(const StabilityPath *path, Margin margin)
 {
     StabilityPoint lost = {.front = NAN, .U = NAN, .mu = NAN, .rate_im = NAN};
-    for (int32_t k = 0; k < path->count; k++) {
+    int32_t count = path->options->at_end ? 0 : path->count;   // one state has no path
+    for (int32_t k = 0; k < count; k++) {
         double after = margin(path, k), before = k > 0 ? margin(path, k - 1) : 0;
         if (!(after >= 0)) continue;
         lost = path->points[k];
@@ -325,14 +348,18 @@ bool amontons_stability(const Scene *scene, const StabilityOptions *options,
     StabilityPath path = {.options = options, .critical = -1, .at_rod = -1};
     double started = clock_seconds();
     *summary = (StabilitySummary){.l_c = NAN, .mu_c = NAN};
-    TRY(check_scene(scene, err));
+    TRY(check_scene(scene, options, err));
     if (options->folder) TRY(result_folder_prepare(options->folder, options->overwrite, err));
     RunOptions run = {.on_step = options->on_step, .context = options->context};
     TRY(amontons_simulation_create(scene, &run, &path.simulation, err));
-    TRY(run_slidings(&path, err));
+    if (!options->at_end) TRY(run_slidings(&path, err));
     double before = clock_seconds();
-    TRY(open_path(&path, err));
-    TRY(follow_path(&path, err));
+    if (options->at_end) {
+        TRY(take_end(&path, err));
+    } else {
+        TRY(open_path(&path, err));
+        TRY(follow_path(&path, err));
+    }
     summarise(&path, summary);
     TRY(stability_measure_pads(&path, summary, err));
     summary->seconds_before = before - started;

@@ -149,7 +149,7 @@ class Refusals(InFolder):
             self.assertIn(part, done.stderr)
 
     def test_words(self):
-        self.assert_refused(["--from", "peak"], "--from peak: allowed are sliding and start")
+        self.assert_refused(["--from", "peak"], "--from peak: allowed are sliding, start and end")
         for count in ("0", "x", "2.5", "1e9", ""):
             self.assert_refused(["--slidings", count], "a whole number from 1 to 1000")
         self.assert_refused(["--slidings", "2", "--from", "start"], "no meaning with --from start")
