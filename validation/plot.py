@@ -4,7 +4,7 @@ import subprocess
 
 import numpy as np
 
-from harness import PROGRAM
+from harness import PROGRAMS
 
 
 def draw(chart, path):
@@ -14,7 +14,7 @@ def draw(chart, path):
         good = np.isfinite(x) & np.isfinite(y) & ((x > 0) & (y > 0) if chart.logarithmic else True)
         lines.append(f"{good.sum()} {name}")
         lines += [f"{a:.17g} {b:.17g}" for a, b in zip(x[good], y[good])]
-    done = subprocess.run([PROGRAM.parent / "amontons_chart", path], input="\n".join(lines) + "\n",
+    done = subprocess.run([PROGRAMS / "amontons_chart", path], input="\n".join(lines) + "\n",
                           capture_output=True, text=True)
     if done.returncode:
         raise RuntimeError(done.stderr)

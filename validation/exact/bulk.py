@@ -5,19 +5,11 @@ from pathlib import Path
 
 import numpy as np
 
-from harness import Chart, Control, Row, Run, Static, observed_order, relative
+from harness import ELEMENTS, Chart, Run, Static, mesh_set, observed_order, relative
 
 HERE = Path(__file__).resolve().parent
 GROUP = "exact bulk"
-ELEMENTS = {"T3": ("triangle", 1, 0), "T6": ("triangle", 2, 0), "Q4": ("quad", 1, 0),
-            "Q8": ("quad", 2, 1), "Q9": ("quad", 2, 0)}
 NU, PRESSURE = 0.34, 0.003
-
-
-def mesh_set(element, **more):
-    shape, order, incomplete = ELEMENTS[element]
-    values = {"shape": shape, "order": order, "incomplete": incomplete, **more}
-    return "{" + ", ".join(f"{k}: {v}" for k, v in values.items()) + "}"
 
 
 # --- patch test -----------------------------------------------------------------------------------
@@ -47,9 +39,11 @@ def creep_exact(points, t):
 
 
 def creep_error(study, step, element="Q4"):
+    """The ledger is off by 2 % of the step, relaxation times being 1.3 and 2: the first step after a
+    load that is put on at once."""
     run = Run(study, HERE / "creep.yaml", "creep",
               {"time.step_max": step, "time.step_min": step,
-               "mesh.set": mesh_set(element, length=1, height=0.5, nx=4, nz=4)}, energy=0.1)
+               "mesh.set": mesh_set(element, length=1, height=0.5, nx=4, nz=4)}, ledger=2e-2 * step)
     worst, largest = 0, 0
     for t, points, u, _ in run.frames():
         exact = creep_exact(points, t)
@@ -63,20 +57,8 @@ def creep(study):
     order = observed_order(steps, errors)
     study.add(GROUP, "creep, SDIRK2", "displacement to t = 4, all nodes", "exact",
               f"dt = {steps[-1]:g}", errors[-1], 1e-4, order="2 expected", seen=order, least=1.85)
-    study.add(GROUP, "creep, SDIRK2", "order in time, smooth", 2, order, abs(order - 2), 0.15)
     study.charts.append(Chart("order-in-time", "Creep: error against step", "dt", "relative error",
                               {"SDIRK2": (steps, errors)}, logarithmic=True))
-    study.controls.append(Control(GROUP, "creep without eta2", Row(
-        GROUP, "creep", "displacement", "", "", creep_without_eta2(study, steps[-1]), 1e-4)))
-
-
-def creep_without_eta2(study, step):
-    """The block solved without the viscous coupling, against the exact solution with it."""
-    run = Run(study, HERE / "creep.yaml", "creep-wrong",
-              {"time.step_max": step, "time.step_min": step, "material.eta2": 0}, energy=0.1)
-    frames = list(run.frames())
-    exact = [creep_exact(points, t) for t, points, _, _ in frames]
-    return max(relative(u, e) for (_, _, u, _), e in zip(frames[1:], exact[1:]))
 
 
 # --- damped waves ---------------------------------------------------------------------------------
@@ -98,11 +80,13 @@ WAVES = {"longitudinal": ("wave.yaml", 1 / (1 - NU**2), 0.2, 1, -1),
 
 
 def wave_error(study, kind, element, cells, step, layout="regular"):
+    """A load put on at once excites all waves that the mesh carries; those shorter than the step are
+    damped by the integrator and not by eta, which the ledger shows: 2 % on the finest meshes."""
     scene, modulus, eta, component, sign = WAVES[kind]
     run = Run(study, HERE / scene, f"wave-{element}-{cells}",
               {"mesh.set": mesh_set(element, length=0.25, height=1, nx=max(cells // 4, 1), nz=cells,
                                     layout=layout),
-               "time.step_max": step, "time.step_min": step}, energy=0.1)
+               "time.step_max": step, "time.step_min": step}, ledger=2.5e-2)
     t, points, u, _ = list(run.frames())[-1]
     exact = sign * column_exact(points[:, 1], t, modulus, eta)
     return float(np.sqrt(np.mean((u[:, component] - exact) ** 2) / np.mean(exact**2)))
@@ -122,26 +106,34 @@ def waves(study):
                       for c in cells]
             order = observed_order([1 / c for c in cells], errors)
             # Lumping the mass positively (in proportion to int N^2) leaves order 2 to T6 and Q8; on
-            # Q9 it is Simpson's rule.
+            # Q9 it is Simpson's rule, and errors of 1e-7 come near those of the steps.
             expected = 3 if element == "Q9" else 2
             study.add(GROUP, f"damped {kind} wave, {element}",
                       f"displacement at every node, {cells[-1]} cells", "exact series",
                       f"{errors[-1]:.2e}", errors[-1], 1e-3 if high else 5e-3,
-                      order=f"{expected} expected", seen=order, least=expected - 0.4)
+                      order=f"{expected} expected", seen=order,
+                      least=2.6 if element == "Q9" else 1.85)
             curves[element] = ([1 / c for c in cells], errors)
             table[kind, element] = order
         study.charts.append(Chart(f"order-in-space-{kind}", f"Damped {kind} wave: error against cell",
                                   "h / H", "relative error", curves, logarithmic=True))
-    _, modulus, eta, component, sign = WAVES["longitudinal"]
-    run = Run(study, HERE / "wave.yaml", "wave-control", {"mesh.set": mesh_set(
-        "Q4", length=0.25, height=1, nx=4, nz=16)}, energy=0.1)
-    t, points, u, _ = list(run.frames())[-1]
-    wrong = -column_exact(points[:, 1], t, modulus, 0.05)
-    study.controls.append(Control(GROUP, "wave damped by eta1/2 in place of eta1 + eta2", Row(
-        GROUP, "wave", "displacement", "", "", relative(u[:, 1], wrong), 5e-3)))
+
+
+def longitudinal_and_shear(study, element="Q4"):
+    for kind in WAVES:
+        error = wave_error(study, kind, element, 16, 2e-3)
+        study.add(GROUP, f"damped {kind} wave, {element}", "displacement at every node, 16 cells",
+                  "exact series", f"{error:.2e}", error, 5e-3)
+
+
+def controls(study):
+    study.control(GROUP, "wrong-plane", "moduli of plane strain in plane stress", patch)
+    study.control(GROUP, "viscous-sign", "wrong sign of the viscous coupling of xx and zz", creep)
+    study.control(GROUP, "shear-viscosity", "eta1 in place of eta1/2 in shear", longitudinal_and_shear)
 
 
 def run(study):
     patch(study)
     creep(study)
     waves(study)
+    controls(study)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from harness import Control, Row, Run
+from harness import Run
 
 HERE = Path(__file__).resolve().parent
 GROUP = "wave speeds"
@@ -28,14 +28,15 @@ def closed_forms(plane):
 
 def front_speed(study, plane, name, exact, cells):
     """Behind the front of a traction put on at once stands the velocity sigma/(rho c): its half is
-    followed from a quarter of the column to seven eighths."""
+    followed from a quarter of the column to seven eighths. The ledger misses what the integrator
+    damps of waves shorter than its steps, 1 %."""
     scene, component = {"c_L": ("wave.yaml", 1), "c_S": ("shear_wave.yaml", 0)}[name]
     step = 0.5 / cells
     run = Run(study, HERE / scene, f"front-{name}", {
         "mesh.set": f"{{length: {2 / cells}, height: 1, nx: 2, nz: {cells}}}",
         "material.plane": plane, "material.eta1": 2e-3, "material.eta2": 0,
         "time.until.t": 0.9 / exact, "time.step_max": step, "time.step_min": step,
-        "output.fields": "{every_t: 0.05}", "reduction.use": "never"}, energy=0.1)
+        "output.fields": "{every_t: 0.05}", "reduction.use": "never"}, ledger=2e-2)
     times, places, half = [], [], TRACTION / exact / 2
     for t, x, _, v in run.frames():
         side = np.nonzero(x[:, 0] == 0)[0]
@@ -54,7 +55,7 @@ def surface_speed(study, plane, cells):
     the strip's shape that runs with c_R. Its middle, between its two half heights, is followed."""
     run = Run(study, HERE / "surface_wave.yaml", "surface", {
         "mesh.set.cells": cells, "material.plane": plane, "time.step_max": 0.2 / cells,
-        "time.step_min": 0.2 / cells}, energy=0.1)
+        "time.step_min": 0.2 / cells}, ledger=1e-2)
     times, places = [], []
     for t, x, _, v in run.frames():
         top = np.nonzero(x[:, 1] == 1)[0]
@@ -98,9 +99,14 @@ def run(study):
             study.add(GROUP, f"pulse along a free surface, plane {plane}", "error falls with the mesh",
                       "each smaller than the one before", ", ".join(f"{e:.1e}" for e in errors),
                       max(errors[1] / errors[0], errors[2] / errors[1]), 1)
-        study.controls.append(Control(GROUP, f"c_S in place of c_R, plane {plane}", Row(
-            GROUP, "pulse", "c_R", "", "", abs(speeds[-1] / exact["c_S"] - 1), 2e-2)))
-    ours = front_speed(study, "stress", "c_L", closed_forms("stress")["c_L"], 200)
-    wrong = closed_forms("strain")["c_L"]
-    study.controls.append(Control(GROUP, "plane strain's c_L in plane stress", Row(
-        GROUP, "front", "c_L", "", "", abs(ours / wrong - 1), 1e-3)))
+    study.control(GROUP, "wrong-plane", "moduli of plane strain in plane stress and the reverse", planes)
+
+
+def planes(study):
+    """c_L and c_R of both planes on coarse meshes: what a wrong modulus must be seen on."""
+    for plane in ("stress", "strain"):
+        exact = closed_forms(plane)
+        for name, ours, allowed in (("c_L", front_speed(study, plane, "c_L", exact["c_L"], 200), 1e-3),
+                                    ("c_R", surface_speed(study, plane, 40), 1e-2)):
+            study.add(GROUP, f"plane {plane}", name, exact[name], ours, abs(ours / exact[name] - 1),
+                      allowed)

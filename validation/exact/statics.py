@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Published and exact equilibria with friction: SSNV128, SSNV503, Hertz, Cattaneo and Mindlin."""
-import subprocess
 from pathlib import Path
 
 import numpy as np
 
-from harness import PROGRAM, Chart, Control, Row, Run, Static, observed_order, relative
+from harness import Chart, Refused, Run, Static, relative, schemes
 
 HERE = Path(__file__).resolve().parent
 GROUP = "published statics"
@@ -14,6 +13,7 @@ GROUP = "published statics"
 SSNV128_X = [0, 0.00125, 0.005, 0.0075, 0.01125]
 SSNV128_MEAN = [2.86e-5, 2.72e-5, 2.28e-5, 1.98e-5, 1.50e-5]
 SSNV128_ASTER = [2.8649e-5, 2.7269e-5, 2.2924e-5, 1.9929e-5, 1.5609e-5]
+SSNV128_LIFT = [6.8e-7, 3.6e-7]   # u_y at the first two
 SSNV128_FREEFEM = {32: [2.8521e-5, 2.7147e-5, 2.2808e-5, 1.9771e-5, 1.5389e-5],
                    64: [2.8578e-5, 2.7203e-5, 2.2848e-5, 1.9795e-5, 1.5405e-5]}
 
@@ -26,6 +26,9 @@ def ssnv128_state(study, shape, cells, **sets):
 
 
 def ssnv128(study):
+    """Three meshes against what other codes found. Contact by penalty and where exactly the last node
+    sticks move u_x by more and more towards the middle: code_aster's last value stands 4 % from the
+    mean of codes, hence 1.5 % allowed against it; FreeFEM's are met ten times better."""
     for shape, cells in (("quad", 32), ("triangle", 32), ("triangle", 64)):
         if study.quick and cells > 32:
             continue
@@ -35,44 +38,58 @@ def ssnv128(study):
         source = "code_aster Q4" if shape == "quad" else f"FreeFEM P1 {cells}x{cells}"
         for x, r, mean, mine in zip(SSNV128_X, reference, SSNV128_MEAN, u):
             study.add(GROUP, name, f"u_x at x = {x:g}, against {source}", f"{r:.4e}", f"{mine:.4e}",
-                      abs(mine / r - 1), 0.015, note=f"mean of codes {mean:.2e}: "
+                      abs(mine / r - 1), 0.015 if shape == "quad" else 3e-3, note=f"mean of codes {mean:.2e}: "
                       f"{abs(mine / mean - 1):.1%} off")
         study.add(GROUP, name, "normal resultant", 2.0e6, ours.results["normal_force"],
                   abs(ours.results["normal_force"] / 2e6 - 1), 1e-9)
-        lifted = ours.displacement[ours.contact[:2], 1]
-        study.add(GROUP, name, "u_y of the two leftmost nodes: lift off", "6.8e-7, 3.6e-7",
-                  "{:.1e}, {:.1e}".format(*lifted), 0 if min(lifted) > 0 else 1, 0,
-                  note="how many more nodes open depends on the mesh")
-    _, wrong = ssnv128_state(study, "quad", 32, **{"material.plane": "stress"})
-    study.controls.append(Control(GROUP, "SSNV128 in plane stress", Row(
-        GROUP, "SSNV128", "u_x", "", "", float(np.abs(wrong / SSNV128_ASTER - 1).max()), 0.015)))
-    _, wrong = ssnv128_state(study, "quad", 32, **{"friction.mu_static": 0.9})
-    study.controls.append(Control(GROUP, "SSNV128 with friction 0.9 in place of 1", Row(
-        GROUP, "SSNV128", "u_x", "", "", float(np.abs(wrong / SSNV128_ASTER - 1).max()), 0.015)))
+        lifted = np.interp(SSNV128_X[:2], ours.position[ours.contact, 0],
+                           ours.displacement[ours.contact, 1])
+        study.add(GROUP, name, "u_y at x = 0 and 0.00125: lift off", "6.8e-7, 3.6e-7",
+                  "{:.1e}, {:.1e}".format(*lifted), relative(lifted, SSNV128_LIFT), 0.15,
+                  note="our own meshes are 8 % apart")
 
 
-def ssnv128_in_time(study):
-    """SDIRK2 until all is at rest. exp(-20) = 2e-9 is left; error control allows somewhat more."""
-    rest, _ = ssnv128_state(study, "quad", 32)
-    run = Run(study, HERE / "ssnv128_run.yaml", "ssnv128-run")
+# Of the explicit integrator's material: viscous times and waves that its steps can resolve. The
+# slower the waves, the fewer the steps, and the more inertia makes of the path by which the static
+# state is reached (1e-1 of u_x at 2e14, 4e-3 at 5e13, 2e-5 at 1e13 kg/m^3).
+DENSITY = 1e13
+# What its ledger may miss: a load that is put on at once hits the base, whose nodes lose their energy.
+HIT = 1e-2
+
+
+def ssnv128_in_time(study, scheme, cells):
+    """A time integrator until all is at rest; exp(-20) = 2e-9 of the way is left. Its static limit is
+    compared with `amontons static`, which knows no time, on the same mesh, and with the published one."""
+    rest, _ = ssnv128_state(study, "quad", cells)
+    explicit = scheme == "explicit"
+    sets = {"mesh.set": f"{{length: 0.04, height: 0.04, nx: {cells}, nz: {cells}, shape: quad}}",
+            "time.scheme": scheme}
+    if explicit:
+        sets |= {"material.density": DENSITY, "time.energy_tolerance": HIT}
+    run = Run(study, HERE / "ssnv128_run.yaml", f"ssnv128-{scheme}", sets, ledger=HIT if explicit else 1e-3)
     u, r = rest.displacement[rest.contact], rest.reaction[rest.contact]
     slip, force = run["slip"][-1], run["pressure"][-1] * run["weight"]
-    study.add(GROUP, "SSNV128, SDIRK2 in time", "u_x of the contact, against the static result",
-              float(u[0, 0]), float(slip[0]), relative(slip, u[:, 0]), 1e-5,
-              note="code_aster {:.4e}; {} steps".format(SSNV128_ASTER[0], run.report["steps"]["accepted"]))
-    study.add(GROUP, "SSNV128, SDIRK2 in time", "normal reactions, against the static result",
-              float(r[:, 1].sum()), float(force.sum()), relative(force, r[:, 1]), 1e-5)
-    study.add(GROUP, "SSNV128, SDIRK2 in time", "nodes lifted off", int((u[:, 1] > 0).sum()),
-              int((run["status"][-1] == 0).sum()),
-              abs(int((u[:, 1] > 0).sum()) - int((run["status"][-1] == 0).sum())), 0)
+    # Steps under error control, or inertia's part in the path: what is left of either.
+    case, allowed = f"SSNV128, {scheme}, Q4 {cells}x{cells}", 1e-4 if explicit else 1e-5
+    steps = run.report["steps"]["accepted"]
+    study.add(GROUP, case, "u_x of all contact nodes, against `amontons static`", float(u[0, 0]),
+              float(slip[0]), relative(slip, u[:, 0]), allowed, note=f"consistency; {steps} steps")
+    study.add(GROUP, case, "normal reactions, against `amontons static`", float(r[:, 1].sum()),
+              float(force.sum()), relative(force, r[:, 1]), allowed, note="consistency")
+    lifted = int((u[:, 1] > 0).sum()), int((run["status"][-1] == 0).sum())
+    study.add(GROUP, case, "nodes lifted off", *lifted, abs(lifted[0] - lifted[1]), 0, note="consistency")
+    mine = np.interp(SSNV128_X, rest.position[rest.contact, 0], slip)
+    for x, reference, ours in zip(SSNV128_X, SSNV128_ASTER, mine):
+        study.add(GROUP, case, f"u_x at x = {x:g}, against code_aster Q4", f"{reference:.4e}", f"{ours:.4e}",
+                  abs(ours / reference - 1), 0.015)
+    study.add(GROUP, case, "normal resultant", 2.0e6, float(force.sum()), abs(force.sum() / 2e6 - 1), 1e-6)
+    if explicit:
+        return
     k = int(np.argmin(np.abs(run["time"] - 1)))
     grown = 1 - np.exp(-run["time"][k])
-    study.add(GROUP, "SSNV128, SDIRK2 in time", f"u_x at t = {run['time'][k]:.3f}: static (1 - exp(-t))",
+    study.add(GROUP, case, f"u_x at t = {run['time'][k]:.3f}: static (1 - exp(-t))",
               float(u[0, 0] * grown), float(run["slip"][k, 0]), relative(run["slip"][k], u[:, 0] * grown),
-              1e-3)
-    wrong = Run(study, HERE / "ssnv128_run.yaml", "ssnv128-short", {"time.until.t": 5})["slip"][-1]
-    study.controls.append(Control(GROUP, "SSNV128 in time, stopped before it rests", Row(
-        GROUP, "SSNV128", "u_x", "", "", relative(wrong, u[:, 0]), 1e-5)))
+              1e-3, note="all grow alike, waves being far faster")
 
 
 def threshold(study):
@@ -81,18 +98,44 @@ def threshold(study):
     study.add(GROUP, "SSNV503", "0.99 mu N: shear carried", 3564, -held.results["shear_force"],
               abs(held.results["shear_force"] / -3564 - 1), 1e-9,
               note="{sticking} stick, {slipping} slip".format(**held.results))
-    over = subprocess.run([PROGRAM, "static", HERE / "threshold.yaml", "-q", "--set",
-                           "load.tractions=[{group: top, x: 3636, z: 0}]"], capture_output=True, text=True)
-    study.add(GROUP, "SSNV503", "1.01 mu N: refused, nothing holds the block", "exit status 1",
-              f"exit status {over.returncode}", 0 if over.returncode == 1 else 1, 0)
+    study.add(GROUP, "SSNV503", "0.99 mu N: something sticks", "yes",
+              "yes" if held.results["sticking"] else "no", 0 if held.results["sticking"] else 1, 0)
+    try:
+        Static(study, HERE / "threshold.yaml", "threshold-over",
+               {"load.tractions": "[{group: top, x: 3636, z: 0}]"})
+        found = "an equilibrium"
+    except Refused as error:
+        found = "none: exit status 1" if "no equilibrium was found" in str(error) else str(error)[-60:]
+    study.add(GROUP, "SSNV503", "1.01 mu N: equilibrium", "none: exit status 1", found,
+              0 if found.startswith("none") else 1, 0)
     pushed = Static(study, HERE / "threshold.yaml", "threshold-rod",
                     {"rod": "{kind: bonded, displacement: 1e-3}", "load.tractions": "[]"})
     study.add(GROUP, "SSNV503", "force on a rod that slides the block", 3600,
               pushed.results["rod_force"], abs(pushed.results["rod_force"] / 3600 - 1), 1e-9)
-    run = Run(study, HERE / "threshold_run.yaml", "threshold-run", energy=1)
-    last = float(run["rod_force"][-1])
-    study.add(GROUP, "SSNV503, SDIRK2 in time", "force of the rod once all slides", 3600, last,
-              abs(last / 3600 - 1), 1e-4)
+
+
+def threshold_in_time(study, scheme):
+    """The same loads in time, all put on at once and viscosity such that nothing overshoots: 0.99 mu N
+    comes to rest and is carried, 1.01 mu N slides off with the acceleration of what is left over,
+    (3636 - 3600)/m, and transmits exactly mu N."""
+    mass, case = 1e8 * 0.5, f"SSNV503, {scheme}"
+    for share in (0.99, 1.01):
+        sets = {"time.scheme": scheme, "load.tractions": f"[{{group: top, x: {share * 3600}, z: 0}}]"}
+        run = Run(study, HERE / "threshold_run.yaml", f"threshold-{scheme}", sets, ledger=3e-2)
+        weight = run["weight"]
+        shear = float((run["shear"][-1] * weight).sum())
+        speed = run["slip_rate"].astype(float) @ weight / weight.sum()
+        if share < 1:
+            creeping = float(np.abs(run["slip_rate"][-1]).max())
+            study.add(GROUP, case, "0.99 mu N: shear carried at the end", 3564, shear, abs(shear / 3564 - 1),
+                      1e-5)
+            study.add(GROUP, case, "0.99 mu N: largest slip rate at the end", 0, creeping, creeping, 1e-12,
+                      note="absolute; exp(-20) of the first one is 1e-15")
+            continue
+        late = run["time"] > 0.75 * run["time"][-1]
+        rate = np.polyfit(run["time"][late], speed[late], 1)[0]
+        study.add(GROUP, case, "1.01 mu N: shear transmitted", 3600, shear, abs(shear / 3600 - 1), 1e-6)
+        study.add(GROUP, case, "1.01 mu N: acceleration", 36 / mass, rate, abs(rate * mass / 36 - 1), 1e-3)
 
 
 # --- line contact ---------------------------------------------------------------------------------
@@ -126,19 +169,35 @@ def line_contact(study):
               errors["a"][-1], 5e-3, note=f"limited by the size of the block, H = 23 a; largest pressure {2 * FORCE / np.pi / ours_a:.5f}, "
               f"exact {2 * FORCE / np.pi / a:.5f}")
     study.add(GROUP, "Cattaneo-Mindlin, Q = mu P'/2", "stick half-width c (second moment of tau)", c,
-              ours_c, errors["c"][-1], 1e-2,
-              seen=observed_order([1 / n for n in cells], errors["c"]))
+              ours_c, errors["c"][-1], 5e-3, note="errors on the meshes "
+              + ", ".join(f"{e:.1e}" for e in errors["c"]) + ": no order, the block's size stays")
     stick = np.abs(x[sheared.status == 1]).max()
     slip = np.abs(x[sheared.status >= 2]).min()
+    element = 2 * np.diff(np.unique(np.abs(x)))[np.searchsorted(np.unique(np.abs(x)), c) - 1]
     study.add(GROUP, "Cattaneo-Mindlin, Q = mu P'/2", "outermost sticking, innermost slipping node",
-              c, f"{stick:.5f}, {slip:.5f}",
-              max(abs(stick - c), abs(slip - c)) / c, 0.1 if study.quick else 0.05)
+              c, f"{stick:.5f}, {slip:.5f}", max(abs(stick - c), abs(slip - c)) / c, element / c,
+              note="one element allowed")
     study.charts.append(Chart("line-contact", "Line contact: error of half-widths against cells", "cells",
                               "relative error", {"a": (cells, errors["a"]), "c": (cells, errors["c"])}, True))
 
 
+def controls(study):
+    def in_time(s):
+        ssnv128_in_time(s, "sdirk2", 16)
+    study.control(GROUP, "wrong-plane", "SSNV128 with moduli of plane stress", ssnv128)
+    study.control(GROUP, "smoothed-stick", "friction smoothed over 1e-7 of slip, nothing sticks",
+                  threshold)
+    study.control(GROUP, "smoothed-stick", "the same in time: it creeps under 0.99 mu N",
+                  lambda s: threshold_in_time(s, "sdirk2"))
+    study.control(GROUP, "unlumped-contact", "gap, slip and reaction by integrals along the base", in_time)
+    study.control(GROUP, "stage-matrix", "K counted twice in the matrix of a stage", in_time)
+
+
 def run(study):
     ssnv128(study)
-    ssnv128_in_time(study)
+    for scheme in schemes():
+        ssnv128_in_time(study, scheme, 16 if study.quick or scheme not in ("sdirk2", "explicit") else 32)
+        threshold_in_time(study, scheme)
     threshold(study)
     line_contact(study)
+    controls(study)

@@ -5,7 +5,7 @@ T3 is FreeFEM's P1 and T6 its P2 on the straight-sided mesh. Contact is on nodes
 penalty, so that nothing but rounding is left."""
 import numpy as np
 
-from harness import (FREEFEM, Control, Row, Run, Static, freefem, have_freefem, make_mesh, match,
+from harness import (FREEFEM, ELEMENTS, Run, Static, freefem, have_freefem, make_mesh, match, mesh_set,
                      observed_order, relative)
 
 GROUP = "FreeFEM"
@@ -20,13 +20,13 @@ CASES = [("bonded", "block", 1e-9), ("traction", "block", 1e-9), ("uplift", "blo
          ("friction", "block", 1e-7), ("pads", "pads", 1e-7)]
 
 
-def solve_both(study, case, geo, parameters, order, script=None):
+def solve_both(study, case, geo, parameters, order):
     """(ours, FreeFEM's nodes in our order, FreeFEM's stresses at vertices, our rows of them)."""
     folder = study.new_folder(f"freefem-{case}")
     folder.mkdir()
     curves = make_mesh(folder / "linear.msh", geo, parameters)
     make_mesh(folder / "ours.msh", geo, parameters, order)
-    theirs = freefem(script or FREEFEM / f"{case}.edp", order, folder / "linear.msh", curves,
+    theirs = freefem(FREEFEM / f"{case}.edp", order, folder / "linear.msh", curves,
                      folder / "freefem.txt")
     ours = Static(study, FREEFEM / f"{case}.yaml", f"static-{case}",
                   {"mesh.file": folder / "ours.msh", "mesh.set": "{}"})
@@ -66,14 +66,15 @@ def compare(study, case, geo, tolerance, mesh_name, order):
 
 
 def steps(study, order):
-    """Four viscoelastic steps with M, C and K: displacement and velocity."""
+    """Four viscoelastic steps with M, C and K: displacement and velocity. Loads come at once and the
+    steps are long on purpose: the ledger shows their truncation, 1.7 %."""
     folder = study.new_folder("freefem-step")
     folder.mkdir()
     curves = make_mesh(folder / "linear.msh", "block", REGULAR)
     make_mesh(folder / "ours.msh", "block", REGULAR, order)
     theirs = freefem(FREEFEM / "step.edp", order, folder / "linear.msh", curves, folder / "nodes.txt")
     run = Run(study, FREEFEM / "step.yaml", "step",
-              {"mesh.file": folder / "ours.msh", "mesh.set": "{}"}, energy=0.05)
+              {"mesh.file": folder / "ours.msh", "mesh.set": "{}"}, ledger=2e-2)
     time, points, u, v = list(run.frames())[-1]
     theirs = theirs[match(points, theirs[:, :2])]
     label = f"4 viscoelastic steps, {'T3' if order == 1 else 'T6'}"
@@ -83,109 +84,54 @@ def steps(study, order):
 
 
 def quadrilaterals(study):
-    """FreeFEM has no quadrilaterals: both converge to one state. Work of the loads, bonded block."""
-    reference = {}
-    sizes, values = [40, 80, 160], []
-    for n in (40, 120):
-        parameters = {"shape": "triangle", "nx": n, "nz": n // 2}
-        folder = study.new_folder("freefem-energy")
+    """FreeFEM has no quadrilaterals: both converge to one state. Compared is the mean u_x of the base,
+    that is the work of the shear there, whose error is the square of the energy norm's. Shear that
+    jumps at the base's corners makes u ~ r log r there, strains' slopes ~ 1/r: the error is as
+    h^2 for elements of second order, as h^2 log(1/h) for Q4, between 40 and 80 cells an order of
+    2 - 1/log(57) = 1.75. FreeFEM's P2 on 160 x 80 is itself off by its last change, 80 x 40 to 160 x 80, over 3."""
+    values = []
+    for n in (80, 160):
+        folder = study.new_folder("freefem-sheared")
         folder.mkdir()
-        curves = make_mesh(folder / "linear.msh", "block", parameters)
-        nodes = freefem(FREEFEM / "traction.edp", 2, folder / "linear.msh", curves, folder / "n.txt")
-        reference[n] = mean_shift(nodes)
-    limit = reference[120]
-    for n in sizes:
-        ours = Static(study, FREEFEM / "traction.yaml", "traction-quad",
-                      {"mesh.set": f"{{shape: quad, nx: {n}, nz: {n // 2}}}", "rod.width": 0.05})
-        nodes = np.hstack([ours.position, ours.displacement, ours.reaction])
-        values.append(mean_shift(nodes))
-    errors = [abs(v / limit - 1) for v in values]
-    order = observed_order([1 / n for n in sizes], errors)
-    study.add(GROUP, "traction, Q4 against P2 120x60", "mean u_x of the top", limit, values[-1],
-              errors[-1], 2e-2, seen=order,
-              note="by convergence, 40 to 160 cells; singular at the ends of the rod's strip")
+        curves = make_mesh(folder / "linear.msh", "block", {"shape": "triangle", "nx": n, "nz": n // 2})
+        nodes = freefem(FREEFEM / "sheared.edp", 2, folder / "linear.msh", curves, folder / "n.txt")
+        values.append(base_shift(nodes))
+    limit = values[1] + (values[1] - values[0]) / 3
+    for element, sizes, expected in (("Q4", [20, 40, 80], 1.75), ("Q8", [10, 20, 40], 2),
+                                     ("Q9", [10, 20, 40], 2)):
+        errors = []
+        for n in sizes:
+            ours = Static(study, FREEFEM / "sheared.yaml", f"sheared-{element}",
+                          {"mesh.set": mesh_set(element, nx=n, nz=n // 2)})
+            shift = (ours.weight * ours.displacement[ours.contact, 0]).sum() / ours.weight.sum()
+            errors.append(abs(shift / limit - 1))
+        study.add(GROUP, f"sheared, {element} against P2, {sizes[-1]} x {sizes[-1] // 2} cells",
+                  "mean u_x of the base", limit, shift, errors[-1], 1e-3,
+                  order=f"{expected} expected", seen=observed_order([1 / n for n in sizes], errors),
+                  least=expected - 0.1,
+                  note="errors " + ", ".join(f"{e:.1e}" for e in errors))
 
 
-def mean_shift(nodes):
-    """Mean u_x of the top."""
-    top = nodes[np.abs(nodes[:, 1] - nodes[:, 1].max()) < 1e-9]
-    order = np.argsort(top[:, 0])
-    return float(np.trapz(top[order, 2], top[order, 0]))
-
-
-def broken_script(study, name, old, new):
-    """A copy of a script with one thing wrong."""
-    folder = study.new_folder("broken")
-    folder.mkdir()
-    for file in FREEFEM.glob("*.edp"):
-        (folder / file.name).write_text(file.read_text())
-    for file in FREEFEM.glob("*.idp"):
-        (folder / file.name).write_text(file.read_text())
-    path = folder / name
-    text = path.read_text()
-    assert old in text, (name, old)
-    path.write_text(text.replace(old, new))
-    return folder
+def base_shift(nodes):
+    """Mean u_x of FreeFEM's base, P2 on even edges: Simpson's rule, exact for it."""
+    base = nodes[np.abs(nodes[:, 1]) < 1e-9]
+    shift = base[np.argsort(base[:, 0]), 2]
+    return float((shift[0] + 4 * shift[1::2].sum() + 2 * shift[2:-1:2].sum() + shift[-1])
+                 / (3 * (len(shift) - 1)))
 
 
 def controls(study):
-    """Each is a mistake that a solver could make, put into the reference: the rows must fail."""
-    mistakes = [
-        ("consistent pressure on a wrong label (traction on the leading face)", "traction", "traction.edp",
-         "addTraction(top, 1", "addTraction(leading, 1"),
-        ("friction towards the slip, not against it", "friction", "contact.idp",
-         "V[N + c] = s * mu", "V[N + c] = -s * mu"),
-        ("smoothed stick: a spring of stiffness 10 in place of u_x = 0", "friction", "contact.idp",
-         "held[i] = status[c] == stick;",
-         "held[i] = 0; if (status[c] == stick) given[i] = 0; "
-         "if (status[c] == stick) K(i, i) += 10;"),
-        ("consistent, unlumped contact: a penalty integrated over edges", "uplift", "uplift.edp",
-         "solveContact(0);", """
-Vh active = 1;
-matrix K0 = K;
-for (int k = 0; k < 30; k++) {
-    varf wall(u, v) = int1d(Th, contactCurve)(1e6 * (active > 0.5) * u * v);
-    matrix W = wall(Vh, Vh);
-    matrix O = 0 * W;
-    matrix Z = [[O, O], [O, W]];
-    K = K0 + Z;
-    real[int] ones(N);
-    ones = 1;
-    matrix unit = [ones];
-    solveHeld(unit);
-    for (int i = 0; i < n; i++) active[][i] = u[n + i] < 0;
-}"""),
-        ("contact that pulls", "uplift", "contact.idp",
-         "if (was != open && r[n + i] < -force) status[c] = open;", "if (false) status[c] = open;"),
-    ]
-    for text, case, name, old, new in mistakes:
-        folder = broken_script(study, name, old, new)
-        ours, theirs, _, _ = solve_both(study, case, "block", REGULAR, 1, folder / f"{case}.edp")
-        row = Row(GROUP, case, "displacement", "", "", relative(ours.displacement, theirs[:, 2:4]), 1e-7)
-        study.controls.append(Control(GROUP, text, row))
-    step_controls(study)
-
-
-def step_controls(study):
-    for text, old, new in (
-            ("wrong sign of eta2 in the viscous coupling", "assemble(C, eta1, eta2)",
-             "assemble(C, eta1, -0.5 * eta2)"),
-            ("consistent mass in place of lumped", "matrix A = M + g * C;",
-             "matrix O = 0 * consistent; matrix MM = [[consistent, O], [O, consistent]]; "
-             "matrix A = MM + g * C;")):
-        broken_step(study, text, old, new)
-
-
-def broken_step(study, text, old, new):
-    folder = broken_script(study, "step.edp", old, new)
-    curves = make_mesh(folder / "linear.msh", "block", REGULAR)
-    theirs = freefem(folder / "step.edp", 1, folder / "linear.msh", curves, folder / "nodes.txt")
-    run = Run(study, FREEFEM / "step.yaml", "step", {"mesh.file": folder / "linear.msh",
-                                                     "mesh.set": "{}"}, energy=0.05)
-    _, points, u, _ = list(run.frames())[-1]
-    theirs = theirs[match(points, theirs[:, :2])]
-    study.controls.append(Control(GROUP, text, Row(
-        GROUP, "4 viscoelastic steps", "displacement", "", "", relative(u, theirs[:, 2:4]), 1e-9)))
+    def contact(case):
+        return lambda s: compare(s, case, "block", 1e-7, "regular", 1)
+    for mistake, broken, compute in (
+            ("none", "no mistake: the controls' own check, must be missed", contact("friction")),
+            ("unlumped-contact", "gap, slip and reaction by integrals along the base", contact("uplift")),
+            ("consistent-slip", "slip and shear by consistent mass of the base", contact("friction")),
+            ("smoothed-stick", "friction smoothed over 1e-7 of slip, nothing sticks", contact("friction")),
+            ("glued-contact", "nodes in contact pull", contact("uplift")),
+            ("viscous-sign", "wrong sign of the viscous coupling of xx and zz", lambda s: steps(s, 1)),
+            ("shear-viscosity", "eta1 in place of eta1/2 in shear", lambda s: steps(s, 1))):
+        study.control(GROUP, mistake, broken, compute)
 
 
 def run(study):
@@ -200,6 +146,5 @@ def run(study):
                 compare(study, case, geo, tolerance, name, order)
     for order in (1, 2):
         steps(study, order)
-    if not study.quick:
-        quadrilaterals(study)
+    quadrilaterals(study)
     controls(study)

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Mistakes in the bulk and in the matrix of a stage.
+#include "mistake.h"
+
+#include "bulk/interface_operator.h"
+#include "bulk/material.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+void __real_material_elastic(const Material *material, double d[3][3]);
+void __wrap_material_elastic(const Material *material, double d[3][3]);
+void __real_material_viscous(const Material *material, double d[3][3]);
+void __wrap_material_viscous(const Material *material, double d[3][3]);
+InterfaceOperator *__real_interface_operator_create(BulkOperator *system, OperatorTerms terms,
+                                                    Error *err);
+InterfaceOperator *__wrap_interface_operator_create(BulkOperator *system, OperatorTerms terms,
+                                                    Error *err);
+
+Mistake mistake_made(void)
+{
+    static const char *const names[] = {
+#define X(symbol, name) name,
+        MISTAKES(X)
+#undef X
+    };
+    const char *wanted = getenv("AMONTONS_MISTAKE");
+    for (size_t k = 0; wanted && k < sizeof names / sizeof names[0]; k++)
+        if (strcmp(wanted, names[k]) == 0) return (Mistake)k;
+    fprintf(stderr, "AMONTONS_MISTAKE=%s: there is no such mistake\n", wanted ? wanted : "");
+    exit(3);
+}
+
+// sigma = D eps with Young's modulus and Poisson's ratio of the other plane state.
+void __wrap_material_elastic(const Material *material, double d[3][3])
+{
+    Material other = *material;
+    if (mistake_made() == MISTAKE_WRONG_PLANE) other.plane_strain = !material->plane_strain;
+    __real_material_elastic(&other, d);
+}
+
+void __wrap_material_viscous(const Material *material, double d[3][3])
+{
+    __real_material_viscous(material, d);
+    Mistake mistake = mistake_made();
+    if (mistake == MISTAKE_VISCOUS_SIGN) d[0][1] = d[1][0] = -material->eta2;
+    if (mistake == MISTAKE_SHEAR_VISCOSITY) d[2][2] = material->eta1;
+}
+
+// Only matrices of steps: those without mass are of equilibria and certificates.
+InterfaceOperator *__wrap_interface_operator_create(BulkOperator *system, OperatorTerms terms,
+                                                    Error *err)
+{
+    if (mistake_made() == MISTAKE_STAGE_MATRIX && terms.mass > 0) terms.stiffness *= 2;
+    return __real_interface_operator_create(system, terms, err);
+}

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// amontons with one thing wrong, for the negative controls of validation/run: a suite that never
+// fails proves nothing. The linker puts the functions __wrap_NAME of this folder in the place of
+// the library's NAME (ld --wrap; __real_NAME is the library's own), so that the product holds no
+// trace of it and everything else, from scene to result, is the program that is validated.
+//
+//   AMONTONS_MISTAKE=viscous-sign amontons_mistaken run SCENE ...
+//
+// validation/mistakes/CMakeLists.txt lists the functions; the names here are those of the report.
+#ifndef AMONTONS_VALIDATION_MISTAKE_H
+#define AMONTONS_VALIDATION_MISTAKE_H
+
+// symbol, name in AMONTONS_MISTAKE
+#define MISTAKES(X)                                                                                \
+    X(MISTAKE_NONE, "none")                                                                        \
+    X(MISTAKE_VISCOUS_SIGN, "viscous-sign")           /* sigma_xx = ... - eta2 eps_zz' */          \
+    X(MISTAKE_SHEAR_VISCOSITY, "shear-viscosity")     /* eta1 2 eps_xz' in place of eta1 eps_xz' */ \
+    X(MISTAKE_WRONG_PLANE, "wrong-plane")             /* strain for stress and the reverse */      \
+    X(MISTAKE_UNLUMPED_CONTACT, "unlumped-contact")   /* gap, slip, reaction by consistent mass */ \
+    X(MISTAKE_CONSISTENT_SLIP, "consistent-slip")     /* slip and shear only */                    \
+    X(MISTAKE_SMOOTHED_STICK, "smoothed-stick")       /* mu(v) tanh(v/v_0) in place of stick */    \
+    X(MISTAKE_GLUED_CONTACT, "glued-contact")         /* what touched does not leave */            \
+    X(MISTAKE_HALF_SLIP_RATE, "half-slip-rate")       /* mu(v/2) */                                \
+    X(MISTAKE_STAGE_MATRIX, "stage-matrix")           /* K twice in the matrix of a stage */
+
+typedef enum Mistake {
+#define X(symbol, name) symbol,
+    MISTAKES(X)
+#undef X
+} Mistake;
+
+// By the environment; an unknown name ends the program, for a control that makes no mistake would
+// be worse than none.
+Mistake mistake_made(void);
+
+#endif
