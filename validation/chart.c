@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Draws one chart of the validation report with amontons' own renderer.
+// Draws the validation report's page of charts with amontons' own renderer, COLUMNS to a row.
 //
 //   amontons_chart OUT.png < description
 //
-// The description: title, label of x, label of y (a line each), 1 or 0 (logarithmic or not), then for
-// each curve a line with its number of points and its name, and a line "x y" for each point.
+// The description holds, for each chart: title, label of x, label of y (a line each), a line with 1 or
+// 0 (logarithmic or not) and the number of curves, and for each curve a line with its number of points
+// and its name, then a line "x y" for each point.
 #include "base/memory.h"
 #include "render/axes.h"
 #include "render/context.h"
@@ -14,12 +15,14 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { LINE_SIZE = 200, CURVES_MAX = 8, WIDTH = 1600, HEIGHT = 1100, MARKED_MAX = 20 };
+enum { LINE_SIZE = 200, CURVES_MAX = 8, CHARTS_MAX = 60 };
+enum { COLUMNS = 3, WIDTH = 1000, HEIGHT = 700 };   // WIDTH, HEIGHT: of one chart, pixels
+enum { MARKED_MAX = 20 };   // curves of so few points show each of them
 
 typedef struct Curve {
     char name[LINE_SIZE];
     int64_t count;
-    double *x, *y;   // [count]; owned
+    double *x, *y;   // [count]; above 0 where the chart is logarithmic; owned
 } Curve;
 
 typedef struct Chart {
@@ -41,6 +44,7 @@ static bool read_line(char line[LINE_SIZE])
     return true;
 }
 
+// The next curve of the description into *chart. ERROR_INPUT: it is not as said above.
 static bool read_curve(Chart *chart, Error *err)
 {
     Curve *curve = &chart->curves[chart->curve_count++];
@@ -55,53 +59,65 @@ static bool read_curve(Chart *chart, Error *err)
     for (int64_t i = 0; i < count; i++) {
         if (!read_line(line) || sscanf(line, "%lf %lf", &curve->x[i], &curve->y[i]) != 2)
             FAIL(err, ERROR_INPUT, "curve %s: wanted is \"x y\"", curve->name);
-        if (!chart->logarithmic) continue;
-        curve->x[i] = log10(curve->x[i]);
-        curve->y[i] = log10(curve->y[i]);
     }
 cleanup:
     return error_is_clean(err);
 }
 
-static bool read_chart(Chart *chart, Error *err)
+// title: its first line, which is read already.
+static bool read_chart(const char *title, Chart *chart, Error *err)
 {
-    int logarithmic = 0;
-    if (!read_line(chart->title) || !read_line(chart->x_label) || !read_line(chart->y_label) ||
-        scanf("%d ", &logarithmic) != 1)
-        FAIL(err, ERROR_INPUT, "a chart begins with title, labels, and 1 or 0");
+    int logarithmic = 0, curves = 0;
+    memcpy(chart->title, title, LINE_SIZE);
+    if (!read_line(chart->x_label) || !read_line(chart->y_label) ||
+        scanf("%d %d ", &logarithmic, &curves) != 2)
+        FAIL(err, ERROR_INPUT, "chart %s: wanted are labels, 1 or 0, and a number of curves",
+             title);
     chart->logarithmic = logarithmic != 0;
-    for (int next = getchar(); next != EOF; next = getchar()) {
-        ungetc(next, stdin);
-        if (chart->curve_count == CURVES_MAX) FAIL(err, ERROR_INPUT, "more than 8 curves");
-        TRY(read_curve(chart, err));
-    }
+    if (curves < 1 || curves > CURVES_MAX)
+        FAIL(err, ERROR_INPUT, "chart %s: %d curves, allowed are 1 to %d", title, curves,
+             CURVES_MAX);
+    while (chart->curve_count < curves) TRY(read_curve(chart, err));
 cleanup:
     return error_is_clean(err);
 }
 
-// The range of all curves, with a twentieth to spare.
+// charts: [CHARTS_MAX], *count of them filled.
+static bool read_charts(Chart *charts, int32_t *count, Error *err)
+{
+    char title[LINE_SIZE];
+    while (read_line(title)) {
+        if (*count == CHARTS_MAX) FAIL(err, ERROR_INPUT, "more than %d charts", CHARTS_MAX);
+        TRY(read_chart(title, &charts[(*count)++], err));
+    }
+    if (*count == 0) FAIL(err, ERROR_INPUT, "no chart is described");
+cleanup:
+    return error_is_clean(err);
+}
+
+// The range of all curves, with a twentieth to spare on either side.
 static void fit_axis(const Chart *chart, bool of_x, Axis *axis)
 {
-    axis->low = INFINITY;
-    axis->high = -INFINITY;
+    bool is_log = chart->logarithmic;
+    double low = INFINITY, high = -INFINITY;
     for (int32_t c = 0; c < chart->curve_count; c++) {
         const Curve *curve = &chart->curves[c];
         for (int64_t i = 0; i < curve->count; i++) {
             double value = of_x ? curve->x[i] : curve->y[i];
-            if (!isfinite(value)) continue;
-            axis->low = fmin(axis->low, value);
-            axis->high = fmax(axis->high, value);
+            if (!isfinite(value) || (is_log && !(value > 0))) continue;
+            low = fmin(low, is_log ? log10(value) : value);
+            high = fmax(high, is_log ? log10(value) : value);
         }
     }
-    double spare = 0.05 * (axis->high > axis->low ? axis->high - axis->low : 1);
-    axis->low -= spare;
-    axis->high += spare;
-    axis->factor = 1;
-    const char *label = of_x ? chart->x_label : chart->y_label;
-    snprintf(axis->label, sizeof axis->label, chart->logarithmic ? "log_{10} %.70s" : "%.90s",
-             label);
+    double spare = high > low ? 0.05 * (high - low) : 0.5;
+    *axis = (Axis){.low = is_log ? pow(10, low - spare) : low - spare,
+                   .high = is_log ? pow(10, high + spare) : high + spare,
+                   .factor = 1,
+                   .is_log = is_log};
+    snprintf(axis->label, sizeof axis->label, "%.90s", of_x ? chart->x_label : chart->y_label);
 }
 
+// A line through the curve's points, and a disc at each where they are few.
 static bool draw_curve(const Page *page, const Axes *axes, const Curve *curve, Color color,
                        Error *err)
 {
@@ -117,22 +133,41 @@ static bool draw_curve(const Page *page, const Axes *axes, const Curve *curve, C
     return true;
 }
 
-static bool draw_chart(const Page *page, const Chart *chart, Error *err)
+// Whether the curves' right ends lie in the lower half of the frame: names go to the other one.
+static bool ends_low(const Chart *chart, const Axes *axes)
+{
+    double height = 0;
+    for (int32_t c = 0; c < chart->curve_count; c++) {
+        const Curve *curve = &chart->curves[c];
+        int64_t last = 0;
+        for (int64_t i = 0; i < curve->count; i++)
+            if (curve->x[i] >= curve->x[last]) last = i;
+        height += axes_place(axes, curve->x[last], curve->y[last]).y / chart->curve_count;
+    }
+    return height > (axes->box.top + axes->box.bottom) / 2;
+}
+
+// corner: the upper left one of the chart's place on the page, pixels.
+static bool draw_chart(const Page *page, Point corner, const Chart *chart, Error *err)
 {
     double point = page->point;
     Axes axes = {.number_size = NUMBER_SIZE, .color = INK};
     fit_axis(chart, true, &axes.x);
     fit_axis(chart, false, &axes.y);
-    axes.box = (Box){.left = round((axes_left_margin(page, &axes) + 4) * point),
-                     .top = round(22 * point),
-                     .right = round(WIDTH - 8 * point),
-                     .bottom = round(HEIGHT - (axes_bottom_margin(&axes) + 4) * point)};
+    double foot = axes_bottom_margin(&axes) + 4;
+    axes.box = (Box){.left = round(corner.x + (axes_left_margin(page, &axes) + 4) * point),
+                     .top = round(corner.y + 22 * point),
+                     .right = round(corner.x + WIDTH - 8 * point),
+                     .bottom = round(corner.y + HEIGHT - foot * point)};
     TextStyle title = {.size = LABEL_SIZE * point, .color = INK};
-    text_draw(page->text, &title, (Point){axes.box.left, 12 * point}, chart->title);
+    bool names_up = ends_low(chart, &axes);
+    text_draw(page->text, &title, (Point){axes.box.left, corner.y + 12 * point}, chart->title);
     for (int32_t c = 0; c < chart->curve_count; c++) {
         TRY(draw_curve(page, &axes, &chart->curves[c], COLORS[c], err));
         TextStyle name = {.size = NUMBER_SIZE * point, .color = COLORS[c], .across = 1, .up = 0.5};
-        Point place = {axes.box.right - 4 * point, axes.box.bottom - (6 + 9 * c) * point};
+        double away = (6 + 9 * c) * point;   // from the frame's upper or lower side
+        Point place = {axes.box.right - 4 * point,
+                       names_up ? axes.box.top + away : axes.box.bottom - away};
         text_draw(page->text, &name, place, chart->curves[c].name);
     }
     axes_draw(page, &axes);
@@ -140,47 +175,61 @@ cleanup:
     return error_is_clean(err);
 }
 
-static bool make_chart(const char *path, Chart *chart, Error *err)
+static void charts_destroy(Chart *charts, int32_t count)
 {
+    for (int32_t k = 0; k < count; k++) {
+        for (int32_t c = 0; c < charts[k].curve_count; c++) {
+            memory_free(charts[k].curves[c].x);
+            memory_free(charts[k].curves[c].y);
+        }
+    }
+    memory_free(charts);
+}
+
+static bool make_page(const char *path, Error *err)
+{
+    int32_t count = 0;
     RenderContext *context = NULL;
     Page page = {.point = WIDTH / COLUMN_WIDTH_POINTS};
     uint8_t *pixels = NULL;
-    TRY(read_chart(chart, err));
+    Chart *charts = NEW_ARRAY(Chart, CHARTS_MAX, err);
+    if (!charts) goto cleanup;
+    TRY(read_charts(charts, &count, err));
+    int32_t columns = count < COLUMNS ? count : COLUMNS, rows = (count - 1) / COLUMNS + 1;
     context = context_create(err);
     TRY(context);
-    page.canvas = canvas_create(WIDTH, HEIGHT, err);
+    page.canvas = canvas_create(columns * WIDTH, rows * HEIGHT, err);
     TRY(page.canvas);
     page.text = text_create(page.canvas, err);
     TRY(page.text);
-    TRY(draw_chart(&page, chart, err));
+    for (int32_t k = 0; k < count; k++) {
+        Point corner = {k % COLUMNS * WIDTH, k / COLUMNS * HEIGHT};
+        TRY(draw_chart(&page, corner, &charts[k], err));
+    }
     TRY(canvas_read(page.canvas, &pixels, err));
-    PngPicture picture = {.width = WIDTH,
-                          .height = HEIGHT,
+    PngPicture picture = {.width = columns * WIDTH,
+                          .height = rows * HEIGHT,
                           .pixels = pixels,
                           .pixels_per_metre = WIDTH / (1e-3 * COLUMN_WIDTH_MM),
-                          .title = chart->title};
+                          .title = "Validation of amontons"};
     TRY(png_file_write(path, &picture, err));
 cleanup:
     text_destroy(page.text);
     canvas_destroy(page.canvas);
     context_destroy(context);
     memory_free(pixels);
-    for (int32_t c = 0; c < chart->curve_count; c++) {
-        memory_free(chart->curves[c].x);
-        memory_free(chart->curves[c].y);
-    }
+    charts_destroy(charts, count);
     return error_is_clean(err);
 }
 
 int main(int argc, char **argv)
 {
-    static Chart chart;
     Error err = {0};
     if (argc != 2) {
         fprintf(stderr, "usage: amontons_chart OUT.png < description\n");
         return 2;
     }
-    if (make_chart(argv[1], &chart, &err)) return 0;
+    if (make_page(argv[1], &err)) return 0;
     fprintf(stderr, "amontons_chart: error: %s\n", err.message);
     return error_exit_status(err.code);
 }

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The report: report.md, and one picture a chart (validation/plot.py)."""
-from plot import draw
+"""The report: report.md, and its page of charts, charts.png (validation/plot.py)."""
+from collections import Counter
+
+from plot import draw_page
 
 
 def shown(value):
@@ -17,30 +19,30 @@ def row_lines(rows):
     for r in rows:
         note = f" ({r.note})" if r.note else ""
         yield (f"| {r.case} | {r.quantity}{note} | {shown(r.reference)} | {shown(r.ours)} | "
-               f"{r.error:.1e} | {r.tolerance:.0e} | {r.order_text} | {verdict(r.passed)} |")
+               f"{r.error:.1e} | {r.tolerance:.2g} | {r.order_text} | {verdict(r.passed)} |")
 
 
 def invariant_lines(invariants):
-    """The worst of each kind over all runs, and where."""
-    worst = {}
+    """The worst of each kind and allowance over all runs, and where."""
+    worst, count = {}, Counter((name, tolerance) for _, name, _, tolerance in invariants)
     for case, name, value, tolerance in invariants:
-        share = value / tolerance if tolerance else (0 if value == 0 else float("inf"))
-        if not share <= worst.get(name, (-1,))[0]:
-            worst[name] = (share, case, value, tolerance)
+        if not value <= worst.get((name, tolerance), ("", -1))[1]:
+            worst[name, tolerance] = (case, value)
     yield "| invariant | checks | largest | in | allowed there | |"
     yield "|---|---|---|---|---|---|"
-    for name, (share, case, value, tolerance) in sorted(worst.items()):
-        count = sum(i[1] == name for i in invariants)
-        yield f"| {name} | {count} | {value:.1e} | {case} | {tolerance:.0e} | {verdict(share <= 1)} |"
+    for (name, tolerance), (case, value) in sorted(worst.items()):
+        yield (f"| {name} | {count[name, tolerance]} | {value:.1e} | {case} | {tolerance:.2g} | "
+               f"{verdict(value <= tolerance)} |")
 
 
 def control_lines(controls):
     yield "| group | deliberate mistake in the program | rows, invariants broken | the worst | |"
     yield "|---|---|---|---|---|"
     for c in controls:
+        good = "nothing broke" if c.mistake == "none" else "caught"
         yield (f"| {c.group} | `{c.mistake}`: {c.broken} | {len(c.failed)} of {len(c.rows)}, "
                f"{len(c.broken_invariants)} of {len(c.invariants)} | {worst_of(c)} | "
-               f"{'caught' if c.caught else '**MISSED**'} |")
+               f"{good if c.caught else '**MISSED**'} |")
 
 
 def worst_of(control):
@@ -49,12 +51,11 @@ def worst_of(control):
         return value / tolerance if tolerance else value
     if control.failed:
         r = max(control.failed, key=lambda r: excess(r.error, r.tolerance))
-        return f"{r.case}, {r.quantity}: error {r.error:.1e}, allowed {r.tolerance:.0e} {r.order_text}"
+        return f"{r.case}, {r.quantity}: error {r.error:.1e}, allowed {r.tolerance:.2g} {r.order_text}"
     if control.broken_invariants:
         case, name, value, tolerance = max(control.broken_invariants, key=lambda i: excess(i[2], i[3]))
-        return f"{case}, {name}: {value:.1e}, allowed {tolerance:.0e}"
-    lines = control.refused.splitlines()
-    return f"no result: {lines[1] if len(lines) > 1 else ''}"
+        return f"{case}, {name}: {value:.1e}, allowed {tolerance:.2g}"
+    return " ".join(control.refused.splitlines()[1:2])
 
 
 def order_lines(rows):
@@ -87,16 +88,16 @@ def write_report(study, folder, how):
               "## Deliberate mistakes", "",
               "Rows above are computed once more by the program with one function of it replaced by a "
               "wrong one when it is linked (validation/mistakes); what fails then is shown.", "",
-              *control_lines(study.controls), "", "## Pictures", ""]
-    for chart in study.charts:
-        draw(chart, folder / f"{chart.name}.png")
-        lines += [f"![{chart.title}]({chart.name}.png)", ""]
+              *control_lines(study.controls), "", "## Charts", ""]
+    if study.charts:
+        draw_page(study.charts, folder / "charts.png")
+        lines += ["![" + "; ".join(chart.title for chart in study.charts) + "](charts.png)", ""]
     (folder / "report.md").write_text("\n".join(lines))
     for r in failed:
         print(f"FAIL {r.group}: {r.case}: {r.quantity}: {shown(r.ours)} against {shown(r.reference)}, "
-              f"error {r.error:.2e}, allowed {r.tolerance:.0e} {r.order_text}")
+              f"error {r.error:.2e}, allowed {r.tolerance:.2g} {r.order_text}")
     for case, name, value, tolerance in broken:
-        print(f"FAIL invariant: {case}: {name} {value:.2e}, allowed {tolerance:.0e}")
+        print(f"FAIL invariant: {case}: {name} {value:.2e}, allowed {tolerance:.2g}")
     for c in missed:
         print(f"MISSED {c.group}: {c.mistake}: all {len(c.rows)} rows pass, {c.broken}")
     return good

@@ -83,16 +83,25 @@ void explicit_reference_destroy(ExplicitReference *scheme)
     *scheme = (ExplicitReference){0};
 }
 
+// v half a step before the start, v_0 - (dt/2) a_0, with M a_0 = f + r - K u - C v from the equation
+// itself: a load that is put on at once is not in the inertia of the state it is put on.
 void explicit_reference_start(ExplicitReference *scheme, const State *state)
 {
+    const Bulk *bulk = scheme->def.bulk;
+    double *elastic = scheme->force, *viscous = scheme->force + bulk->dof_count;
     scheme->time = state->time;
     scheme->steps = 0;
+    sparse_apply(&bulk->pattern, bulk->stiffness, state->displacement, elastic);
+    sparse_apply(&bulk->pattern, bulk->damping, state->velocity, viscous);
+    for (int32_t k = 0; k < state->interface_count; k++)
+        elastic[scheme->def.interface->dofs[k]] -= state->reaction[k];
     for (int32_t i = 0; i < scheme->node_count; i++) {
         for (int32_t d = 0; d < 2; d++) {
             int32_t dof = 2 * i + d;
+            double inertia = bulk->held[dof] ? 0 : bulk->load[dof] - elastic[dof] - viscous[dof];
             scheme->now[NODE_SIZE * i + d] = state->displacement[dof];
             scheme->now[NODE_SIZE * i + 2 + d] = state->velocity[dof] -
-                                                 0.5 * scheme->kick[i] * state->inertia[dof];
+                                                 0.5 * scheme->kick[i] * inertia;
         }
     }
 }

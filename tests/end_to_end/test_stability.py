@@ -20,8 +20,8 @@ FIG1 = SOURCE / "validation" / "paper" / "fig1.yaml"
 COARSE = ["--set", "mesh.set.nx=20", "mesh.set.nz=20", "load.pressure=0.006"]
 
 
-def stability(*words, scene=FIG1):
-    return subprocess.run([PROGRAM, "stability", *map(str, words), scene, *COARSE],
+def stability(*words, scene=FIG1, coarse=COARSE):
+    return subprocess.run([PROGRAM, "stability", *map(str, words), scene, *coarse],
                           capture_output=True, text=True, timeout=120)
 
 
@@ -129,6 +129,23 @@ class Answers(InFolder):
         self.assertGreater(table[-2, 3], 0.35)
         self.assertLess(rows(self.done.stdout)[0, 3], 0.2)   # at rest after sliding: about mu_K
 
+    def test_end(self):
+        """A stiff block without a rod: v - v* grows as exp(lambda t), lambda = (mu_S - mu_K) P/(rho H v_c),
+        which is 3 here."""
+        scene = SOURCE / "validation/exact/rigid_block.yaml"
+        done = stability("--from", "end", "--set", "time.until.t=0.3", "material.young=1e3",
+                         "-o", self.folder / "end", scene=scene, coarse=[])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        table = rows(done.stdout)
+        self.assertEqual(len(table), 1)
+        self.assertAlmostEqual(table[0, 4], 3, delta=3e-3)
+        report = json.loads((self.folder / "end/stability.json").read_text())
+        self.assertEqual(report["points"][0]["slipping"], 21)
+        self.assertAlmostEqual(report["points"][0]["real_rate"], 3, delta=3e-3)
+        for key, value in report["results"].items():   # one state has no lengths
+            if key != "element_over_L":
+                self.assertIsNone(value, key)
+
     def test_quiet(self):
         done = stability("--quiet", "--slidings", "1", "-o", self.folder / "deep" / "er")
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
@@ -153,6 +170,7 @@ class Refusals(InFolder):
         for count in ("0", "x", "2.5", "1e9", ""):
             self.assert_refused(["--slidings", count], "a whole number from 1 to 1000")
         self.assert_refused(["--slidings", "2", "--from", "start"], "no meaning with --from start")
+        self.assert_refused(["--from", "end", "--whole"], "--whole has no meaning with --from end")
         self.assert_refused(["-o", ""], "the folder has no name")
         self.assert_refused(["other.yaml"], "takes one scene")
         alone = subprocess.run([PROGRAM, "stability"], capture_output=True, text=True)
@@ -163,6 +181,9 @@ class Refusals(InFolder):
         self.assert_refused([], "none.yaml", scene=self.folder / "none.yaml")
         self.assert_refused(["--set", "time.until={U: 1e-3}"], "0 of 2 slidings", "--from start")
         self.assert_refused(["--set", "time.scheme=explicit"], "time.scheme=sdirk2")
+        self.assert_refused(["--from", "end", "--set", "start.velocity_x=0", "friction.mu_kinetic=0.4"],
+                            "nothing slips at the scene's end",
+                            scene=SOURCE / "validation/exact/rigid_block.yaml")
         folder = self.folder / "kept"
         self.assert_refused(["-o", folder, "--set", "time.scheme=explicit"])
         self.assertFalse(folder.exists())

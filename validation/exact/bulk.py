@@ -57,21 +57,25 @@ def creep(study):
     order = observed_order(steps, errors)
     study.add(GROUP, "creep, SDIRK2", "displacement to t = 4, all nodes", "exact",
               f"dt = {steps[-1]:g}", errors[-1], 1e-4, order="2 expected", seen=order, least=1.85)
-    study.charts.append(Chart("order-in-time", "Creep: error against step", "dt", "relative error",
+    study.charts.append(Chart("Creep: error against step", "dt", "relative error",
                               {"SDIRK2": (steps, errors)}, logarithmic=True))
 
 
 # --- damped waves ---------------------------------------------------------------------------------
 
-def column_exact(z, t, modulus, eta, height=1.0, terms=400):
-    """Sudden traction on top of a column fixed below: modes sin(k z) with rho s^2 + eta k^2 s + M k^2."""
+def column_exact(z, t, modulus, eta, height=1.0, cells=None):
+    """Sudden traction on top of a column fixed below: modes sin(k z) with rho s^2 + eta k^2 s + M k^2.
+    cells: of the same column cut into so many, with lumped mass, whose modes have 2 sin(k h/2)/h in
+    the place of k."""
     u = PRESSURE / modulus * z   # at rest; the modes are what is left to come
-    for m in range(terms):
-        k = (m + 0.5) * np.pi / height
+    for m in range(cells or 400):
+        wave = k = (m + 0.5) * np.pi / height
+        if cells:
+            k = 2 * np.sin(wave * height / cells / 2) * cells / height
         root = np.sqrt(complex((eta * k * k) ** 2 - 4 * modulus * k * k))
         s1, s2 = (-eta * k * k + root) / 2, (-eta * k * k - root) / 2
         rest = ((s2 * np.exp(s1 * t) - s1 * np.exp(s2 * t)) / (s2 - s1)).real
-        u = u - (-1) ** m * 2 * PRESSURE / (modulus * height * k * k) * rest * np.sin(k * z)
+        u = u - (-1) ** m * 2 * PRESSURE / (modulus * height * k * k) * rest * np.sin(wave * z)
     return u
 
 
@@ -110,12 +114,12 @@ def waves(study):
             expected = 3 if element == "Q9" else 2
             study.add(GROUP, f"damped {kind} wave, {element}",
                       f"displacement at every node, {cells[-1]} cells", "exact series",
-                      f"{errors[-1]:.2e}", errors[-1], 1e-3 if high else 5e-3,
+                      f"{errors[-1]:.2e}", errors[-1], 1e-3,
                       order=f"{expected} expected", seen=order,
                       least=2.6 if element == "Q9" else 1.85)
             curves[element] = ([1 / c for c in cells], errors)
             table[kind, element] = order
-        study.charts.append(Chart(f"order-in-space-{kind}", f"Damped {kind} wave: error against cell",
+        study.charts.append(Chart(f"Damped {kind} wave: error against cell",
                                   "h / H", "relative error", curves, logarithmic=True))
 
 
@@ -123,7 +127,7 @@ def longitudinal_and_shear(study, element="Q4"):
     for kind in WAVES:
         error = wave_error(study, kind, element, 16, 2e-3)
         study.add(GROUP, f"damped {kind} wave, {element}", "displacement at every node, 16 cells",
-                  "exact series", f"{error:.2e}", error, 5e-3)
+                  "exact series", f"{error:.2e}", error, 1e-3)
 
 
 def controls(study):

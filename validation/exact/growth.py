@@ -88,7 +88,7 @@ def column_order(study):
                   ", ".join(f"{e:.1e}" for e in errors), errors[-1], 2e-3,
                   order="2 expected", seen=order, least=1.9)
         curves[f"w = {w:g}"] = ([1 / n for n in cells], errors)
-    study.charts.append(Chart("growth-rate-stability", "Shear column, `stability`: error of s", "h / H",
+    study.charts.append(Chart("Shear column, `stability`: error of s", "h / H",
                               "relative error", curves, True))
 
 

@@ -41,7 +41,7 @@ def run(study):
              "impulse": 2 * SPEED * LENGTH}
     texts = {"duration": "duration of contact 2 L/c", "stress": "contact stress v0 sqrt(E rho)",
              "speed": "mean speed after the rebound", "impulse": "impulse 2 rho L v0"}
-    limits = {"stress": 5e-3, "speed": 2e-2, "impulse": 1e-2}
+    limits = {"stress": 1e-3, "speed": 2e-2, "impulse": 5e-3}
     # A scheme of order 2 carries a jump with an error over a width of about h^(2/3) (Hedstrom, Math.
     # Comp. 29, 1975), and so do means over it: the least that speed and impulse may converge with.
     # The stress of the plateau is a mean away from the jumps and better than that. The end of contact
@@ -60,8 +60,8 @@ def run(study):
             study.add(GROUP, case, texts[name], value, results[-1][name], errors[-1], limits[name],
                       order="2/3 or more expected", seen=order, least=0.6)
     fine = results[-1]
-    study.charts.append(Chart("impact", "Bar on a wall: contact stress in time", "t", "stress",
-                              {f"{cells[-1]} cells": (fine["t"], fine["pressure"]),
+    study.charts.append(Chart("Bar on a wall: contact stress, first steps left out", "t", "stress",
+                              {f"{cells[-1]} cells": (fine["t"][10:], fine["pressure"][10:]),
                                "exact": ([0, 0, 2 / 3, 2 / 3, 1], [0, 300, 300, 0, 0])}))
     study.control(GROUP, "glued-contact", "nodes in contact pull", rebound)
     study.control(GROUP, "stage-matrix", "K counted twice in the matrix of a stage", rebound)

@@ -37,7 +37,7 @@ def rigid_block(study):
         linear = (v < 9.5e-4) & (t > 0.1)
         rate = np.polyfit(t[linear], np.log(np.abs(v[linear] - steady)), 1)[0]
         errors.append(abs(rate / exact - 1))
-    study.add(GROUP, "rigid block", "growth rate", exact, rate, errors[-1], 2e-3,
+    study.add(GROUP, "rigid block", "growth rate", exact, rate, errors[-1], 1e-3,
               note="" if study.quick else "error at E = 10, 100, 1000: "
               + ", ".join(f"{e:.1e}" for e in errors))
 
@@ -150,7 +150,7 @@ def mesh_convergence(study):
         study.add(GROUP, f"shear column, w = {w:g}", "s on " + ", ".join(map(str, cells)) + " cells",
                   f"{exact:.5f}", ", ".join(f"{e:.1e}" for e in errors), errors[-1], 6e-3,
                   order="2 expected", seen=order, least=1.8)
-        study.charts.append(Chart(f"growth-rate-{w:g}", f"Shear column, w = {w:g}: error of s in time",
+        study.charts.append(Chart(f"Shear column, w = {w:g}: error of s in time",
                                   "h / H", "relative error", {"Q4": ([1 / n for n in cells], errors)}, True))
 
 
@@ -213,10 +213,10 @@ def ill_posed(study):
     ratio = {eta: t[-2] / t[-1] for eta, t in times.items()}
     shown = {eta: ", ".join(f"{x:.3g}" for x in t) for eta, t in times.items()}
     study.add(GROUP, "layer with viscosity", "time to lose half its speed, by mesh",
-              "converges (ratio 1)", shown[0.5], abs(ratio[0.5] - 1), 0.05)
+              "converges (ratio 1)", shown[0.5], abs(ratio[0.5] - 1), 0.02)
     study.add(GROUP, "layer without viscosity", "the same", "no limit (ratio about 2)", shown[0.0],
               max(0, 1.6 - ratio[0.0]), 0)
-    study.charts.append(Chart("ill-posed", "Time in which disturbed slip loses half its speed", "cells",
+    study.charts.append(Chart("Time in which disturbed slip loses half its speed", "cells",
                               "time", {"eta1 = 0.5": (cells, times[0.5]),
                                        "eta1 = 0": (cells, times[0.0])}, True))
     said = warnings_of(study)

@@ -45,14 +45,15 @@ static void chosen(double x, double z, double u[2], double gradient[2][2], doubl
     second[1][2] = -4 * cos(c);
 }
 
-// -div sigma, written out: (dev + lam) u_x,xx + lam u_z,xz + dev/2 (u_x,zz + u_z,xz), and likewise.
+// -div sigma of plane stress, sigma = dev eps + lam tr(eps) I, with moduli that owe nothing to
+// bulk/material:  (dev + lam) u_x,xx + lam u_z,xz + dev/2 (u_x,zz + u_z,xz), and likewise along z.
 static void body_force(const Material *material, double x, double z, double force[2])
 {
-    double d[3][3], u[2], gradient[2][2], s[2][3];
-    material_elastic(material, d);
+    double u[2], gradient[2][2], s[2][3], nu = material->poisson;
+    double dev = material->young / (1 + nu), lam = material->young * nu / (1 - nu * nu);
     chosen(x, z, u, gradient, s);
-    force[0] = -(d[0][0] * s[0][0] + d[0][1] * s[1][1] + d[2][2] * (s[0][2] + s[1][1]));
-    force[1] = -(d[1][1] * s[1][2] + d[0][1] * s[0][1] + d[2][2] * (s[0][1] + s[1][0]));
+    force[0] = -((dev + lam) * s[0][0] + lam * s[1][1] + dev / 2 * (s[0][2] + s[1][1]));
+    force[1] = -((dev + lam) * s[1][2] + lam * s[0][1] + dev / 2 * (s[0][1] + s[1][0]));
 }
 
 // 5 x 5 Gauss points on the square, collapsed onto the triangle: exact enough for any element here.

@@ -177,7 +177,7 @@ def line_contact(study):
     study.add(GROUP, "Cattaneo-Mindlin, Q = mu P'/2", "outermost sticking, innermost slipping node",
               c, f"{stick:.5f}, {slip:.5f}", max(abs(stick - c), abs(slip - c)) / c, element / c,
               note="one element allowed")
-    study.charts.append(Chart("line-contact", "Line contact: error of half-widths against cells", "cells",
+    study.charts.append(Chart("Line contact: error of half-widths against cells", "cells",
                               "relative error", {"a": (cells, errors["a"]), "c": (cells, errors["c"])}, True))
 
 

@@ -15,9 +15,11 @@ FREE = {"shape": "triangle", "nx": 26, "nz": 8, "layout": "free"}
 PADS = {"shape": "triangle", "n": 4}
 MESHES = {"regular": REGULAR, "graded": GRADED, "unstructured": FREE}
 
-# scene, geometry, tolerance of displacements: bonded states 1e-9, contact 1e-7
-CASES = [("bonded", "block", 1e-9), ("traction", "block", 1e-9), ("uplift", "block", 1e-7),
-         ("friction", "block", 1e-7), ("pads", "pads", 1e-7)]
+# Nothing but rounding tells the two apart: 1e-9 of the largest displacement leaves room for four
+# digits of conditioning, sums and stresses have one more. With contact the statuses must be equal too.
+CASES = [("bonded", "block"), ("traction", "block"), ("uplift", "block"), ("friction", "block"),
+         ("pads", "pads")]
+TOLERANCE = 1e-9
 
 
 def solve_both(study, case, geo, parameters, order):
@@ -36,7 +38,7 @@ def solve_both(study, case, geo, parameters, order):
             match(stress[:, :2], ours.position))
 
 
-def compare(study, case, geo, tolerance, mesh_name, order):
+def compare(study, case, geo, mesh_name, order):
     parameters = PADS if geo == "pads" else MESHES[mesh_name]
     ours, theirs, stress, vertices = solve_both(study, case, geo, parameters, order)
     element = "T3" if order == 1 else "T6"
@@ -44,12 +46,12 @@ def compare(study, case, geo, tolerance, mesh_name, order):
     contact = theirs[ours.contact]
     largest = np.abs(theirs[:, 4:6]).max()
     study.add(GROUP, label, "displacement of every node, largest", np.abs(theirs[:, 2:4]).max(),
-              np.abs(ours.displacement).max(), relative(ours.displacement, theirs[:, 2:4]), tolerance)
+              np.abs(ours.displacement).max(), relative(ours.displacement, theirs[:, 2:4]), TOLERANCE)
     study.add(GROUP, label, "reaction of every node, largest", largest,
-              np.abs(ours.reaction).max(), relative(ours.reaction, theirs[:, 4:6]), 10 * tolerance)
+              np.abs(ours.reaction).max(), relative(ours.reaction, theirs[:, 4:6]), 10 * TOLERANCE)
     study.add(GROUP, label, "nodal stresses, largest", np.abs(stress).max(),
               np.abs(ours.stress[vertices]).max(), relative(ours.stress[vertices], stress),
-              10 * tolerance)
+              10 * TOLERANCE)
     x = ours.position[ours.contact, 0]
     sums = {"pressure resultant": (contact[:, 5].sum(), ours.results["normal_force"]),
             "moment of the pressure": ((x * contact[:, 5]).sum(), ours.results["pressure_moment"])}
@@ -57,7 +59,7 @@ def compare(study, case, geo, tolerance, mesh_name, order):
         rod = (theirs[:, 0] == 0) & (theirs[:, 1] > 0)
         sums["rod force"] = (theirs[rod, 4].sum(), ours.results["rod_force"])
     for name, (reference, value) in sums.items():
-        study.add(GROUP, label, name, reference, value, relative(value, reference), 10 * tolerance)
+        study.add(GROUP, label, name, reference, value, relative(value, reference), 10 * TOLERANCE)
     if case in ("friction", "pads", "uplift"):
         states = "{open} open, {sticking} stick, {slipping} slip".format(**ours.results)
         theirs_open = int((np.abs(contact[:, 4:6]).max(axis=1) <= 1e-10 * largest).sum())
@@ -122,9 +124,9 @@ def base_shift(nodes):
 
 def controls(study):
     def contact(case):
-        return lambda s: compare(s, case, "block", 1e-7, "regular", 1)
+        return lambda s: compare(s, case, "block", "regular", 1)
     for mistake, broken, compute in (
-            ("none", "no mistake: the controls' own check, must be missed", contact("friction")),
+            ("none", "no mistake: nothing may break", contact("friction")),
             ("unlumped-contact", "gap, slip and reaction by integrals along the base", contact("uplift")),
             ("consistent-slip", "slip and shear by consistent mass of the base", contact("friction")),
             ("smoothed-stick", "friction smoothed over 1e-7 of slip, nothing sticks", contact("friction")),
@@ -137,14 +139,15 @@ def controls(study):
 def run(study):
     if not have_freefem():
         raise RuntimeError("FreeFem++ is not installed: ./amontons validate installs it")
-    for case, geo, tolerance in CASES:
+    for case, geo in CASES:
         names = ["four pads"] if geo == "pads" else list(MESHES)
         if study.quick:
             names = names[-1:]
         for name in names:
             for order in (1, 2):
-                compare(study, case, geo, tolerance, name, order)
+                compare(study, case, geo, name, order)
     for order in (1, 2):
         steps(study, order)
-    quadrilaterals(study)
+    if not study.quick:
+        quadrilaterals(study)
     controls(study)

@@ -13,15 +13,15 @@
 // symbol, name in AMONTONS_MISTAKE
 #define MISTAKES(X)                                                                                \
     X(MISTAKE_NONE, "none")                                                                        \
-    X(MISTAKE_VISCOUS_SIGN, "viscous-sign")           /* sigma_xx = ... - eta2 eps_zz' */          \
-    X(MISTAKE_SHEAR_VISCOSITY, "shear-viscosity")     /* eta1 2 eps_xz' in place of eta1 eps_xz' */ \
-    X(MISTAKE_WRONG_PLANE, "wrong-plane")             /* strain for stress and the reverse */      \
-    X(MISTAKE_UNLUMPED_CONTACT, "unlumped-contact")   /* gap, slip, reaction by consistent mass */ \
-    X(MISTAKE_CONSISTENT_SLIP, "consistent-slip")     /* slip and shear only */                    \
-    X(MISTAKE_SMOOTHED_STICK, "smoothed-stick")       /* mu(v) tanh(v/v_0) in place of stick */    \
-    X(MISTAKE_GLUED_CONTACT, "glued-contact")         /* what touched does not leave */            \
-    X(MISTAKE_HALF_SLIP_RATE, "half-slip-rate")       /* mu(v/2) */                                \
-    X(MISTAKE_STAGE_MATRIX, "stage-matrix")           /* K twice in the matrix of a stage */
+    X(MISTAKE_VISCOUS_SIGN, "viscous-sign") /* sigma_xx = ... - eta2 eps_zz' */                    \
+    X(MISTAKE_SHEAR_VISCOSITY, "shear-viscosity") /* eta1 2 eps_xz' in place of eta1 eps_xz' */    \
+    X(MISTAKE_WRONG_PLANE, "wrong-plane") /* strain for stress and the reverse */                  \
+    X(MISTAKE_UNLUMPED_CONTACT, "unlumped-contact") /* gap, slip, reaction by consistent mass */   \
+    X(MISTAKE_CONSISTENT_SLIP, "consistent-slip") /* slip and shear only */                        \
+    X(MISTAKE_SMOOTHED_STICK, "smoothed-stick") /* mu(v) tanh(v/v_0) in place of stick */          \
+    X(MISTAKE_GLUED_CONTACT, "glued-contact") /* what touched does not leave */                    \
+    X(MISTAKE_HALF_SLIP_RATE, "half-slip-rate") /* mu(v/2) */                                      \
+    X(MISTAKE_STAGE_MATRIX, "stage-matrix") /* K twice in the matrix of a stage */
 
 typedef enum Mistake {
 #define X(symbol, name) symbol,

@@ -312,6 +312,30 @@ static void test_landing(void **state)
     stepped_block_destroy(&block);
 }
 
+// A load that comes on top at t = 0 moves its nodes by a t^2/2 (Taylor), from the first step on.
+static void test_sudden_load(void **state)
+{
+    (void)state;
+    const double step = 1e-4, more = 1e-3;
+    SteppedDef def = smooth_block(0);
+    def.rod_kind = ROD_AWAY;
+    SteppedBlock block;
+    Run run;
+    stepped_block_build(&def, &block);
+    int32_t dof = 2 * (block.mesh.node_count - 2) + 1;   // u_z of a node of the top
+    double before = block.state.displacement[dof];
+    assert_true(block.bulk.load[dof] < 0);
+    block.bulk.load[dof] -= more;
+    run_start(&block, step, &run);
+    for (int32_t n = 1; n <= 3; n++) {
+        run_advance(&block, 1, &run);
+        double t = n * step, fallen = more / block.bulk.mass[dof] * t * t / 2;
+        assert_near("fallen", before - block.state.displacement[dof], fallen, 1e-4 * fallen);
+    }
+    explicit_reference_destroy(&run.scheme);
+    stepped_block_destroy(&block);
+}
+
 static void test_memory(void **state)
 {
     (void)state;
@@ -342,7 +366,7 @@ int main(void)
         cmocka_unit_test(test_order_elastic), cmocka_unit_test(test_order_viscous),
         cmocka_unit_test(test_sled_stops),    cmocka_unit_test(test_conditions),
         cmocka_unit_test(test_both_hold),     cmocka_unit_test(test_landing),
-        cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_sudden_load),   cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
