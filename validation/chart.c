@@ -3,9 +3,9 @@
 //
 //   amontons_chart OUT.png < description
 //
-// The description holds, for each chart: title, label of x, label of y (a line each), a line with 1 or
-// 0 (logarithmic or not) and the number of curves, and for each curve a line with its number of points
-// and its name, then a line "x y" for each point.
+// The description holds, for each chart: title, label of x, label of y (a line each), a line with 1
+// or 0 (logarithmic or not) and the number of curves, and for each curve a line with its number of
+// points and its name, then a line "x y" for each point.
 #include "base/memory.h"
 #include "render/axes.h"
 #include "render/context.h"

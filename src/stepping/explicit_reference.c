@@ -83,8 +83,8 @@ void explicit_reference_destroy(ExplicitReference *scheme)
     *scheme = (ExplicitReference){0};
 }
 
-// v half a step before the start, v_0 - (dt/2) a_0, with M a_0 = f + r - K u - C v from the equation
-// itself: a load that is put on at once is not in the inertia of the state it is put on.
+// v half a step before the start, v_0 - (dt/2) a_0, with M a_0 = f + r - K u - C v from the
+// equation itself: a load put on at once is not in the inertia of the state it is put on.
 void explicit_reference_start(ExplicitReference *scheme, const State *state)
 {
     const Bulk *bulk = scheme->def.bulk;

@@ -3,8 +3,8 @@
 //
 // The program's contact is nodal ("lumped"): gap, slip rate and reaction of a node belong together.
 // Had one integrated over edges with the shape functions instead, node i would see the mean
-// (A v)_i, A = W^-1 B, with B_ij = int N_i N_j dx and W its row sums, and its reaction l_i would act
-// as r = A' l. With v = T w, T = A^-1, the problem S v = g + r becomes
+// (A v)_i, A = W^-1 B, with B_ij = int N_i N_j dx and W its row sums, and its reaction l_i would
+// act as r = A' l. With v = T w, T = A^-1, the problem S v = g + r becomes
 //
 //     (T' S T) w = T' g + l,     w_n >= (A bound)_n,     friction between l and w,
 //
