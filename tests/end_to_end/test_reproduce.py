@@ -19,7 +19,8 @@ sys.path.insert(0, str(PAPER))
 sys.dont_write_bytecode = True
 
 import interface   # noqa: E402
-import reproduce   # noqa: E402
+import paper_report   # noqa: E402
+import windows     # noqa: E402
 import theory      # noqa: E402
 
 
@@ -102,10 +103,10 @@ class Studies(InFolder):
                 self.assertIn("has no group 'nowhere'", done.stderr)
 
     def test_tables(self):
-        self.assertEqual(reproduce.table(["a", "b"], [(1, float("nan")), ("x", 123456.0)]),
+        self.assertEqual(paper_report.table(["a", "b"], [(1, float("nan")), ("x", 123456.0)]),
                          "| a | b |\n|---|---|\n| 1 | - |\n| x | 1.235e+05 |\n")
-        self.assertEqual(reproduce.mu_of({"mu_M": float("nan"), "mu_max": 0.3}), 0.3)
-        self.assertEqual(reproduce.mu_of({"mu_M": 0.2, "mu_max": 0.3}), 0.2)
+        self.assertEqual(windows.mu_of({"mu_M": float("nan"), "mu_max": 0.3}), 0.3)
+        self.assertEqual(windows.mu_of({"mu_M": 0.2, "mu_max": 0.3}), 0.2)
 
 
 if __name__ == "__main__":

@@ -6,6 +6,10 @@ import numpy as np
 LEADING = 2
 
 
+def same(a, b):
+    return abs(a - b) <= 1e-9 * abs(b)
+
+
 class History:
     def __init__(self, folder):
         with h5py.File(folder / "history.h5") as file:

@@ -1,0 +1,231 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""REPORT.md: tables of what was computed, beside what the paper says."""
+
+import numpy as np
+
+import fronts
+import theory
+from interface import History, peak_made_of, same
+from windows import branch_words, difference, reason
+
+
+def table(heads, rows):
+    lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
+    lines += ["| " + " | ".join(cell(value) for value in row) + " |" for row in rows]
+    return "\n".join(lines) + "\n"
+
+
+def cell(value):
+    if isinstance(value, str):
+        return value
+    if value is None or not np.isfinite(value):
+        return "-"
+    return f"{value:.4g}" if abs(value) < 1e4 else f"{value:.3e}"
+
+
+def regime(row):
+    if row["status"] != "done" or not np.isfinite(row["period"]):
+        return row["status"]
+    if not np.isfinite(row["mu_M"]):
+        return "slides slowly"
+    return f"{row['period']:.0f}" if row["period"] > 0 else "none found"
+
+
+def mu_table(found, fine, cells):
+    out = []
+    for window, other in zip(found, fine):
+        out.append((window.length, window.P, window.mu, 100 * window.scatter / window.mu, branch_words(window), regime(window.centre),
+                    window.l_c, window.l_c * cells, other.mu, 100 * other.scatter / other.mu, branch_words(other),
+                    100 * difference(window, other), reason(window, other, cells)))
+    return table(["L", "P", "mu_M", "a run's scatter, %", "branches (peaks)", "period", "l_c/L", "l_c, cells", "mu_M, twice as many cells",
+                  "a run's scatter, %", "branches (peaks)", "difference, %", "why more than 1 %"], out)
+
+
+def line_words(parts):
+    """The answer to why mu_M is not on the line, from the numbers of this run."""
+    text = []
+    for name in ("A", "B"):
+        at = [p for p in parts if p["set"] == name]
+        if not at:
+            continue
+        mean = {key: np.mean([p[key] for p in at]) for key in ("distance", "by_behind", "by_left", "by_carried", "by_load")}
+        text.append(f"Set {name}, mean over its rows: mu lies {mean['distance']:+.3f} from the line; friction behind the front "
+                    f"gives {mean['by_behind']:+.3f}, what sliding left ahead of it {mean['by_left']:+.3f}, what was carried "
+                    f"ahead of it {mean['by_carried']:+.3f}, and pressure growing with x {mean['by_load']:+.3f}.")
+    return "\n" + "\n".join(text) + """
+Two of the three things that the line takes for granted do not hold in these runs: tau/p ahead of the front is above mu_K
+from the start, for sliding ends at slip rates of a few v_c, where friction is no longer mu_K; and it grows further ahead
+of the front while the front is on its way, since the stuck part is elastic. The pressure's growth with x acts against both.
+`model1d.py` splits the same distance against the 1D model's pressure.
+"""
+
+
+def depends_table(rows):
+    keys = list(rows[0])
+    keys = keys[keys.index("point") + 1:keys.index("mu_M")]
+    out = []
+    for P in sorted({row["load.pressure"] for row in rows}):
+        at = [row for row in rows if same(row["load.pressure"], P)]
+        base = at[0]
+        for row in at:
+            changed = [f"{key} = {cell(row[key])}" for key in keys
+                       if key not in ("load.pressure", "time.until.U") and str(row[key]) != str(base[key])]
+            out.append((P, ", ".join(changed) or "(standard)", row["mu_M"], 100 * (row["mu_M"] / base["mu_M"] - 1),
+                        row["low"], row["high"], regime(row), row["l_c"], row["steps"]))
+    return table(["P", "changed", "mu_M", "by, %", "lowest peak", "highest", "period", "l_c/L", "steps"], out)
+
+
+def line_parts(rows):
+    parts = []
+    for row in rows:
+        if row["status"] != "done":
+            continue
+        history = History(row["folder"])
+        if history.cycles():
+            m = peak_made_of(history)
+            parts.append({**m, "set": "A" if history.mu_static < 1 else "B", "P": row["load.pressure"],
+                          "distance": m["mu"] - m["line"]})
+    return parts
+
+
+def line_table(parts):
+    keys = ["set", "P", "mu", "l", "line", "distance", "by_behind", "by_left", "by_carried", "by_load", "f", "left", "ahead"]
+    return table(["set", "P", "mu, peak", "l/L", "line", "mu - line", "behind", "left by sliding", "carried ahead",
+                  "load not uniform", "f", "tau/p ahead, after sliding", "tau/p ahead, at the peak"],
+                 [[p[key] for key in keys] for p in parts])
+
+
+def median_of(values):
+    values = [v for v in values if np.isfinite(v)]
+    return np.median(values) if values else np.nan
+
+
+def velocity_table(rows):
+    """Slip rates and front speeds of both kinds against V."""
+    out = []
+    for row in rows:
+        cells = [row["rod.velocity"], row["mu_M"], regime(row)]
+        run = fronts.load(row["folder"])
+        for kind in ("bounded rapid", "leading rapid"):
+            found = [fronts.Front(event, run) for event in fronts.events_of(row) if event["kind"] == kind]
+            rates = fronts.rates(row, kind)
+            halves = [front.mean_speed(0.5 * (front.x[0] + front.x[-1]), front.x[-1]) for front in found]
+            c = run["model"]["wave_speeds"]
+            cells += [len(found), np.median(rates), np.median(rates) / row["rod.velocity"],
+                      median_of(np.max(front.speeds) for front in found if len(front.speeds)) / c["longitudinal"],
+                      median_of(halves) / c["rayleigh"]]
+        out.append(cells)
+    heads = ["V", "mu_M", "period"]
+    for kind in ("bounded", "leading"):
+        heads += [kind, "median slip rate", "over V", "front: fastest/c_L", "second half/c_R"]
+    return table(heads, out)
+
+
+def catalogue(cases, scene):
+    """Each rapid event of the last cycle. scene: V and v_c."""
+    text = []
+    for label, run in cases:
+        rows = [fronts.catalogue_row(front, *scene) for front in fronts.rapid_of_last_cycle(run)]
+        slow = [e["front_speed"] for e in run["results"]["events"] if e["kind"] == "quasi-static" and e["front_speed"]]
+        text.append(f"\n{label.replace('~', '').replace('{', '').replace('}', '')}: {len(rows)} rapid precursors in the last cycle; the "
+                    f"slow front between slidings runs at {np.median(slow) / scene[0]:.3g} V (median).\n\n"
+                    + table(fronts.HEADS, rows))
+    return "".join(text)
+
+
+def critical_table(rows):
+    keys = [("P", "P"), ("line_l_c", "l_c, 1D formula"), ("line_l_c_full", "1D, all terms"), ("simulated_l_c", "1D, simulated"),
+            ("block_l_sc", "l_sc, block"), ("block_l_c", "l_c, block, V → 0"), ("block_l_c_at_V", "at V"),
+            ("line_mu", "mu, 1D formula"), ("line_mu_full", "1D, all terms"), ("simulated_mu", "1D, simulated"),
+            ("block_mu", "block, V → 0"), ("block_mu_at_V", "at V")]
+    return table([name for _, name in keys], [[row[key] for key, _ in keys] for row in rows])
+
+
+def readings_table(rows):
+    out = [(row["material.density"], row["friction.critical_velocity"], row["rod.kind"], row["mesh.set.length"],
+            row["load.pressure"], row["mu_M"], row["l_c"], theory.B.line(row["l_c"])) for row in rows]
+    return table(["density", "v_c", "rod", "L", "P", "mu_M", "l_c/L", "line at this l_c"], out)
+
+
+def profile_words(history, rows):
+    after, peak = rows[0], rows[-1]
+    f, behind, ahead = history.split(peak, history.front[peak])
+    return (f"At the peak (U = {history.U[peak]:.5f}) the front stands at {history.front[peak] / history.length:.3f} L; "
+            f"tau/p is {behind:.4f} behind it (mu_S = {history.mu_static}) and {ahead:.4f} ahead of it on average "
+            f"(mu_K = {history.mu_kinetic}). Just after sliding, tau/p is {history.split(after, -1)[2]:.4f} over the whole "
+            f"interface. p/P is {history.pressure[peak][0] / history.P:.3f} at x = 0 and "
+            f"{history.pressure[peak][-1] / history.P:.3f} at x = L.\n")
+
+
+INTRO = """# The paper's figures, recomputed
+
+Otsuki and Matsukawa, Sci. Rep. 3, 1586 (2013). Everything here was computed by `./amontons reproduce`; meshes have {mesh} by
+{mesh} cells unless another number is named. mu_M of a run is the mean of its peaks in whole rounds of the periodic regime;
+where no period up to 8 was found, of all peaks but the start's third. Where no sliding was fast (no peak), mu_M stands
+for the steady F_T/F_N of slow sliding.
+
+## Figures 2a and 2b: mu_M against pressure
+
+Each point is the mean of {runs} runs at pressures within {width:.0f} % of P: sliding starts with one of a row of bursts, and the
+slip front then stands at a node, so that a single run's mu_M is a staircase in P with steps that lie elsewhere on each mesh.
+Bars reach from the lowest to the highest branch of a run, less the window's trend.
+
+"""
+
+LINE = """
+The paper has all points on mu_K + (mu_S - mu_K) l_c/L. Where ours lie off it, the last peak of each run says why. With f
+the part of the load that lies behind the front l, and tau/p averaged by load behind and ahead of it,
+mu - line = (r_behind - mu_S) f + (r_left - mu_K)(1 - f) + (r_ahead - r_left)(1 - f) + (mu_S - mu_K)(f - l/L), exactly:
+what friction lacks behind the front, what sliding left ahead of it, what was carried ahead of it since, and pressure that
+is not uniform (80 cells).
+
+"""
+
+CRITICAL = """
+## Critical lengths: the 1D model and the block
+
+l_sc, where a disturbance first grows swinging, and l_c, where one first grows without, over L. The 1D model (alpha = 0.2): by
+the paper's formula, with all terms of its linear problem, and as its simulation finds them at the first peak. The block:
+by `amontons stability`, for V towards 0 and at V, and by time stepping (the circles, from the sweeps above).
+
+"""
+
+FRONTS = """
+## Fronts of precursors, set A
+
+How fast the front of a rapid precursor runs along the contact, 80 by 80 cells, steps of at most L/(20 c_L). It sets out within
+what slipped slowly before, where slip has only to speed up.
+
+"""
+
+READINGS = """
+The density in the equation of motion, the rod's kind, and L at constant P L change nothing here: inertia is negligible at
+this size. What counts is (mu_S - mu_K) P L / (v_c eta): the last rows have v_c smaller by sqrt 2, the factor by which the
+authors later corrected v_c, V and eta1 in the 3D follow-up.
+"""
+
+
+def write(place, parts):
+    picture = lambda name, words: f"![{words}](figures/{name}.png)\n" if name in place.pictures else ""  # noqa: E731
+    text = [INTRO.format(mesh=parts["cells"], runs=parts["runs"], width=parts["width"]),
+            picture("fig2a", "mu_M against P, set A"), picture("fig2b", "mu_M against P, set B"),
+            "\nSet A:\n\n", parts["a"], "\n", parts["agreement_a"], "\nSet B:\n\n", parts["b"], "\n", parts["agreement_b"],
+            "\nThe paper: mu_M falls as P or L grows, and becomes nearly constant at both ends.\n",
+            "\n## Figure 3a\n\n", picture("fig3a", "mu_M against l_c"), LINE, parts["line"], parts["words"],
+            "\n## Figures 3b and 3c\n\n", picture("fig3b", "p over P"), picture("fig3c", "tau over p"), parts["profile"],
+            CRITICAL, picture("critical-a", "critical lengths, set A"), picture("critical-b", "critical lengths, set B"),
+            picture("growth", "growth rates"), "\nSet A, L = 1:\n\n", parts["critical_a"], "\nSet B, L = 0.04:\n\n", parts["critical_b"],
+            "\n## Set B at P L = 2.3e-6: the paper's mu_M = 0.6\n\n", parts["readings"], READINGS,
+            "\nAnd V towards 0 (the sweeps above have V / v_c = 0.03):\n\n",
+            picture("velocity-b", "mu_M against V/v_c"), parts["adiabatic"],
+            FRONTS, picture("front-path", "where the fronts are"), picture("front-speed", "how fast they run"), parts["catalogue"],
+            "\n## Precursors and the rod's velocity, set A, L = 1, P = 0.003\n\n",
+            picture("velocity-a", "slip rates against V"), parts["velocity"],
+            "\nThe paper: the slip rate of bounded precursors falls with V, that of leading ones does not; their fronts do not "
+            "depend on V.\n",
+            "\n## What mu_M depends on, set A, L = 1\n\n", parts["depends"],
+            "\n## Time\n\n", table(["part", "wall time, s"], [(k, round(v, 1)) for k, v in place.seconds.items()]),
+            f"\nAll: {sum(place.seconds.values()):.0f} s with {place.jobs} points at a time.\n"]
+    path = place.folder / "REPORT.md"
+    path.write_text("".join(text))
+    print(f"report: {path}\nfigures: {place.figures}")
