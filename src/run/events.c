@@ -46,6 +46,8 @@ void events_destroy(Events *events)
     *events = (Events){0};
 }
 
+// A new event of `kind`, whose place in the list is *index. Room doubles: no allocation in most
+// steps. ERROR_MEMORY leaves the list as it was.
 static bool start_event(Events *events, EventKind kind, const Observation *seen, int32_t *index,
                         Error *err)
 {
@@ -69,6 +71,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// The event goes on in this step. reach: largest x it has come to so far, length.
 static void extend_event(Event *event, const Observation *seen, double reach)
 {
     event->U_stop = seen->U;
@@ -77,6 +80,8 @@ static void extend_event(Event *event, const Observation *seen, double reach)
     event->peak_slip_rate = fmax(event->peak_slip_rate, seen->max_slip_rate);
 }
 
+// The quasi-static event is over; its mean front speed is proportional to V (a plain mean: the
+// front goes by nodes).
 static void end_slow(Events *events)
 {
     if (events->slow < 0) return;
@@ -120,6 +125,8 @@ static double fast_front(const Events *events, const Observation *seen)
     return NAN;
 }
 
+// One step of the rapid event under way. It becomes leading in the step in which the last node has
+// slipped; the slow growth that came before ends with that, too.
 static void follow_rapid(Events *events, const Observation *seen)
 {
     Event *event = &events->list[events->rapid];
@@ -139,6 +146,7 @@ static void follow_rapid(Events *events, const Observation *seen)
     }
 }
 
+// Slow and rapid events never overlap in a step: while something is rapid, the slow one pauses.
 static bool follow_step(Events *events, const Observation *seen, Error *err)
 {
     events->began = events->ended = events->crossed = false;

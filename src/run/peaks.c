@@ -35,6 +35,7 @@ void peaks_destroy(Peaks *peaks)
     *peaks = (Peaks){0};
 }
 
+// `rising` joins the list. ERROR_MEMORY leaves the list as it was.
 static bool push_peak(Peaks *peaks, Error *err)
 {
     if (peaks->count == peaks->room) {
@@ -49,6 +50,8 @@ cleanup:
     return error_is_clean(err);
 }
 
+// A peak is known when a leading event has crossed; while it slides, and in the step that ends it,
+// nothing rises: the force then says nothing of static friction.
 bool peaks_record(void *self, const Observation *seen, Error *err)
 {
     Peaks *peaks = self;
@@ -104,6 +107,7 @@ static void find_period(const Peaks *peaks, PeaksSummary *summary)
     summary->counted = peaks->count - transient;
 }
 
+// Means over the peaks counted, which are marked. l_sc where it was seen at all.
 static void average(Peaks *peaks, PeaksSummary *summary)
 {
     double low = INFINITY, high = -INFINITY, sum = 0, fronts = 0, losses = 0;

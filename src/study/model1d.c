@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A scene as the effective model sees it, theory, simulation, results.
+// A scene as the effective model sees it (equation 1 of Otsuki and Matsukawa 2013, in model1d.h),
+// theory, simulation, results. The scene's plane decides E_1: E/(1 - nu^2) in plane stress, the
+// paper's case, and the confined modulus in plane strain. Of the mesh only L and H are used.
 #include "study/model1d.h"
 
 #include "base/clock.h"
@@ -18,6 +20,7 @@ Model1dOptions amontons_model1d_options(void)
     return (Model1dOptions){.alpha = 0.2, .nodes = 81};
 }
 
+// What the model has no terms for is refused rather than left out. ERROR_INPUT names the key.
 static bool check_scene(const Scene *scene, Error *err)
 {
     const char *path = scene->path;
@@ -43,6 +46,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// alpha is the paper's fit (0.2); a line of fewer than three nodes has no inside.
 static bool check_options(const Scene *scene, const Model1dOptions *options, Error *err)
 {
     if (!(options->alpha > 0 && options->alpha <= 10))
@@ -91,6 +95,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Elastic and viscous constants of the line from the block's. Lengths come from the mesh.
 static bool translate_scene(const Scene *scene, const Model1dOptions *options, Model1d *model,
                             Error *err)
 {
@@ -152,6 +157,9 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Lengths over L and mu there, thrice: by the paper's formula (which may give l_c beyond L: mu_S
+// then), with all terms, and with all terms at the scene's V. A front that reaches the end without
+// a loss slides there, at mu_M = mu(L).
 static bool summarise_theory(const Model1d *model, Model1dSummary *summary, Error *err)
 {
     double length = model->length;
@@ -171,6 +179,8 @@ cleanup:
     return error_is_clean(err);
 }
 
+// The first peak stands apart: it starts from u_0, as the theory does; later ones from what sliding
+// left.
 static void summarise_steps(Model1dSimulation *simulation, Model1dSummary *summary)
 {
     const StepCounters *steps = &simulation->control.counters;
@@ -210,6 +220,8 @@ static void simulation_destroy(Model1dSimulation *simulation)
     memory_free(simulation->points);
 }
 
+// Theory always, steps unless options say otherwise; results last, so that a failed simulation
+// leaves none.
 bool amontons_model1d(const Scene *scene, const Model1dOptions *options, Model1dSummary *summary,
                       Error *err)
 {

@@ -15,6 +15,8 @@
 
 #include "base/memory.h"
 
+// Evenly spaced nodes, all of them contact; the trapezoid rule's weights (half at the ends). The
+// rod is one more unknown, behind the nodes'.
 static bool build_interface(const Model1d *model, int32_t points, Interface *interface, Error *err)
 {
     double element = model->length / (points - 1);
@@ -80,6 +82,8 @@ static double node_load(const Model1d *model, const Interface *interface, int32_
     return interface->weight[i] * model1d_pressure(model, x);
 }
 
+// M, C, K and the load as a reduced bulk with nothing inside: all unknowns are the interface's. The
+// normals carry the node's mass too, so that A stays definite; they never move.
 static bool build_matrices(const Model1d *model, const Interface *interface, ReducedBulk *reduced,
                            Error *err)
 {
@@ -103,6 +107,8 @@ static bool build_matrices(const Model1d *model, const Interface *interface, Red
     return true;
 }
 
+// The line as a Block: from here on the steppers cannot tell it from a block of elements. The rod
+// is bonded: s_xz follows U - u whatever its sign.
 bool chain_build(const Model1d *model, int32_t points, Chain *chain, Error *err)
 {
     double *rotation = NULL;   // moments are not the model's business: no rotation
@@ -132,6 +138,9 @@ void chain_destroy(Chain *chain)
     *chain = (Chain){0};
 }
 
+// u_0 solves the line at rest with tau = mu_K p everywhere and U = 0; the reactions follow from
+// K u - f, so that the state is in balance on the discrete line, whose friction then differs from
+// mu_K p by the error of the elements.
 void chain_rest(const Model1d *model, const Chain *chain, State *state)
 {
     const Interface *interface = &chain->interface;

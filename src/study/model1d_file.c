@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What `amontons model1d` leaves: numbers in model1d.json, curves in model1d.h5. The simulation's
-// steps stand in history.h5, as those of a block (run/history).
+// steps stand in history.h5, as those of a block (run/history). Lengths are over L in the JSON
+// (keys end in _over_L), in the scene's units in the arrays. The JSON is written last.
 #include "study/model1d.h"
 
 #include "io/array_file.h"
@@ -26,6 +27,7 @@ enum { PROFILE_POINTS = 201 };
     X(front_seen, "points/front_seen", "length", "simulated front at the same U; nan: slid")       \
     X(mu_seen, "points/mu_seen", "1", "simulated F_T/F_N at the same U; nan: slid")
 
+// The constants of equation 1 in the scene's units, for whoever wants to solve it otherwise.
 static void write_model(JsonWriter *json, const Model1dSimulation *simulation)
 {
     const Model1d *model = &simulation->model;
@@ -43,6 +45,8 @@ static void write_model(JsonWriter *json, const Model1dSimulation *simulation)
     json_end(json);
 }
 
+// Plain names: the paper's formula (couplings neglected). *_full: all terms. *_at_V: at the scene's
+// velocity. null: not up to L.
 static void write_theory(JsonWriter *json, const Model1dSummary *summary)
 {
     json_begin_object(json, "theory");
@@ -59,6 +63,7 @@ static void write_theory(JsonWriter *json, const Model1dSummary *summary)
     json_end(json);
 }
 
+// As results.peaks of run.json.
 static void write_peaks(JsonWriter *json, const Model1dSimulation *simulation)
 {
     double length = simulation->model.length;
@@ -76,6 +81,7 @@ static void write_peaks(JsonWriter *json, const Model1dSimulation *simulation)
     json_end(json);
 }
 
+// first_*: the first peak, which starts from u_0; the others are means over the periodic regime.
 static void write_simulation(JsonWriter *json, const Model1dSimulation *simulation,
                              const Model1dSummary *summary)
 {
@@ -118,6 +124,7 @@ static bool write_numbers(const Model1dSimulation *simulation, const Model1dSumm
     return json_finish(json, err);
 }
 
+// One member of every point as a series; offset: of the member in Model1dPoint.
 static bool write_curve(ArrayFile *file, const ArraySeries *series, const Model1dSimulation *from,
                         size_t offset, Error *err)
 {
@@ -175,6 +182,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// A file that failed half-way is abandoned: it never stands under its final name.
 bool model1d_write(const Model1dSimulation *simulation, const Model1dSummary *summary, Error *err)
 {
     char name[AMONTONS_PATH_SIZE + 32];

@@ -21,6 +21,7 @@ static const double FIRST_FRONT = 1e-4;   // of L: nothing grows on so short a f
 static const double FRONT_ERROR = 1e-7;   // of L, of the fronts found
 enum { SCAN_FRONTS = 64 };   // on which losses are looked for before halving
 
+// f(j) above: the integral over 0..1 of y cos(j pi y), p growing linearly with x = l y.
 static double overlap(int32_t j)
 {
     if (j == 0) return 0.5;
@@ -33,6 +34,8 @@ int64_t model1d_rates_work(int32_t count)
     return 2 * size * size + 2 * size + dense_eigen_work((int32_t)size);
 }
 
+// Columns first (LAPACK): the lower left block is -K/rho, the lower right (W - C)/rho, the upper
+// right 1. matrix: [2 count][2 count].
 static void fill_companion(const Model1d *model, double l, int32_t count, double *matrix)
 {
     int64_t size = 2 * (int64_t)count;
@@ -74,6 +77,8 @@ bool model1d_rates(const Model1d *model, double l, int32_t count, double *work, 
 
 // --- where something is lost --------------------------------------------------------------------
 
+// What is asked of the rates at one front. Once lost it stays lost as l grows: W grows with l, C
+// and K fall.
 typedef bool (*Lost)(const Model1d *model, const Model1dRates *rates);
 
 static bool swings(const Model1d *model, const Model1dRates *rates)
@@ -88,6 +93,7 @@ static bool slides(const Model1d *model, const Model1dRates *rates)
     return rates->real > 0;
 }
 
+// Growth from V to v_c within half a period, exp(pi Re/Im) > v_c/V (study/stability, half_period).
 static bool slides_at_speed(const Model1d *model, const Model1dRates *rates)
 {
     if (rates->real > 0) return true;
@@ -107,6 +113,8 @@ cleanup:
     return error_is_clean(err);
 }
 
+// The shortest front at which it is lost: fronts in geometric progression, then halving; NaN: not
+// up to L. work: [model1d_rates_work(MODEL1D_MODES)].
 static bool find_first(const Model1d *model, Lost lost, double *work, double *l, Error *err)
 {
     double low = FIRST_FRONT * model->length, high = NAN;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The 1D equation in time: from u_0, where tau = mu_K p everywhere and the rod stands at U = 0, as
-// the theory has it, to the scene's end. Steps, events and peaks are those of a block.
+// the theory has it, to the scene's end. Steps, events and peaks are those of a block. SDIRK2 with
+// the certificate of stepping/certificate, which is exact here (no coupling of pressure to slip).
 #include "study/model1d.h"
 
 #include "run/recorder.h"
@@ -16,12 +17,14 @@ static const double TOLERANCES[] = {
 // The rod's way in the longest step, over the same slip; the rest as in run/model.
 static const double STEP_MAX_SLIP = 0.2, STEP_RANGE = 1e-10;
 
+// (mu_S - mu_K) P H/E, length.
 static double friction_slip(const Model1d *model)
 {
     return (model->law.mu_static - model->law.mu_kinetic) * model->pressure * model->height /
            model->young;
 }
 
+// Tolerances and limits of a step as run/model sets them for a block, in the line's own scales.
 static StepControlDef step_def(const Model1dSimulation *simulation)
 {
     const Scene *scene = simulation->scene;
@@ -39,6 +42,7 @@ static StepControlDef step_def(const Model1dSimulation *simulation)
     return def;
 }
 
+// history.h5 as a block's, so that the same programs draw it; a line has no shear waves.
 static bool open_history(Model1dSimulation *simulation, Error *err)
 {
     const Model1d *model = &simulation->model;
@@ -61,6 +65,7 @@ static bool open_history(Model1dSimulation *simulation, Error *err)
                           &simulation->chain.law, &simulation->history, err);
 }
 
+// The end of the run from time.until, the chain at rest in u_0, recorders.
 static bool open_simulation(Model1dSimulation *simulation, Error *err)
 {
     const Scene *scene = simulation->scene;
@@ -126,6 +131,7 @@ static void report_step(const Model1dSimulation *simulation, const Observation *
     if (options->on_step) options->on_step(&view, options->context);
 }
 
+// Each accepted step, the start's state included. ERROR_COMPUTE: the energy ledger does not close.
 static bool record_step(Model1dSimulation *simulation, Error *err)
 {
     Observation seen = observe(&simulation->control, &simulation->scales);
@@ -155,6 +161,7 @@ static bool is_finished(Model1dSimulation *simulation)
            peaks_summarise(&simulation->peaks).period > 0;
 }
 
+// Steps to the scene's end, or to the periodic regime where that is asked for.
 bool model1d_simulate(Model1dSimulation *simulation, Error *err)
 {
     const Model1dOptions *options = simulation->options;

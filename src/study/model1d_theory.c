@@ -32,6 +32,7 @@ double model1d_range(const Model1d *model)
     return sqrt(model->elastic_x / model->elastic_shear * spring_area(model));
 }
 
+// mu_S - mu_K
 static double friction_drop(const Model1d *model)
 {
     return model->law.mu_static - model->law.mu_kinetic;
@@ -43,6 +44,7 @@ static double cosh_over_sinh(double a, double b)
     return (exp(a - b) + exp(-a - b)) / -expm1(-2 * b);
 }
 
+// u_0 of the supplement: E_1 u'' + [ -E_2 u/h - mu_K p ]/(alpha H) = 0 with u' = 0 at both ends.
 double model1d_rest(const Model1d *model, double x)
 {
     double q = model1d_range(model), length = model->length;
@@ -52,12 +54,14 @@ double model1d_rest(const Model1d *model, double x)
     return scale * (q * ends - x);
 }
 
+// c of the head, 1: slip per length of front
 static double slip_scale(const Model1d *model)
 {
     return 2 * friction_drop(model) * model->drive * model->pressure /
            (model->elastic_shear * model->length);
 }
 
+// Halves and folds keep every exponent at or below 0: fronts of any length over q.
 double model1d_slip(const Model1d *model, double l, double x)
 {
     if (x >= l) return 0;
@@ -92,6 +96,8 @@ typedef struct ModeTerms {
     double stiffness;
 } ModeTerms;
 
+// The paper's equation 3, dimensional, mode n alone. The factor 1 - 1/k_n^2 is what the pressure's
+// growth with x leaves of the mode's diagonal; l/L what it has reached at the front.
 static ModeTerms mode_terms(const Model1d *model, int32_t n, double l)
 {
     double k = (n + 0.5) * M_PI, wave = (k / l) * (k / l), springs = 1 / spring_area(model);
@@ -103,6 +109,7 @@ static ModeTerms mode_terms(const Model1d *model, int32_t n, double l)
                                     (1 - 1 / (k * k))};
 }
 
+// The root of larger real part, without cancellation: where damping wins, by the product of roots.
 GrowthRate model1d_omega(const Model1d *model, int32_t n, double l)
 {
     ModeTerms terms = mode_terms(model, n, l);
@@ -121,6 +128,8 @@ static double shortfall(const Model1d *model, int32_t n, bool critical, double l
     return terms.damping + inertia - terms.weakening;
 }
 
+// Halving to rounding between a front where weakening falls short and one where it does not. The
+// theory knows no end of the line: l may come out beyond L.
 static double find_loss(const Model1d *model, int32_t n, bool critical)
 {
     double low = model->length, high = model->length;

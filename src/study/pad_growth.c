@@ -31,6 +31,7 @@ typedef struct PadWork {
     double *matrix, *values, *work;   // [contact_count^2], [contact_count], dense_eigen_work
 } PadWork;
 
+// S_K (lifted, where the free block leaves it singular), a trial state and room for one pad.
 static bool work_create(StabilityPath *path, PadWork *work, Error *err)
 {
     Simulation *simulation = path->simulation;
@@ -48,6 +49,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Zeroed and half-built too.
 static void work_destroy(PadWork *work)
 {
     interface_operator_destroy(work->stiffness);
@@ -142,6 +144,7 @@ static void sum_pad(const PadWork *work, StabilityPad *pad)
     pad->mode /= pad->length;
 }
 
+// All of one pad, p; nodes of the others stay out. ERROR_COMPUTE: no eigenvalue was found.
 static bool measure_pad(PadWork *work, int32_t p, StabilityPad *pad, Error *err)
 {
     const Interface *interface = work->interface;

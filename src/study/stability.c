@@ -1,4 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// Linear stability of quasi-static slip along the loading path, after the paper's analysis of its
+// 1D model but for the block itself. A state on the path is disturbed by exp(lambda t); with J the
+// slipping nodes and W = diag((mu_S - mu_K) p_i w_i/v_c) on J,
+//
+//     [ lambda M + C + K/lambda ] v = W v   on J, all other contact nodes held,
+//
+// plus what the pressure changes that slip brings along do to friction (stepping/growth solves it).
+// As l grows a pair of rates crosses the imaginary axis (l_sc: disturbances swing and grow), meets
+// on the real axis (l_c: they run away), and the block slides. Between node positions the crossing
+// is interpolated in l, since the front itself can only stand at nodes.
 #include "study/stability.h"
 
 #include "base/clock.h"
@@ -19,6 +29,8 @@ enum {
     POINTS_BEYOND = 2   // front positions that are shown beyond l_c
 };
 
+// The slip that the friction drop drives, (mu_S - mu_K) P H/E, length; with Coulomb's law, which
+// has no drop, mu_S P H/E. It scales the rod's way in a step.
 static double friction_slip(const Simulation *simulation)
 {
     const FrictionLaw *law = &simulation->law;
@@ -46,6 +58,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// True where the caller has asked to stop, with ERROR_INTERRUPT in err.
 static bool stop_wanted(const StabilityPath *path, Error *err)
 {
     const StabilityOptions *options = path->options;
@@ -75,7 +88,9 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The path's own steps, from where the simulation stands.
+// The path's own steps, from where the simulation stands: tolerance and certificate off, so that
+// every step is as long as PATH_STEP says, and a rod of its own velocity that goes on from where
+// the simulation's rod is. Memory for a point per contact node and the two ends.
 static bool open_path(StabilityPath *path, Error *err)
 {
     Simulation *simulation = path->simulation;
@@ -113,6 +128,8 @@ cleanup:
     return error_is_clean(err);
 }
 
+// The tangential part of a mode at the contact nodes. mode: [interface count]; slip:
+// [contact_count].
 static void keep_slip(const Interface *interface, const double *mode, double *slip)
 {
     for (int32_t i = 0; i < interface->contact_count; i++) slip[i] = mode[interface_tangent(i)];
@@ -125,7 +142,9 @@ static int32_t count_slipping(const State *state)
     return count;
 }
 
-// Half a period's growth against v_c/V.
+// Half a period's growth against v_c/V: pi Re/Im - ln(v_c/V). From 0 on a disturbance of the rod's
+// size comes to v_c, where friction no longer weakens, before its swing turns it back: slip then
+// runs away although the pair is still complex.
 static double half_period(const StabilityPath *path, int32_t k)
 {
     const StabilityPoint *point = &path->points[k];
@@ -135,12 +154,14 @@ static double half_period(const StabilityPath *path, int32_t k)
     return M_PI * point->rate_re / point->rate_im - log(ratio);
 }
 
+// At the scene's V: by the above, or for certain because a real rate has been found.
 static bool runs_away(const StabilityPath *path, int32_t k)
 {
     return path->critical >= 0 || half_period(path, k) >= 0;
 }
 
-// The growth rates of `last`, as it was seen.
+// One more point: the growth rates of `last`, as it was seen. Keeps the shape of the fastest mode,
+// of the first real one, and the state at which slip first runs away.
 static bool add_point(StabilityPath *path, const Observation *seen, Error *err)
 {
     const Interface *interface = &path->simulation->interface;
@@ -245,6 +266,7 @@ static bool is_next(const StabilityPath *path, int32_t k)
     return point->slipping == point[-1].slipping + 1 && passed == 1;
 }
 
+// The certificate is yes or no: lost at the point itself.
 static double certificate_margin(const StabilityPath *path, int32_t k)
 {
     return path->points[k].certified ? -INFINITY : 0;
@@ -257,6 +279,7 @@ static double real_part(const StabilityPath *path, int32_t k)
     return point->rate_im > 0 || point->rate_re > 0 ? point->rate_re : -INFINITY;
 }
 
+// Weakening over what M, C and K bear at the best s, less 1 (growth_scan; pressure kept).
 static double overload(const StabilityPath *path, int32_t k)
 {
     return path->points[k].load - 1;
@@ -305,6 +328,7 @@ static StabilityPoint first_sliding(const StabilityPath *path, Margin margin)
     return isnan(lost.front) && path->at_end ? path->points[path->count - 1] : lost;
 }
 
+// l_sc, l_c and mu there. At the scene's V slip cannot run away later than for V -> 0.
 static void summarise(const StabilityPath *path, StabilitySummary *summary)
 {
     const Interface *interface = &path->simulation->interface;
@@ -330,6 +354,7 @@ static void summarise(const StabilityPath *path, StabilitySummary *summary)
                            .seconds_growth = path->seconds_growth};
 }
 
+// Zeroed and half-built paths too.
 static void path_destroy(StabilityPath *path)
 {
     growth_destroy(path->growth);
@@ -342,6 +367,8 @@ static void path_destroy(StabilityPath *path)
     memory_free(path->critical_mode);
 }
 
+// Four stages: a run up to rest after the wanted slidings, the quasi-static path with a point per
+// front position, where things are lost, results.
 bool amontons_stability(const Scene *scene, const StabilityOptions *options,
                         StabilitySummary *summary, Error *err)
 {

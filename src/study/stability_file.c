@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What `amontons stability` leaves: numbers in stability.json, mode shapes in stability.h5.
+// What `amontons stability` leaves: numbers in stability.json, mode shapes in stability.h5. Lengths
+// are over L in the JSON (keys end in _over_L) and in the scene's units in the arrays; NaN becomes
+// null. The JSON is written last: where it stands, the arrays are whole.
 #include "study/stability.h"
 
 #include "io/array_file.h"
@@ -9,6 +11,7 @@
 #include <math.h>
 #include <stdio.h>
 
+// Where things are lost first. *_at_V and mu_M: at the scene's velocity; the others for V -> 0.
 static void write_results(JsonWriter *json, const StabilitySummary *summary)
 {
     json_begin_object(json, "results");
@@ -26,6 +29,7 @@ static void write_results(JsonWriter *json, const StabilitySummary *summary)
     json_end(json);
 }
 
+// The path's table: one entry per front position, rates in 1/time.
 static void write_points(JsonWriter *json, const StabilityPath *path)
 {
     double length = path->simulation->model.length;
@@ -47,6 +51,7 @@ static void write_points(JsonWriter *json, const StabilityPath *path)
     json_end(json);
 }
 
+// What pad_growth.c measured; `mode` is relative to the pad that takes part most.
 static void write_pads(JsonWriter *json, const StabilitySummary *summary)
 {
     json_begin_list(json, "pads");
@@ -67,6 +72,7 @@ static void write_pads(JsonWriter *json, const StabilitySummary *summary)
     json_end(json);
 }
 
+// stability.json. ERROR_FILE: the folder cannot be written to.
 static bool write_numbers(const StabilityPath *path, const StabilitySummary *summary, Error *err)
 {
     char file[AMONTONS_PATH_SIZE + 32];
@@ -91,6 +97,7 @@ static bool write_numbers(const StabilityPath *path, const StabilitySummary *sum
     return json_finish(json, err);
 }
 
+// A series with its values at once. values: [rows][series->columns].
 static bool add_series(ArrayFile *file, const ArraySeries *series, const double *values,
                        int64_t rows, Error *err)
 {
@@ -98,6 +105,8 @@ static bool add_series(ArrayFile *file, const ArraySeries *series, const double 
            array_file_append(file, series->name, values, rows, err);
 }
 
+// Shapes: nodes and critical mode [contact nodes], modes [points][2][contact nodes], front
+// [points], rate [points][2].
 static bool fill_arrays(ArrayFile *file, const StabilityPath *path, Error *err)
 {
     const Interface *interface = &path->simulation->interface;
@@ -127,6 +136,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// A file that failed half-way is abandoned: it never stands under its final name.
 bool stability_write(const StabilityPath *path, const StabilitySummary *summary, Error *err)
 {
     char name[AMONTONS_PATH_SIZE + 32];
