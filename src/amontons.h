@@ -71,7 +71,7 @@ typedef struct RunWarnings {   // what makes an answer doubtful, a sentence each
 // What a run came to, for the closing lines; run.json holds more.
 typedef struct RunSummary {
     double mu_low, mu_high;        // smallest and largest peak, the first left out
-    int32_t period;                // 1: the last peaks agree; 2: every second one; 0: neither
+    int32_t period;                // peaks repeat after so many slidings; 0: they do not
     double mu_M, mu_M_spread;   // of the periodic peaks; NaN: no peak seen
     double mu_trusted;   // of the periodic falls of the force, all sliding or not, the lowest; NaN
     int32_t falls, fall_period;   // counted for it; after how many they repeat, 0: they do not

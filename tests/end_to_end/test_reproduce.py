@@ -18,6 +18,7 @@ PAPER = SOURCE / "validation" / "paper"
 sys.path.insert(0, str(PAPER))
 sys.dont_write_bytecode = True
 
+import fronts      # noqa: E402
 import interface   # noqa: E402
 import paper_report   # noqa: E402
 import windows     # noqa: E402
@@ -87,6 +88,72 @@ class Parts(InFolder):
             self.assertAlmostEqual(parts[key], 0, places=12)
         self.assertAlmostEqual(parts["behind"], 0.4, places=12)
         self.assertAlmostEqual(parts["ahead"], 0.1, places=12)
+
+
+class Fronts(unittest.TestCase):
+    RUN = {"model": {"length": 2.0, "wave_speeds": {"longitudinal": 1.0, "shear": 0.6, "rayleigh": 0.5}}, "results": {"events": []}}
+
+    def event(self, times, kind="bounded rapid"):
+        return {"kind": kind, "front_times": times, "front_start": 1.0, "reach": 1.6, "U_start": 1, "U_stop": 2, "peak_slip_rate": 6,
+                "front_speed": 0.4}
+
+    def test_way_to_the_leading_edge(self):
+        """Sets out at station 5 in both directions, with speed 4, then 0.5, and stops at station 15 of 20."""
+        times = [None] * 21
+        for k in range(5):
+            times[k] = 1 + 0.1 * (5 - k)
+        for k in range(5, 11):
+            times[k] = 1 + (k - 5) * 0.1 / 4
+        for k in range(11, 16):
+            times[k] = times[10] + (k - 10) * 0.1 / 0.5
+        front = fronts.Front(self.event(times), self.RUN)
+        self.assertAlmostEqual(front.x[0], 0.25)
+        self.assertAlmostEqual(front.x[-1], 0.75)
+        np.testing.assert_allclose(front.speeds, [4] * 5 + [0.5] * 5)
+        self.assertAlmostEqual(front.mean_speed(0.5, 0.75), 0.5)
+        self.assertAlmostEqual(front.mean_speed(0.25, 0.75), 1 / (0.5 / 4 + 0.5 / 0.5))
+        self.assertTrue(np.isnan(front.mean_speed(0.76, 0.9)))
+        row = fronts.catalogue_row(front, 2, 3)
+        self.assertEqual(row[0], "bounded rapid")
+        np.testing.assert_allclose(row[3:], [0.5, 0.8, 3, 2, 0.25, 4, 1, 1])
+
+    def test_nowhere(self):
+        front = fronts.Front(self.event([None] * 21), self.RUN)
+        self.assertEqual(len(front.speeds), 0)
+        self.assertTrue(np.isnan(fronts.catalogue_row(front, 1, 1)[-1]))
+
+    def test_last_cycle(self):
+        kinds = ["leading rapid", "bounded rapid", "leading rapid", "quasi-static", "bounded rapid", "bounded rapid", "leading rapid",
+                 "bounded rapid"]
+        run = {**self.RUN, "results": {"events": [self.event([k] * 21, kind) for k, kind in enumerate(kinds)]}}
+        self.assertEqual([f.event["front_times"][0] for f in fronts.rapid_of_last_cycle(run)], [4, 5, 6])
+
+
+class Windows(unittest.TestCase):
+    @staticmethod
+    def row(P, mu, length=1.0, l_c=0.5, low=None, period=1):
+        return {"mesh.set.length": length, "load.pressure": P, "mu_M": mu, "mu_max": 9.0, "low": mu if low is None else low, "high": mu,
+                "period": period, "l_c": l_c}
+
+    def test_groups_and_means(self):
+        """Pressures close together make a window; a trend in ln P is no scatter; branches reach below."""
+        rows = [self.row(P, 0.3 - 0.1 * np.log(P)) for P in (0.9, 1.0, 1 / 0.9, 2.0)]
+        rows += [self.row(1.0, 0.2, 4.0), self.row(1.1, 0.24, 4.0, low=0.18, period=2)]
+        found = windows.windows(rows[::-1])
+        self.assertEqual([(w.length, len(w.rows)) for w in found], [(1.0, 3), (1.0, 1), (4.0, 2)])
+        self.assertAlmostEqual(found[0].P, 1)
+        self.assertAlmostEqual(found[0].mu, 0.3)
+        self.assertAlmostEqual(found[0].scatter, 0)
+        self.assertAlmostEqual(found[2].mu, 0.22)
+        self.assertAlmostEqual(found[2].low, 0.18)
+
+    def test_reasons(self):
+        window = lambda *pairs, l_c=0.5: windows.Window([self.row(P, mu, l_c=l_c) for P, mu in pairs])  # noqa: E731
+        fine = window((1, 0.3))
+        self.assertEqual(windows.reason(window((1, 0.302)), fine, 40), "")
+        self.assertIn("2.0 cells", windows.reason(window((1, 0.32), l_c=0.05), fine, 40))
+        self.assertIn("let go", windows.reason(window((1, 0.32), l_c=0.95), fine, 40))
+        self.assertIn("scatter", windows.reason(window((1, 0.32)), fine, 40))
 
 
 class Studies(InFolder):
