@@ -165,7 +165,7 @@ class Studies(InFolder):
                 continue
             with self.subTest(study.name):
                 done = subprocess.run([PROGRAM, "sweep", study, "-q", "-o", self.folder / study.stem, "--set",
-                                       "groups.rod=nowhere"], capture_output=True, text=True, timeout=100)
+                                       "groups.rod=nowhere"], capture_output=True, text=True, timeout=500)
                 self.assertEqual(done.returncode, 1, done.stderr)
                 self.assertIn("has no group 'nowhere'", done.stderr)
 
