@@ -21,7 +21,8 @@ static bool fault_is_due(void)
     return false;
 }
 
-void *memory_array(int64_t count, size_t size, Error *err)
+// *padded: the bytes that were allocated, whole lines of ALIGNMENT.
+static void *allocate(int64_t count, size_t size, size_t *padded, Error *err)
 {
     void *array = NULL;
     size_t bytes = 0;
@@ -29,15 +30,27 @@ void *memory_array(int64_t count, size_t size, Error *err)
         bytes > SIZE_MAX / 2)
         FAIL(err, ERROR_MEMORY, "an array of %lld items of %zu bytes is not possible",
              (long long)count, size);
-    size_t padded = (bytes / ALIGNMENT + 1) * ALIGNMENT;
-    if (!fault_is_due()) array = aligned_alloc(ALIGNMENT, padded);
+    *padded = (bytes / ALIGNMENT + 1) * ALIGNMENT;
+    if (!fault_is_due()) array = aligned_alloc(ALIGNMENT, *padded);
     if (!array)
         FAIL(err, ERROR_MEMORY, "no memory for %lld items of %zu bytes", (long long)count, size);
-    memset(array, 0, padded);
     atomic_fetch_add(&allocation_count, 1);
     atomic_fetch_add(&live_count, 1);
 cleanup:
     return array;
+}
+
+void *memory_array(int64_t count, size_t size, Error *err)
+{
+    size_t padded = 0;
+    void *array = allocate(count, size, &padded, err);
+    return array ? memset(array, 0, padded) : NULL;
+}
+
+void *memory_bytes(int64_t size, Error *err)
+{
+    size_t padded = 0;
+    return allocate(size, 1, &padded, err);
 }
 
 void *memory_resize(void *array, int64_t old_count, int64_t new_count, size_t size, Error *err)

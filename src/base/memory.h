@@ -19,6 +19,9 @@ typedef struct MemoryCounters {
 // NULL with ERROR_MEMORY set when count is negative, too large, or memory is short.
 void *memory_array(int64_t count, size_t size, Error *err);
 
+// The same of `size` bytes, but not zeroed: for what a file is read into at once.
+void *memory_bytes(int64_t size, Error *err);
+
 // A longer (or shorter) copy of `array`, whose old items it frees; new items are zeroed. On failure
 // NULL, the error set, and `array` untouched.
 void *memory_resize(void *array, int64_t old_count, int64_t new_count, size_t size, Error *err);

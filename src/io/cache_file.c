@@ -98,7 +98,7 @@ static bool read_bytes(const char *path, void **bytes, int64_t *size, Error *err
     int descriptor = open(path, O_RDONLY | O_CLOEXEC);
     if (descriptor < 0) return true;
     if (fstat(descriptor, &what) == 0 && S_ISREG(what.st_mode)) {
-        *bytes = memory_array(what.st_size, 1, err);
+        *bytes = memory_bytes(what.st_size, err);
         while (*bytes && *size < what.st_size) {
             ssize_t got = read(descriptor, (char *)*bytes + *size, (size_t)(what.st_size - *size));
             if (got <= 0) break;

@@ -3,6 +3,8 @@
 
 #include "near.h"
 
+#include <string.h>
+
 static void test_zeroed_and_aligned(void **state)
 {
     (void)state;
@@ -98,6 +100,28 @@ static void test_faults(void **state)
     memory_free(array);
 }
 
+// Counted, aligned and failing like the others; what stands in them is for the caller to say.
+static void test_bytes(void **state)
+{
+    (void)state;
+    Error err = {0};
+    MemoryCounters before = memory_counters();
+    unsigned char *bytes = memory_bytes(1000001, &err);
+    assert_int_equal((uintptr_t)bytes % 64, 0);
+    memset(bytes, 0xa5, 1000001);
+    assert_int_equal(memory_counters().allocations, before.allocations + 1);
+    assert_int_equal(memory_counters().live, before.live + 1);
+    memory_free(bytes);
+    assert_int_equal(memory_counters().live, before.live);
+    assert_null(memory_bytes(-1, &err));
+    assert_int_equal(err.code, ERROR_MEMORY);
+    error_clear(&err);
+    memory_fail_after(0);
+    assert_null(memory_bytes(8, &err));
+    memory_fail_after(-1);
+    assert_int_equal(err.code, ERROR_MEMORY);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -106,6 +130,7 @@ int main(void)
         cmocka_unit_test(test_counters),
         cmocka_unit_test(test_resize),
         cmocka_unit_test(test_faults),
+        cmocka_unit_test(test_bytes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
