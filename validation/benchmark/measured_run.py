@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """One run of the built program, measured: how it ended, what it said, what it cost. Used by
-stress.py and precision.py. Costs are processor time and counts, which a busy machine does not
+stress.py, precision.py, peers.py and growth.py. Costs are processor time and counts, which a busy machine does not
 change."""
 import json
 import math
 import os
+import re
 import resource
 import signal
 import subprocess
@@ -29,11 +30,17 @@ class Measured:
     said: str              # standard error, its progress lines left out
     report: dict           # run.json; empty: none was written
     late_mu: float         # mean of mu over the second half of the time; NaN: no history
+    phases: dict           # of --profile: name -> (wall seconds, count)
 
 
 def is_message(line):
     """Progress lines on standard error begin with a percentage; messages do not."""
     return line.startswith("amontons:") or line.startswith(" ") and "%" not in line[:6]
+
+
+def phases_of(printed):
+    return {name.strip(): (float(wall), int(count)) for name, wall, count in
+            re.findall(r"^  (\S[\w, ]*?)  +([\d.]+) +[\d.]+ +(\d+)  ", printed, re.M)}
 
 
 def late_mean(path):
@@ -53,15 +60,16 @@ def run(scene, settings, cpu_limit=60, into=None):
     into: a folder that keeps the result; None: thrown away."""
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(into or f"{scratch}/result")
-        words = [PROGRAM, "run", scene, "-o", folder, "--quiet", "--overwrite"]
+        words = [PROGRAM, "run", scene, "-o", folder, "--quiet", "--overwrite", "--profile"]
         for setting in settings:
             words += ["--set", setting]
 
         def limit():
             resource.setrlimit(resource.RLIMIT_CPU, (cpu_limit, cpu_limit + 5))
 
-        with open(f"{scratch}/said", "w+") as said:
-            process = subprocess.Popen([str(word) for word in words], stdout=subprocess.DEVNULL,
+        printed = Path(scratch, "printed")
+        with open(f"{scratch}/said", "w+") as said, open(printed, "w") as profile:
+            process = subprocess.Popen([str(word) for word in words], stdout=profile,
                                        stderr=said, stdin=subprocess.DEVNULL, preexec_fn=limit)
             _, status, usage = os.wait4(process.pid, 0)
             said.seek(0)
@@ -72,8 +80,9 @@ def run(scene, settings, cpu_limit=60, into=None):
         report = json.loads(written.read_text()) if written.exists() else {}
         late = late_mean(folder / "history.h5")
         seconds = usage.ru_utime + usage.ru_stime
+        phases = phases_of(printed.read_text())
     return Measured(status, status == -signal.SIGXCPU, seconds,
-                    usage.ru_maxrss / 1024, text, report, late)
+                    usage.ru_maxrss / 1024, text, report, late, phases)
 
 
 def commit():
