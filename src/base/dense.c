@@ -190,6 +190,9 @@ double dense_dot(const double *x, const double *y, int32_t n)
 double dense_max_abs(const double *x, int32_t n)
 {
     double largest = 0.0;
-    for (int32_t i = 0; i < n; i++) largest = fmax(largest, fabs(x[i]));
+    for (int32_t i = 0; i < n; i++) {   // fmax would be a call; it passes NaN by, as this does
+        double size = fabs(x[i]);
+        if (size > largest) largest = size;
+    }
     return largest;
 }
