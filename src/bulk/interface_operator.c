@@ -159,19 +159,14 @@ static bool condense_sparse(InterfaceOperator *condensed, OperatorTerms terms, E
     return true;
 }
 
-// An entry of A, by its row and column in the reduced system.
-static double reduced_entry(const ReducedBulk *reduced, OperatorTerms terms, int64_t row,
-                            int64_t column)
+// Rows `first` to `first + rows` of a column of A, but for its part in K.
+static void reduced_column(const ReducedBulk *reduced, OperatorTerms terms, int64_t column,
+                           int64_t first, int64_t rows, double *out)
 {
-    const BulkScales *scales = &reduced->scales;
-    int64_t at = column * reduced->count + row, m = reduced->interface_count;
-    double entry = terms.mass * scales->mass * reduced->mass[at] +
-                   terms.damping * scales->damping * reduced->damping[at];
-    if (row < m && column < m)
-        entry += terms.stiffness * scales->stiffness * reduced->stiffness[column * m + row];
-    else if (row == column)
-        entry += terms.stiffness * scales->stiffness;
-    return entry;
+    int64_t at = column * reduced->count + first;
+    const double *mass = reduced->mass + at, *damping = reduced->damping + at;
+    double m = terms.mass * reduced->scales.mass, c = terms.damping * reduced->scales.damping;
+    for (int64_t row = 0; row < rows; row++) out[row] = m * mass[row] + c * damping[row];
 }
 
 // S of C alone, where the reduction has it and nothing else will be asked for.
@@ -195,16 +190,17 @@ static bool condense_dense(InterfaceOperator *condensed, OperatorTerms terms, Er
     condensed->map = NEW_ARRAY(double, r *m, err);
     condensed->half = NEW_ARRAY(double, r, err);
     if (!error_is_clean(err)) goto cleanup;
+    double k = terms.stiffness * reduced->scales.stiffness;
     for (int64_t column = 0; column < r; column++) {
-        for (int64_t row = 0; row < r; row++)
-            condensed->inverse[column * r + row] =
-                reduced_entry(reduced, terms, m + row, m + column);
+        reduced_column(reduced, terms, m + column, m, r, condensed->inverse + column * r);
+        condensed->inverse[column * r + column] += k;
     }
     for (int64_t column = 0; column < m; column++) {
-        for (int64_t row = 0; row < r; row++)
-            coupling[column * r + row] = reduced_entry(reduced, terms, m + row, column);
-        for (int64_t row = 0; row < m; row++)
-            condensed->schur[column * m + row] = reduced_entry(reduced, terms, row, column);
+        double *schur = condensed->schur + column * m;
+        const double *stiffness = reduced->stiffness + column * m;
+        reduced_column(reduced, terms, column, m, r, coupling + column * r);
+        reduced_column(reduced, terms, column, 0, m, schur);
+        for (int64_t row = 0; row < m; row++) schur[row] += k * stiffness[row];
     }
     if (!dense_cholesky(condensed->inverse, (int32_t)r) ||
         !dense_invert_factored(condensed->inverse, (int32_t)r))

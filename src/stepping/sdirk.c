@@ -24,6 +24,7 @@ bool sdirk_create(const Block *block, TableauKind kind, Ladder *ladder, Sdirk *s
     ladder->gamma = scheme->tableau.gamma;
     scheme->stage_velocity = NEW_ARRAY(double, earlier *dofs, err);
     scheme->stage_impulse = NEW_ARRAY(double, earlier *dofs, err);
+    scheme->stage_elastic = NEW_ARRAY(double, scheme->tableau.stages *dofs, err);
     scheme->stage_reaction = NEW_ARRAY(double, earlier * interface->count, err);
     scheme->predictor = NEW_ARRAY(double, system->dof_count, err);
     scheme->g = NEW_ARRAY(double, interface->count, err);
@@ -43,6 +44,7 @@ void sdirk_destroy(Sdirk *scheme)
     memory_free(scheme->bound);
     memory_free(scheme->stage_velocity);
     memory_free(scheme->stage_impulse);
+    memory_free(scheme->stage_elastic);
     memory_free(scheme->stage_reaction);
     *scheme = (Sdirk){0};
 }
@@ -112,25 +114,26 @@ static double estimate_error(Sdirk *scheme, const State *from, const State *to, 
 }
 
 // scheme->viscous = C v of a stage that was solved, from its own equation: rhs + r - M v/(gamma dt)
-// - gamma dt K v. With M v at hand this costs one K v, which a reduced bulk has almost for nothing.
-static void find_viscous(Sdirk *scheme, const double *v, const double *momentum,
+// - gamma dt K v, M v and K v at hand.
+static void find_viscous(Sdirk *scheme, const double *momentum, const double *elastic,
                          const ContactSolution *contact, double scaled)
 {
     const BulkOperator *system = scheme->system;
-    double *viscous = scheme->viscous;
-    bulk_operator_apply(system, BULK_STIFFNESS, v, viscous);
+    double *viscous = scheme->viscous, rate = 1 / scaled;
     for (int32_t i = 0; i < system->dof_count; i++)
-        viscous[i] = scheme->rhs[i] - momentum[i] / scaled - scaled * viscous[i];
+        viscous[i] = scheme->rhs[i] - rate * momentum[i] - scaled * elastic[i];
     for (int32_t k = 0; k < system->interface_count; k++)
         viscous[system->interface_dofs[k]] += contact->reaction[k];
 }
 
-// Largest |M a + C v + K u - f - r|, C v computed for it.
-static double end_residual(const Sdirk *scheme, const State *to)
+// Largest |M a + C v + K u - f - r|, C v and K u computed for it. K u stays: what the steps add up
+// of it must not drift.
+static double end_residual(const Sdirk *scheme, State *to)
 {
     const BulkOperator *system = scheme->system;
     double *viscous = scheme->viscous;
     bulk_operator_apply(system, BULK_DAMPING, to->velocity, viscous);
+    bulk_operator_apply(system, BULK_STIFFNESS, to->displacement, to->elastic_force);
     for (int32_t k = 0; k < to->dof_count; k++)
         viscous[k] += to->inertia[k] + to->elastic_force[k] - system->load[k];
     for (int32_t k = 0; k < to->interface_count; k++)
@@ -165,18 +168,17 @@ static void start_stage(Sdirk *scheme, const Trial *trial, int32_t i)
     int32_t dofs = from->dof_count;
     size_t bytes = (size_t)dofs * sizeof(double);
     memcpy(scheme->predictor, from->displacement, bytes);
+    memcpy(scheme->force, from->elastic_force, bytes);
     memcpy(trial->to->inertia, from->momentum, bytes);
     for (int32_t j = 0; j < i; j++) {
         double weight = scheme->tableau.a[i][j];
         const double *velocity = scheme->stage_velocity + (int64_t)j * dofs;
+        const double *elastic = scheme->stage_elastic + (int64_t)j * dofs;
         const double *impulse = scheme->stage_impulse + (int64_t)j * dofs;
         add_scaled(trial->step * weight, velocity, dofs, scheme->predictor);
+        add_scaled(trial->step * weight, elastic, dofs, scheme->force);
         add_scaled(weight, impulse, dofs, trial->to->inertia);
     }
-    if (i == 0)
-        memcpy(scheme->force, from->elastic_force, bytes);
-    else
-        bulk_operator_apply(scheme->system, BULK_STIFFNESS, scheme->predictor, scheme->force);
 }
 
 // The last stage is the end of the step: everything else that the state holds.
@@ -184,14 +186,17 @@ static void end_step(Sdirk *scheme, const Trial *trial)
 {
     const BulkOperator *system = scheme->system;
     State *to = trial->to;
+    const double *elastic = scheme->stage_elastic +
+                            (int64_t)(scheme->tableau.stages - 1) * to->dof_count;
+    double rate = 1 / trial->scaled;
     to->time = trial->from->time + trial->step;
     for (int32_t k = 0; k < to->dof_count; k++) {
         to->displacement[k] = scheme->predictor[k] + trial->scaled * to->velocity[k];
-        to->inertia[k] = (to->momentum[k] - to->inertia[k]) / trial->scaled;
+        to->elastic_force[k] = scheme->force[k] + trial->scaled * elastic[k];
+        to->inertia[k] = rate * (to->momentum[k] - to->inertia[k]);
         trial->outcome->load_work += system->load[k] *
                                      (to->displacement[k] - trial->from->displacement[k]);
     }
-    bulk_operator_apply(scheme->system, BULK_STIFFNESS, to->displacement, to->elastic_force);
 }
 
 // Stage i: v_i, and what later stages and the ledger need of it.
@@ -204,19 +209,21 @@ static bool solve_one_stage(Sdirk *scheme, const Trial *trial, int32_t i, Error 
     bool last = i + 1 == tableau->stages;
     double *velocity = last ? to->velocity : scheme->stage_velocity + (int64_t)i * dofs;
     double *momentum = last ? to->momentum : scheme->stage_impulse + (int64_t)i * dofs;
+    double *elastic = scheme->stage_elastic + (int64_t)i * dofs, rate = 1 / trial->scaled;
     ContactSolution contact = {.velocity = to->slip_rate,
                                .reaction = to->reaction,
                                .status = to->status,
                                .rod_touches = to->rod_touches};
     start_stage(scheme, trial, i);
     for (int32_t k = 0; k < dofs; k++)
-        scheme->rhs[k] = to->inertia[k] / trial->scaled + system->load[k] - scheme->force[k];
+        scheme->rhs[k] = rate * to->inertia[k] + system->load[k] - scheme->force[k];
     fill_bounds(scheme, scheme->predictor, trial->from->time + tableau->c[i] * trial->step,
                 trial->scaled);
     TRY(solve_stage(scheme, trial->condensed, &contact, velocity, &trial->outcome->solved, err));
     if (!trial->outcome->solved) goto cleanup;
     bulk_operator_apply(system, BULK_MASS, velocity, momentum);
-    find_viscous(scheme, velocity, momentum, &contact, trial->scaled);
+    bulk_operator_apply(system, BULK_STIFFNESS, velocity, elastic);
+    find_viscous(scheme, momentum, elastic, &contact, trial->scaled);
     trial->outcome->power[i] =
         energy_stage(scheme->interface, velocity, scheme->viscous, dofs, &contact);
     if (last) {

@@ -31,6 +31,7 @@ typedef struct Sdirk {
     // Of all stages but the last: v_i and dt M a_i [stages - 1, dof_count], r_i [stages - 1,
     // interface_count].
     double *stage_velocity, *stage_impulse, *stage_reaction;
+    double *stage_elastic;   // [stages, dof_count] K v_i
     int64_t steps;   // tried
 } Sdirk;
 
