@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// Speed matters: a cached basis of some megabytes is summed at every start.
 #include "base/hash.h"
 
 #include <stdio.h>
@@ -23,8 +24,8 @@ static void hash_word(Hash *hash, uint64_t word)
 }
 
 // Words that come far apart in time on one stream are four streams of their own here, so that a
-// processor multiplies for all of them at once: each word changes its lane one to one, and each lane
-// goes into the hash.
+// processor multiplies for all of them at once: each word changes its lane one to one, and each
+// lane goes into the hash.
 static const unsigned char *hash_blocks(Hash *hash, const unsigned char *at, size_t blocks)
 {
     uint64_t lane[LANES] = {hash->low, hash->high, ~hash->low, ~hash->high};
@@ -62,12 +63,14 @@ void hash_text(Hash *hash, const char *text)
     hash_bytes(hash, text, strlen(text));
 }
 
+// -0 compares equal to 0, and so it must hash.
 void hash_number(Hash *hash, double value)
 {
     double stored = value == 0 ? 0.0 : value;
     hash_bytes(hash, &stored, sizeof stored);
 }
 
+// Spreads each bit over all 64: what the streams leave in their high bits alone reaches the text.
 static uint64_t mix(uint64_t word)
 {
     word = (word ^ (word >> 33)) * 0xff51afd7ed558ccdu;

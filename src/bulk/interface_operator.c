@@ -71,6 +71,7 @@ void bulk_operator_destroy(BulkOperator *system)
     *system = (BulkOperator){0};
 }
 
+// y = K x, C x or M x in the scene's units: normalised matrices times their scale.
 static void apply_reduced(const ReducedBulk *reduced, BulkTerm term, const double *x, double *y)
 {
     const BulkScales *scales = &reduced->scales;
@@ -100,6 +101,7 @@ void bulk_operator_apply(const BulkOperator *system, BulkTerm term, const double
     }
 }
 
+// Interior coordinates are orthonormal in K/E, so their length is a displacement's elastic size.
 double bulk_operator_size(const BulkOperator *system, const double *x)
 {
     if (system->bulk) return dense_max_abs(x, system->dof_count);
@@ -108,6 +110,7 @@ double bulk_operator_size(const BulkOperator *system, const double *x)
     return fmax(interior, dense_max_abs(x, m));
 }
 
+// Nothing is lost: u = V q in every node of the mesh.
 void bulk_operator_recover(const BulkOperator *system, const double *x, double *full)
 {
     if (system->bulk)
@@ -143,6 +146,8 @@ static double combine_sparse(BulkOperator *system, OperatorTerms terms)
     return largest;
 }
 
+// S is the square of the factor's last block (base/sparse); lifting the border's diagonal adds the
+// same to S, and is taken off again.
 static bool condense_sparse(InterfaceOperator *condensed, OperatorTerms terms, Error *err)
 {
     BulkOperator *system = condensed->system;
@@ -181,6 +186,8 @@ static bool take_viscous(InterfaceOperator *condensed, OperatorTerms terms)
     return true;
 }
 
+// The formulas at the head. The inverse is formed, not kept as a factor: a product with it is one
+// pass over memory for each of many right-hand sides, and A_qq is well conditioned (K_qq = 1).
 static bool condense_dense(InterfaceOperator *condensed, OperatorTerms terms, Error *err)
 {
     const ReducedBulk *reduced = condensed->system->reduced;
@@ -251,6 +258,7 @@ const double *interface_operator_schur(const InterfaceOperator *condensed)
     return condensed->schur;
 }
 
+// Reduced: keeps A_qq^-1 rhs_q for the expand that follows.
 bool interface_operator_condense(InterfaceOperator *condensed, const double *rhs, double *g,
                                  Error *err)
 {

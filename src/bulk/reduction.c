@@ -76,6 +76,8 @@ void reduction_recover(const ReducedBulk *reduced, const double *state, double *
     dense_apply(modes, state, 1, 0, full);
 }
 
+// Between two levels the error is not known; it was found to stay below the larger of theirs (a
+// test asks at random).
 double reduction_error(const ReducedBulk *reduced, double inertia)
 {
     const ReductionErrors *errors = &reduced->errors;
@@ -86,6 +88,7 @@ double reduction_error(const ReducedBulk *reduced, double inertia)
     return fmax(below, errors->error[above]);
 }
 
+// All but `reduced`, which is what was asked for.
 static void builder_destroy(Builder *work)
 {
     bulk_operator_destroy(&work->full);
@@ -121,6 +124,7 @@ static bool builder_create(const int32_t *interface_dofs, Builder *work, Error *
     reduced->modes = NEW_ARRAY(double, dofs * work->modes_room, err);
     reduced->stiffness = NEW_ARRAY(double, square, err);
     if (!error_is_clean(err)) goto cleanup;
+    // Without a load every answer to it is 0, and 1 as good a unit as any.
     double scale = def->scales.load > 0 ? def->scales.load : 1;
     for (int64_t k = 0; k < dofs; k++) work->unit_load[k] = bulk->load[k] / scale;
 cleanup:
@@ -206,6 +210,7 @@ static bool start_motions(Builder *work, InterfaceOperator *statics, Error *err)
         TRY(interface_operator_expand(statics, work->border, mode, err));
         for (int64_t i = 0; i < m; i++) mode[work->full.interface_dofs[i]] = i == j;   // exactly
     }
+    // The modes do K-work on nothing inside, so V'KV is the Schur complement of K itself.
     memcpy(reduced->stiffness, interface_operator_schur(statics), (size_t)(m * m) * sizeof(double));
     TRY(project(work, 0, err));
 cleanup:
@@ -223,6 +228,7 @@ static bool project_out(Builder *work, int32_t columns, double *vectors, double 
                      reduced->interior_count};
     DenseView force = {forces, (int32_t)dofs, columns};
     DenseView parts = {overlap, reduced->interior_count, columns};
+    // Psi needs no such pass: static modes are K-orthogonal to all that rests on the interface.
     for (int pass = 0; pass < 3; pass++) {
         for (int64_t j = 0; j < columns; j++)
             apply_normalised(work, BULK_STIFFNESS, vectors + j * dofs, forces + j * dofs);
@@ -234,6 +240,8 @@ static bool project_out(Builder *work, int32_t columns, double *vectors, double 
     return true;
 }
 
+// Room for `columns` more modes. Half as many again are taken at once, so that a basis which grows
+// level by level is copied a few times only.
 static bool make_room(Builder *work, int32_t columns, Error *err)
 {
     ReducedBulk *reduced = work->reduced;
@@ -339,6 +347,7 @@ static double allowed_error(const Builder *work, Point point)
     return fmax(tolerance * (tolerance + MESH_SHARE * share), ERROR_LEAST);
 }
 
+// The point as factors of the scene's own M, C and K, with which both operators are made.
 static OperatorTerms point_terms(const Builder *work, Point point)
 {
     const BulkScales *scales = &work->def->scales;
@@ -380,6 +389,7 @@ static bool answer_motions(Builder *work, InterfaceOperator *full, InterfaceOper
                            int32_t wanted, Answers *answers, Error *err)
 {
     int64_t m = work->reduced->interface_count;
+    // No load inside: what expand then gives is the answer to the interface's motion alone.
     TRY(interface_operator_condense(full, work->zeros, work->border, err));
     TRY(interface_operator_condense(tried, work->zeros, work->border, err));
     for (int32_t k = 0; k < wanted; k++) {
@@ -409,6 +419,7 @@ static bool answer_load(Builder *work, InterfaceOperator *full, InterfaceOperato
     TRY(interface_operator_expand(full, work->still, x, err));
     TRY(interface_operator_condense(tried, load, work->border, err));
     TRY(interface_operator_expand(tried, work->still, state, err));
+    // A Galerkin answer takes up less work than the exact one, by the energy of the difference.
     double energy = dense_dot(x, work->unit_load, dofs);
     double missing = energy - dense_dot(state, load, count);
     if (!(missing > allowed * energy)) goto cleanup;
@@ -443,6 +454,7 @@ static bool visit(Builder *work, Point point, double *left, Error *err)
     if (full) tried = interface_operator_create(&work->tried, terms, err);
     if (!tried) goto cleanup;
     TRY(compare(work, full, tried, err));
+    // What is added leaves nothing of its error here; the first that is not added is what is left.
     while (wanted < m && work->values[m - 1 - wanted] > allowed) wanted++;
     *left = wanted < m ? fmax(work->values[m - 1 - wanted], 0) : 0;
     answers.full = NEW_ARRAY(double, (int64_t)work->full.dof_count *(wanted + 1), err);
@@ -465,6 +477,7 @@ cleanup:
 // The levels, ascending: even ones are built at, odd ones lie between, the last beyond.
 static void list_levels(double slowest, double element_inertia, ReductionErrors *errors)
 {
+    // A mesh of a few elements has hardly anything between its slowest mode and one element.
     double lowest = fmin(LEVEL_LOWEST * slowest, element_inertia / LEVEL_RATIO);
     double decades = log(element_inertia / lowest) / log(LEVEL_RATIO);
     int32_t steps = (int32_t)fmin(ceil(decades), (REDUCTION_LEVELS_MAX - 2) / 2);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// The checksum covers head, names and values, and is looked at before anything is believed. Numbers
+// stand at multiples of 8 bytes, so that they can be used in place.
 #include "io/cache_file.h"
 
 #include "base/hash.h"
@@ -47,6 +49,7 @@ bool cache_file_path(const char *key, const char *ending, char path[CACHE_PATH_S
     return true;
 }
 
+// The first HEAD_SIZE bytes: what the file is, and whose.
 static void fill_head(const char *key, char head[HEAD_SIZE])
 {
     memset(head, 0, HEAD_SIZE);
@@ -54,6 +57,7 @@ static void fill_head(const char *key, char head[HEAD_SIZE])
     memcpy(head + MAGIC_SIZE, key, strnlen(key, KEY_SIZE));
 }
 
+// Writes and adds to the checksum.
 static bool write_counted(PartFile *part, Hash *hash, const void *bytes, int64_t size, Error *err)
 {
     hash_bytes(hash, bytes, (size_t)size);
@@ -143,6 +147,7 @@ static const char *parse(const char *key, const char *bytes, int64_t size, Cache
     return NULL;
 }
 
+// Reads it whole: a file on disk may be replaced meanwhile, but what was read stays what it was.
 bool cache_file_read(const char *path, const char *key, CacheFile *file, bool *found, char *reason,
                      Error *err)
 {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// A file is read in one piece and its matrices are used where they lie: the reduced bulk takes the
+// bytes over. Modes are several times as large and seldom wanted, so they have a file of their own.
 #include "run/basis_cache.h"
 
 #include "base/memory.h"
@@ -45,6 +47,7 @@ static bool take_basis(CacheFile *file, ReducedBulk *reduced)
     return true;
 }
 
+// *found stays true only if they are there, whole, and of this basis.
 static bool load_modes(const char *name, ReducedBulk *reduced, bool *found, char *reason,
                        Error *err)
 {
@@ -84,6 +87,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Processes that write it at once write the same bytes: io/part_file lets one of them through.
 static bool store_basis(const char *name, const ReducedBulk *reduced, Error *err)
 {
     char path[CACHE_PATH_SIZE];

@@ -35,6 +35,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Scene to material and friction law: the same numbers, other structs.
 static void translate_materials(Simulation *simulation)
 {
     const Scene *scene = &simulation->scene;
@@ -65,6 +66,8 @@ static double free_scale(const Simulation *simulation, double load)
     return load < 0 ? -load : material->young * simulation->model.length;
 }
 
+// Pressure and tractions onto the bulk's load; F_N, their resultant towards the plane, becomes the
+// force that others are measured with.
 static bool add_loads(Simulation *simulation, Error *err)
 {
     const Scene *scene = &simulation->scene;
@@ -94,6 +97,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Supports are no part of the cached shape: their unknowns leave the assembled matrices.
 bool model_hold_supports(Simulation *simulation, Error *err)
 {
     const Scene *scene = &simulation->scene;
@@ -133,6 +137,7 @@ static BulkScales bulk_scales(const Simulation *simulation, double load)
                         .load = load};
 }
 
+// As the scene says, else by the accuracy it wants.
 static double reduction_tolerance(const Scene *scene)
 {
     return scene->reduction.tolerance > 0 ? scene->reduction.tolerance
@@ -244,6 +249,8 @@ static bool reduction_pays(const Simulation *simulation)
     return 6 * 9 * m * m < 8 * 5 * n * log2(n);
 }
 
+// The assembled bulk of the full mesh, its loads and its interface; needed to build a basis, to
+// find one by content, and wherever nothing is reduced.
 bool model_build_bulk(Simulation *simulation, Error *err)
 {
     const Scene *scene = &simulation->scene;
@@ -268,6 +275,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Any rod node on the leading half.
 static bool rod_leads(const Simulation *simulation)
 {
     const Interface *interface = &simulation->interface;
@@ -348,6 +356,8 @@ static void set_scales(Simulation *simulation)
                                            simulation->scales.time;
 }
 
+// Three ways, the shortest that is open: shape and basis from the cache; meshed and assembled, the
+// basis from the cache; all made here.
 bool model_obtain(Simulation *simulation, Error *err)
 {
     double started = clock_seconds();

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// Whether a scene's shape is known is decided without gmsh: by the bytes of its mesh file, the
+// parameters it is given, and the keys of the scene that choose nodes.
 #include "run/shape_cache.h"
 
 #include "base/memory.h"
@@ -46,6 +48,7 @@ static bool hash_mesh(const Scene *scene, Hash *hash, bool *whole, Error *err)
     TRY(text_file_read(scene->mesh.file, MESH_BYTES_MAX, &bytes, &size, err));
     size_t length = strlen(scene->mesh.file);
     bool is_geo = length > 4 && strcmp(scene->mesh.file + length - 4, ".geo") == 0;
+    // gmsh would read these too; a comment that says so costs a meshing, not a wrong answer.
     *whole = !is_geo || (!strstr(bytes, "Include") && !strstr(bytes, "Merge"));
     hash_text(hash, is_geo ? "geo" : "msh");
     hash_bytes(hash, bytes, (size_t)size);
@@ -59,6 +62,8 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Where the rod and the loads act. Of the loads only their ratios: the basis answers to a unit
+// load.
 static void hash_boundary(const Scene *scene, Hash *hash)
 {
     double reference = load_reference(scene);
@@ -77,6 +82,8 @@ static void hash_boundary(const Scene *scene, Hash *hash)
     }
 }
 
+// The lengths are in it, by the mesh's parameters: another length has another interface (x,
+// weights) and shares the basis only, which goes by the block's content (bulk/reduction_block).
 bool shape_key(const Scene *scene, double tolerance, char key[HASH_TEXT_SIZE], Error *err)
 {
     key[0] = 0;
@@ -108,6 +115,7 @@ static bool read_indices(const CacheFile *file, const char *name, int32_t count,
     return *out != NULL;
 }
 
+// Copies: the file's bytes go when it is closed. false without an error: not there, or not so long.
 static bool read_numbers(const CacheFile *file, const char *name, int64_t count, double **out,
                          Error *err)
 {
@@ -118,6 +126,7 @@ static bool read_numbers(const CacheFile *file, const char *name, int64_t count,
     return *out != NULL;
 }
 
+// A name that fills its place would have no end: the last byte is set whatever the file says.
 static bool read_names(const CacheFile *file, Interface *interface, Error *err)
 {
     int64_t count = interface->pad_count;
@@ -191,6 +200,7 @@ static CacheArray list_indices(const char *name, const int32_t *values, int32_t 
     return list_numbers(name, copy, count);
 }
 
+// Some kilobytes: all of it in one file.
 static bool store_shape(const char *key, const Shape *shape, Error *err)
 {
     char path[CACHE_PATH_SIZE];

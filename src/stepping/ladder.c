@@ -55,6 +55,7 @@ InterfaceOperator *ladder_rung(Ladder *ladder, int32_t k, Error *err)
     return ladder->rung[k];
 }
 
+// By the errors that were measured when the basis was made; the full mesh is not asked again.
 double ladder_reduction_error(const Ladder *ladder)
 {
     double error = 0;
