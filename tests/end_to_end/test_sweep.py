@@ -27,6 +27,12 @@ vary:
   load.pressure: [0.003, 0.006]
   rod.kind: [push, bonded]
 """
+HEAD = STUDY.split("vary:")[0]
+QUICK = [f"  - {{mesh.set.length: {L}, load.pressure: {P}, rod.kind: {kind}}}\n"
+         for L in (1, 2) for P in (0.003, 0.006) for kind in ("push", "bonded")]
+# Points that no machine finishes: a test that waits for one to end it knows what is at work.
+ENDLESS = [f"  - {{mesh.set.nx: 96, mesh.set.nz: 96, time.tolerance: 1e-12, load.pressure: {P}}}\n"
+           for P in (0.0031, 0.0032)]
 
 
 class Sweep(unittest.TestCase):
@@ -112,64 +118,74 @@ class Sweep(unittest.TestCase):
         self.assertEqual(stamps, {p: p.stat().st_mtime_ns for p in stamps})
         self.assertIn("8 computed", self.sweep("--fresh").stdout)
 
-    def killed(self, how):
-        """Starts a sweep, stops it when some points are done; returns the points finished."""
-        study = self.study(STUDY.replace("10", "24"))
-        process = subprocess.Popen([PROGRAM, "sweep", study, "-o", self.folder / "out", "-j", "2"], env=self.place,
+    def start(self, study, jobs):
+        process = subprocess.Popen([PROGRAM, "sweep", study, "-o", self.folder / "out", "-j", jobs], env=self.place,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        points = self.folder / "out/points"
-        while len(list(points.glob("*/run.json"))) < 3 and process.poll() is None:
-            time.sleep(0.005)
-        process.send_signal(how)
-        errors = process.communicate(timeout=60)[1].decode()
-        time.sleep(0.2)
-        found = subprocess.run(["pgrep", "-f", str(self.folder)], capture_output=True, text=True, check=False)
-        self.assertEqual(found.stdout, "", "processes are left")
-        finished = {p for p in points.glob("*/run.json") if json.loads(p.read_text())["status"] == "done"}
-        self.assertGreaterEqual(len(finished), 3)
-        self.assertLess(len(finished), 8)
-        return study, finished, errors, process.returncode
+        self.addCleanup(process.communicate)
+        self.addCleanup(process.kill)
+        return process
 
-    def resumed(self, study, finished):
+    def wait(self, condition):
+        end = time.monotonic() + 120
+        while not condition():
+            self.assertLess(time.monotonic(), end, "waited for two minutes")
+            time.sleep(0.01)
+
+    @staticmethod
+    def children(process):
+        return [int(pid) for pid in subprocess.run(["pgrep", "-P", str(process.pid)], capture_output=True, text=True,
+                                                   check=False).stdout.split()]
+
+    @staticmethod
+    def state(pid):
+        """R, S, T (stopped), Z (ended, not yet waited for) ...; None: gone."""
+        try:
+            return Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0]
+        except OSError:
+            return None
+
+    def killed(self, how):
+        """Stops a sweep that has finished three points and works on two that never end."""
+        process = self.start(self.study(HEAD + "cases:\n" + "".join(QUICK[:3] + ENDLESS + QUICK[3:])), "2")
+        points = self.folder / "out/points"
+        self.wait(lambda: len(list(points.glob("*/run.json"))) == 3 and len(self.children(process)) == 2)
+        process.send_signal(how)
+        errors = process.communicate(timeout=120)[1].decode()
+        self.wait(lambda: subprocess.run(["pgrep", "-f", str(self.folder)], capture_output=True, check=False).stdout == b"")
+        finished = {p for p in points.glob("*/run.json") if json.loads(p.read_text())["status"] == "done"}
+        self.assertEqual(len(finished), 3)
+        return finished, errors, process.returncode
+
+    def resumed(self, finished):
+        study = self.study(HEAD + "cases:\n" + "".join(QUICK))
         stamps = {p: p.stat().st_mtime_ns for p in finished}
-        done = self.sweep(study=study)
-        self.assertIn(f"8 points: {8 - len(finished)} computed", done.stdout)
+        self.assertIn("8 points: 5 computed", self.sweep(study=study).stdout)
         self.assertEqual(stamps, {p: p.stat().st_mtime_ns for p in stamps})
         self.sweep(study=study, out="whole")
         self.assertEqual(self.without_times("out"), self.without_times("whole"))
 
     def test_killed_and_resumed(self):
-        study, finished, _, status = self.killed(signal.SIGKILL)
+        finished, _, status = self.killed(signal.SIGKILL)
         self.assertEqual(status, -signal.SIGKILL)
-        self.resumed(study, finished)
+        self.resumed(finished)
 
     def test_interrupted_and_resumed(self):
-        study, finished, errors, status = self.killed(signal.SIGINT)
+        finished, errors, status = self.killed(signal.SIGINT)
         self.assertEqual(status, 1)
         self.assertIn("interrupted", errors)
-        states = [row["status"] for row in self.table()]
-        self.assertEqual(states.count("done"), len(finished))
-        self.assertEqual(states.count("pending"), 8 - len(finished))
-        self.resumed(study, finished)
+        self.assertEqual([row["status"] for row in self.table()], ["done"] * 3 + ["pending"] * 7)
+        self.resumed(finished)
 
     def test_points_that_finish_as_the_signal_comes(self):
         """The pool asleep, both its points finish; then the signal: the table must know them."""
-        study = self.study(STUDY.replace("10", "24"))
-        process = subprocess.Popen([PROGRAM, "sweep", study, "-o", self.folder / "out", "-j", "2"], env=self.place,
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-
-        def children():
-            return subprocess.run(["pgrep", "-P", str(process.pid)], capture_output=True, text=True,
-                                  check=False).stdout.split()
-
-        while len(children()) < 2 and process.poll() is None:
-            time.sleep(0.002)
+        process = self.start(self.study(), "2")
+        self.wait(lambda: len(self.children(process)) == 2 or process.poll() is not None)
         process.send_signal(signal.SIGSTOP)
-        while any(Path(f"/proc/{child}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z" for child in children()):
-            time.sleep(0.005)
+        self.wait(lambda: self.state(process.pid) in ("T", "Z", None))   # from here on it waits for no child
+        self.wait(lambda: all(self.state(child) == "Z" for child in self.children(process)))
         process.send_signal(signal.SIGINT)
         process.send_signal(signal.SIGCONT)
-        process.communicate(timeout=60)
+        process.communicate(timeout=120)
         states = [row["status"] for row in self.table()]
         found = [json.loads(p.read_text())["status"] for p in (self.folder / "out/points").glob("*/run.json")]
         self.assertGreaterEqual(found.count("done"), 2)
@@ -190,18 +206,12 @@ class Sweep(unittest.TestCase):
 
     def test_crashing_point(self):
         """A process that dies by a signal costs its own point only."""
-        study = self.study(STUDY.replace("10", "24"))
-        process = subprocess.Popen([PROGRAM, "sweep", study, "-o", self.folder / "out", "-j", "1"], env=self.place,
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        child = ""
-        while not child and process.poll() is None:
-            child = subprocess.run(["pgrep", "-P", str(process.pid)], capture_output=True, text=True,
-                                   check=False).stdout.split("\n")[0]
-        os.kill(int(child), signal.SIGSEGV)
-        process.communicate(timeout=100)
+        process = self.start(self.study(HEAD + "cases:\n" + "".join(ENDLESS[:1] + QUICK)), "1")
+        self.wait(lambda: self.children(process))
+        os.kill(self.children(process)[0], signal.SIGSEGV)
+        process.communicate(timeout=120)
         self.assertEqual(process.returncode, 1)
-        states = [row["status"] for row in self.table()]
-        self.assertEqual(states, ["failed"] + ["done"] * 7)
+        self.assertEqual([row["status"] for row in self.table()], ["failed"] + ["done"] * 8)
         self.assertIn("signal 11", self.table()[0]["message"])
 
     def test_ranking(self):
