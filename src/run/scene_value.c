@@ -31,10 +31,24 @@ static bool expect_scalar(const SceneKey *key, const SceneValue *value, Error *e
     return false;
 }
 
-// A list or map item as a value of its own.
-static SceneValue value_at(const SceneValue *value, YamlNode node)
+typedef bool (*ValueSetter)(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err);
+
+// Hands each item of a list or map (`kind`), at most SCENE_LIST_MAX, to `set`.
+static bool set_items(const SceneKey *key, const SceneValue *value, YamlKind kind, ValueSetter set,
+                      Scene *scene, Error *err)
 {
-    return (SceneValue){.document = value->document, .node = node};
+    if (yaml_kind(value->document, value->node) != kind ||
+        yaml_count(value->document, value->node) > SCENE_LIST_MAX) {
+        report_wrong(key, value, err);
+        goto cleanup;
+    }
+    for (YamlNode item = yaml_first(value->document, value->node); item != YAML_NO_NODE;
+         item = yaml_next(value->document, item)) {
+        SceneValue one = {.document = value->document, .node = item};
+        TRY(set(key, &one, scene, err));
+    }
+cleanup:
+    return error_is_clean(err);
 }
 
 // --- numbers ------------------------------------------------------------------------------------
@@ -169,8 +183,9 @@ cleanup:
     return error_is_clean(err);
 }
 
-static bool add_name(const SceneKey *key, const SceneValue *value, SceneNames *names, Error *err)
+static bool add_name(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
+    SceneNames *names = field_of(key, scene);
     char name[GROUP_NAME_SIZE];
     TRY(copy_text(key, value, GROUP_NAME_SIZE, name, err));
     if (key->choices && find_choice(key, name) < 0) {
@@ -191,21 +206,14 @@ cleanup:
     return error_is_clean(err);
 }
 
+// One name, or a list of them; nothing is an empty list.
 static bool set_names(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
-    SceneNames *names = field_of(key, scene);
-    *names = (SceneNames){0};
     YamlKind kind = yaml_kind(value->document, value->node);
-    if (kind == YAML_SCALAR) return add_name(key, value, names, err);
-    if (kind == YAML_MAP) report_wrong(key, value, err);
-    if (kind != YAML_LIST) return error_is_clean(err);   // nothing: an empty list
-    for (YamlNode item = yaml_first(value->document, value->node); item != YAML_NO_NODE;
-         item = yaml_next(value->document, item)) {
-        SceneValue one = value_at(value, item);
-        TRY(add_name(key, &one, names, err));
-    }
-cleanup:
-    return error_is_clean(err);
+    *(SceneNames *)field_of(key, scene) = (SceneNames){0};
+    if (kind == YAML_NOTHING) return true;
+    if (kind == YAML_SCALAR) return add_name(key, value, scene, err);
+    return set_items(key, value, YAML_LIST, add_name, scene, err);
 }
 
 // --- the keys that are maps and lists of their own ----------------------------------------------
@@ -217,10 +225,11 @@ static MeshParameter *find_parameter(Scene *scene, const char *name)
     return NULL;
 }
 
-static bool set_parameter(const SceneKey *key, const SceneValue *value, const char *name,
-                          Scene *scene, Error *err)
+// The parameter that the value's own key names, or the rest of the path of a --set.
+static bool set_parameter(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
     MeshParameter made = {0};
+    const char *name = value->part ? value->part : yaml_key(value->document, value->node);
     const char *text = yaml_text(value->document, value->node);
     MeshParameter *parameter = find_parameter(scene, name);
     bool full = !parameter && scene->mesh.parameter_count == SCENE_LIST_MAX;
@@ -243,26 +252,17 @@ cleanup:
 
 static bool set_parameters(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
-    if (value->part) return set_parameter(key, value, value->part, scene, err);
+    if (value->part) return set_parameter(key, value, scene, err);
     scene->mesh.parameter_count = 0;
-    YamlKind kind = yaml_kind(value->document, value->node);
-    if (kind == YAML_NOTHING) return true;
-    if (kind != YAML_MAP) {
-        report_wrong(key, value, err);
-        return false;
-    }
-    for (YamlNode item = yaml_first(value->document, value->node); item != YAML_NO_NODE;
-         item = yaml_next(value->document, item)) {
-        SceneValue one = value_at(value, item);
-        TRY(set_parameter(key, &one, yaml_key(value->document, item), scene, err));
-    }
-cleanup:
-    return error_is_clean(err);
+    if (yaml_kind(value->document, value->node) == YAML_NOTHING) return true;
+    return set_items(key, value, YAML_MAP, set_parameter, scene, err);
 }
 
-static bool set_traction_part(const SceneKey *key, const SceneValue *value, const Scene *scene,
-                              SceneTraction *traction, Error *err)
+// Into the traction after those that are complete; add_traction counts it when it is.
+static bool set_traction_part(const SceneKey *key, const SceneValue *value, Scene *scene,
+                              Error *err)
 {
+    SceneTraction *traction = &scene->load.tractions[scene->load.traction_count];
     const char *name = yaml_key(value->document, value->node);
     SceneKey component = {.name = "load.tractions.x", .type = KEY_NUMBER, .unit = key->unit};
     if (strcmp(name, "group") == 0)
@@ -277,49 +277,22 @@ static bool set_traction_part(const SceneKey *key, const SceneValue *value, cons
     return false;
 }
 
-static bool set_traction(const SceneKey *key, const SceneValue *value, const Scene *scene,
-                         SceneTraction *traction, Error *err)
+static bool add_traction(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
+    SceneTraction *traction = &scene->load.tractions[scene->load.traction_count];
     *traction = (SceneTraction){0};
-    if (yaml_kind(value->document, value->node) != YAML_MAP) {
-        report_wrong(key, value, err);
-        goto cleanup;
-    }
-    for (YamlNode item = yaml_first(value->document, value->node); item != YAML_NO_NODE;
-         item = yaml_next(value->document, item)) {
-        SceneValue part = value_at(value, item);
-        TRY(set_traction_part(key, &part, scene, traction, err));
-    }
+    TRY(set_items(key, value, YAML_MAP, set_traction_part, scene, err));
     if (!*traction->group)
         yaml_error(value->document, value->node, err, "%s: a traction needs its `group`",
                    key->name);
+    scene->load.traction_count++;
 cleanup:
     return error_is_clean(err);
 }
 
-static bool set_tractions(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+static bool set_support_part(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
-    scene->load.traction_count = 0;
-    YamlKind kind = yaml_kind(value->document, value->node);
-    if (kind == YAML_NOTHING) return true;
-    if (kind != YAML_LIST || yaml_count(value->document, value->node) > SCENE_LIST_MAX) {
-        report_wrong(key, value, err);
-        return false;
-    }
-    for (YamlNode item = yaml_first(value->document, value->node); item != YAML_NO_NODE;
-         item = yaml_next(value->document, item)) {
-        SceneValue one = value_at(value, item);
-        SceneTraction *traction = &scene->load.tractions[scene->load.traction_count];
-        TRY(set_traction(key, &one, scene, traction, err));
-        scene->load.traction_count++;
-    }
-cleanup:
-    return error_is_clean(err);
-}
-
-static bool set_support_part(const SceneKey *key, const SceneValue *value, SceneSupport *support,
-                             Error *err)
-{
+    SceneSupport *support = &scene->load.supports[scene->load.support_count];
     const char *name = yaml_key(value->document, value->node);
     const char *text = yaml_text(value->document, value->node);
     if (strcmp(name, "group") == 0)
@@ -338,43 +311,26 @@ static bool set_support_part(const SceneKey *key, const SceneValue *value, Scene
     return error_is_clean(err);
 }
 
-static bool set_support(const SceneKey *key, const SceneValue *value, SceneSupport *support,
-                        Error *err)
+static bool add_support(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
+    SceneSupport *support = &scene->load.supports[scene->load.support_count];
     *support = (SceneSupport){0};
-    if (yaml_kind(value->document, value->node) != YAML_MAP) {
-        report_wrong(key, value, err);
-        goto cleanup;
-    }
-    for (YamlNode item = yaml_first(value->document, value->node); item != YAML_NO_NODE;
-         item = yaml_next(value->document, item)) {
-        SceneValue part = value_at(value, item);
-        TRY(set_support_part(key, &part, support, err));
-    }
+    TRY(set_items(key, value, YAML_MAP, set_support_part, scene, err));
     if (!*support->group || (!support->x && !support->z))
         yaml_error(value->document, value->node, err,
                    "%s: a support needs its `group` and its `direction`", key->name);
+    scene->load.support_count++;
 cleanup:
     return error_is_clean(err);
 }
 
-static bool set_supports(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+// load.tractions and load.supports; nothing is an empty list.
+static bool set_list(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
-    scene->load.support_count = 0;
-    YamlKind kind = yaml_kind(value->document, value->node);
-    if (kind == YAML_NOTHING) return true;
-    if (kind != YAML_LIST || yaml_count(value->document, value->node) > SCENE_LIST_MAX) {
-        report_wrong(key, value, err);
-        return false;
-    }
-    for (YamlNode item = yaml_first(value->document, value->node); item != YAML_NO_NODE;
-         item = yaml_next(value->document, item)) {
-        SceneValue one = value_at(value, item);
-        TRY(set_support(key, &one, &scene->load.supports[scene->load.support_count], err));
-        scene->load.support_count++;
-    }
-cleanup:
-    return error_is_clean(err);
+    bool tractions = key->type == KEY_TRACTIONS;
+    *(tractions ? &scene->load.traction_count : &scene->load.support_count) = 0;
+    if (yaml_kind(value->document, value->node) == YAML_NOTHING) return true;
+    return set_items(key, value, YAML_LIST, tractions ? add_traction : add_support, scene, err);
 }
 
 static bool set_fields(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
@@ -406,9 +362,8 @@ bool scene_value_set(const SceneKey *key, const SceneValue *value, Scene *scene,
     case KEY_PARAMETERS:
         return set_parameters(key, value, scene, err);
     case KEY_TRACTIONS:
-        return set_tractions(key, value, scene, err);
     case KEY_SUPPORTS:
-        return set_supports(key, value, scene, err);
+        return set_list(key, value, scene, err);
     case KEY_FIELDS:
         return set_fields(key, value, scene, err);
     }
