@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cli/progress.h"
+#include "cli/point_table.h"
 #include "cli/scene_words.h"
 
 #include <math.h>
@@ -14,12 +14,6 @@ typedef struct Model1dWords {
     const char *alpha, *points;
     bool theory_only;
 } Model1dWords;
-
-// The table goes to standard output, the progress of the simulation to standard error.
-typedef struct Table {
-    Progress progress;
-    bool quiet, begun;
-} Table;
 
 static error_t take_option(int key, char *word, struct argp_state *state)
 {
@@ -89,81 +83,56 @@ static int check_words(const Model1dWords *words, Model1dOptions *options)
     return 0;
 }
 
-static void show_step(const StepView *view, void *context)
+static void show_point(const Model1dPoint *point, void *table)
 {
-    Table *table = context;
-    progress_step(view, &table->progress);
-}
-
-static void print_number(double value, int width, int digits)
-{
-    if (isnan(value))
-        printf(" %*s", width, "-");
-    else
-        printf(" %*.*g", width, digits, value);
-}
-
-static void show_point(const Model1dPoint *point, void *context)
-{
-    Table *table = context;
-    if (table->quiet) return;
-    if (!table->begun) {
-        progress_end(&table->progress);
-        printf("%10s %12s %9s %9s %11s %11s %11s %11s %8s %9s %9s\n", "l", "U", "mu", "mu line",
-               "Re omega_0", "Im omega_0", "Re lambda", "Im lambda", "growing", "l seen",
-               "mu seen");
-        table->begun = true;
-    }
+    if (!point_table_line(table, "         l            U        mu   mu line  Re omega_0  "
+                                 "Im omega_0   Re lambda   Im lambda  growing    l seen   mu seen"))
+        return;
     printf("%10.5g %12.6g %9.5f %9.5f %11.4g %11.4g %11.4g %11.4g %8d", point->front, point->U,
            point->mu, point->mu_line, point->omega_re, point->omega_im, point->rate_re,
            point->rate_im, point->growing);
-    print_number(point->front_seen, 9, 5);
-    print_number(point->mu_seen, 9, 5);
+    point_table_cell(point->front_seen, 9, 5);
+    point_table_cell(point->mu_seen, 9, 5);
     printf("\n");
-}
-
-static void print_answer(const char *name, double value, const char *sentence)
-{
-    if (isnan(value))
-        printf("  %-24s %-9s %s\n", name, "none", sentence);
-    else
-        printf("  %-24s %-9.4f %s\n", name, value, sentence);
 }
 
 static void print_theory(const Model1dSummary *summary)
 {
     printf("\nTheory, as in the paper (off-diagonal terms neglected)\n");
-    print_answer("l_sc/L", summary->l_sc, "Re omega_0 > 0: oscillations grow");
-    print_answer("l_c/L", summary->l_c,
-                 summary->l_c > 1 ? "omega_0 real and > 0: not on this line, slow slip crosses it"
-                                  : "omega_0 real and > 0: slow slip turns into sliding");
-    print_answer("l_c/L, l << L", summary->l_c_small, "the law (L P)^(-1/3)");
-    print_answer("mu_M", summary->mu_c, "mu_K + (mu_S - mu_K) l_c/L");
+    point_table_answer("l_sc/L", summary->l_sc, "Re omega_0 > 0: oscillations grow");
+    point_table_answer("l_c/L", summary->l_c,
+                       summary->l_c > 1
+                           ? "omega_0 real and > 0: not on this line, slow slip crosses it"
+                           : "omega_0 real and > 0: slow slip turns into sliding");
+    point_table_answer("l_c/L, l << L", summary->l_c_small, "the law (L P)^(-1/3)");
+    point_table_answer("mu_M", summary->mu_c, "mu_K + (mu_S - mu_K) l_c/L");
     printf("Theory, all terms kept\n");
-    print_answer("l_sc/L", summary->l_sc_full, "oscillations grow");
-    print_answer("l_c/L", summary->l_c_full, "slow slip runs away, however slow the rod");
-    print_answer("l_c/L at V", summary->l_rod_full,
-                 "slip at V grows to v_c within half an oscillation");
-    print_answer("mu_M, V -> 0", summary->mu_c_full, "mu at l_c; mu_S where there is none");
-    print_answer("mu_M at V", summary->mu_rod_full, "mu at l_c at V");
+    point_table_answer("l_sc/L", summary->l_sc_full, "oscillations grow");
+    point_table_answer("l_c/L", summary->l_c_full, "slow slip runs away, however slow the rod");
+    point_table_answer("l_c/L at V", summary->l_rod_full,
+                       "slip at V grows to v_c within half an oscillation");
+    point_table_answer("mu_M, V -> 0", summary->mu_c_full, "mu at l_c; mu_S where there is none");
+    point_table_answer("mu_M at V", summary->mu_rod_full, "mu at l_c at V");
 }
 
 static void print_steps(const Model1dSummary *summary)
 {
     printf("Simulation\n");
-    print_answer("first l_sc/L", summary->first_l_sc, "the certificate is lost");
-    print_answer("first l_c/L", summary->first_l_c, "sliding begins; from tau = mu_K p, as theory");
-    print_answer("first mu_M", summary->first_mu, "its peak");
-    print_answer("periodic l_c/L", summary->l_c_seen, "later peaks start from what sliding left");
-    print_answer("periodic mu_M", summary->mu_M, "");
-    print_answer("spread of mu_M", summary->mu_M_spread, "largest less smallest that counts");
-    printf("  %-24s %d, of which %d count, period %d; %d bounded rapid events\n", "peaks",
+    point_table_answer("first l_sc/L", summary->first_l_sc, "the certificate is lost");
+    point_table_answer("first l_c/L", summary->first_l_c,
+                       "sliding begins; from tau = mu_K p, as theory");
+    point_table_answer("first mu_M", summary->first_mu, "its peak");
+    point_table_answer("periodic l_c/L", summary->l_c_seen,
+                       "later peaks start from what sliding left");
+    point_table_answer("periodic mu_M", summary->mu_M, "");
+    point_table_answer("spread of mu_M", summary->mu_M_spread, "largest less smallest that counts");
+    printf("  %-22s %d, of which %d count, period %d; %d bounded rapid events\n", "peaks",
            summary->peaks, summary->peaks_counted, summary->period, summary->bounded);
-    printf("  %-24s %-9.1e before anything was rapid\n", "mu against theory",
+    printf("  %-22s %-8.1e before anything was rapid\n", "mu against theory",
            summary->quasi_static_error);
-    printf("  %-24s %-9.1e complementarity %.1e\n", "energy ledger", summary->energy_error,
+    printf("  %-22s %-8.1e complementarity %.1e\n", "energy ledger", summary->energy_error,
            summary->contact_error);
-    printf("  %-24s %lld accepted, %lld rejected\n", "steps", (long long)summary->accepted,
+    printf("  %-22s %lld accepted, %lld rejected\n", "steps", (long long)summary->accepted,
            (long long)summary->rejected);
 }
 
@@ -171,7 +140,7 @@ static void print_answers(const Model1dSummary *summary)
 {
     print_theory(summary);
     if (summary->simulated) print_steps(summary);
-    printf("  %-24s %.1f s\n", "time taken", summary->seconds);
+    printf("  %-22s %.1f s\n", "time taken", summary->seconds);
     if (*summary->folder)
         printf("Results in %s: model1d.json, model1d.h5%s\n", summary->folder,
                summary->simulated ? " and the steps in history.h5" : "");
@@ -189,11 +158,11 @@ int command_model1d(int argc, char **argv)
     if (status == 0) status = scene_words_read(&words.common, &scene);
     if (status != 0) return status;
     bool quiet = words.common.quiet;
-    Table table = {.progress = progress_begin(quiet), .quiet = quiet};
+    PointTable table = point_table_begin(quiet);
     options.folder = words.common.folder;
     options.overwrite = words.common.overwrite;
     options.theory_only = words.theory_only;
-    options.on_step = show_step;
+    options.on_step = point_table_step;
     options.on_point = show_point;
     options.context = &table;
     options.stop = stop_on_signals();

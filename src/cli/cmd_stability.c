@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cli/progress.h"
+#include "cli/point_table.h"
 #include "cli/scene_words.h"
 
 #include <math.h>
@@ -16,13 +16,6 @@ typedef struct StabilityWords {
     const char *from, *slidings;
     bool whole;
 } StabilityWords;
-
-// The table goes to standard output, the progress of what comes before it to standard error.
-typedef struct Table {
-    Progress progress;
-    bool quiet, begun;
-    double length;
-} Table;
 
 static error_t take_option(int key, char *word, struct argp_state *state)
 {
@@ -98,38 +91,16 @@ static int check_options(const StabilityWords *words, StabilityOptions *options)
     return 0;
 }
 
-static void show_step(const StepView *view, void *context)
+static void show_point(const StabilityPoint *point, void *table)
 {
-    Table *table = context;
-    progress_step(view, &table->progress);
-}
-
-static void show_point(const StabilityPoint *point, void *context)
-{
-    Table *table = context;
-    if (table->quiet) return;
-    if (!table->begun) {
-        progress_end(&table->progress);
-        printf("%10s %9s %12s %9s %12s %12s %12s %9s  %s\n", "l", "slipping", "U", "mu",
-               "Re lambda", "Im lambda", "real rate", "load", "certified");
-        table->begun = true;
-    }
-    printf("%10.5g %9d %12.6g %9.5f %12.4g %12.4g ", point->front, point->slipping, point->U,
+    if (!point_table_line(table, "         l  slipping            U        mu    Re lambda    "
+                                 "Im lambda    real rate      load  certified"))
+        return;
+    printf("%10.5g %9d %12.6g %9.5f %12.4g %12.4g", point->front, point->slipping, point->U,
            point->mu, point->rate_re, point->rate_im);
-    if (point->real_rate > 0)
-        printf("%12.4g", point->real_rate);
-    else
-        printf("%12s", "-");
+    point_table_cell(point->real_rate > 0 ? point->real_rate : NAN, 12, 4);
     printf(" %9.4f  %s\n", point->load, point->certified ? "yes" : "no");
     fflush(stdout);
-}
-
-static void print_length(const char *name, double value, const char *sentence)
-{
-    if (isnan(value))
-        printf("  %-22s %-8s %s\n", name, "none", sentence);
-    else
-        printf("  %-22s %-8.4f %s\n", name, value, sentence);
 }
 
 // What each pad bears alone, and which of them goes.
@@ -142,10 +113,7 @@ static void print_pads(const StabilitySummary *summary)
         const StabilityPad *pad = &summary->pads[p];
         printf("%-16s %10.4g %9.3f %9.3f %9.3f ", pad->name, pad->pressure,
                pad->slipping / pad->length, pad->mode, pad->load);
-        if (isnan(pad->l_c))
-            printf("%9s", "none");
-        else
-            printf("%9.3f", pad->l_c / pad->length);
+        point_table_cell(pad->l_c / pad->length, 8, 3);
         printf(" %10.4g %10.4g\n", pad->drag, pad->stiffness);
     }
     printf("  slips, l_c alone: over the pad's length. load: weakening over what the pad bears "
@@ -157,15 +125,15 @@ static void print_pads(const StabilitySummary *summary)
 static void print_answers(const StabilitySummary *summary)
 {
     printf("\n");
-    print_length("l_sc/L", summary->l_sc, "an oscillation grows");
-    print_length("l_sc/L (certificate)", summary->l_sc_certificate,
-                 "viscosity alone no longer bears the weakening");
-    print_length("l_c/L", summary->l_c, "slow slip runs away, however slow the rod");
-    print_length("l_c/L at V", summary->l_c_rod,
-                 "slip at V grows to v_c within half an oscillation");
-    print_length("l_c/L (scan)", summary->l_c_scan, "as l_c, with the pressure held fixed");
-    print_length("mu_M, V -> 0", summary->mu_c, "mu at l_c");
-    print_length("mu_M at V", summary->mu_rod, "mu at l_c at V");
+    point_table_answer("l_sc/L", summary->l_sc, "an oscillation grows");
+    point_table_answer("l_sc/L (certificate)", summary->l_sc_certificate,
+                       "viscosity alone no longer bears the weakening");
+    point_table_answer("l_c/L", summary->l_c, "slow slip runs away, however slow the rod");
+    point_table_answer("l_c/L at V", summary->l_c_rod,
+                       "slip at V grows to v_c within half an oscillation");
+    point_table_answer("l_c/L (scan)", summary->l_c_scan, "as l_c, with the pressure held fixed");
+    point_table_answer("mu_M, V -> 0", summary->mu_c, "mu at l_c");
+    point_table_answer("mu_M at V", summary->mu_rod, "mu at l_c at V");
     printf("  (the front goes from node to node: %.4f L between two)\n", summary->element);
     print_pads(summary);
     printf("  time taken             %.1f s (before the path %.1f, path %.1f, growth rates %.1f)\n",
@@ -188,11 +156,11 @@ int command_stability(int argc, char **argv)
     if (status == 0) status = scene_words_read(&words.common, &scene);
     if (status != 0) return status;
     bool quiet = words.common.quiet;
-    Table table = {.progress = progress_begin(quiet), .quiet = quiet};
+    PointTable table = point_table_begin(quiet);
     options.folder = words.common.folder;
     options.overwrite = words.common.overwrite;
     options.whole = words.whole;
-    options.on_step = show_step;
+    options.on_step = point_table_step;
     options.on_point = show_point;
     options.context = &table;
     options.stop = stop_on_signals();
