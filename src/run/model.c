@@ -2,6 +2,7 @@
 #include "run/model.h"
 
 #include "base/clock.h"
+#include "run/step_rule.h"
 #include "stepping/relaxation.h"
 
 #include <math.h>
@@ -10,10 +11,6 @@
 // (mu_S - mu_K) p H / E. Set A, 40x40: 1e-2 moves mu_M by 2e-4 of itself, 1e-3 by 1e-4.
 static const double TOLERANCES[] = {
     [ACCURACY_DRAFT] = 1e-2, [ACCURACY_STANDARD] = 1e-3, [ACCURACY_FINE] = 1e-4};
-
-static const double STEP_MAX_SLIP = 0.2;   // rung 0: the rod moves this part of that slip
-static const double STEPS_AT_LEAST = 50;   // without a rod a run has at least so many
-static const double STEP_RANGE = 1e-10;   // step_min over step_max
 
 // The slip that the drop of friction drives: (mu_S - mu_K) p H / E, with p the mean pressure.
 static double friction_slip(const Simulation *simulation)
@@ -31,12 +28,6 @@ static double half_plane(double d[3][3])
     return d[0][0] > 0 ? 4 * d[2][2] * (d[0][0] - d[2][2]) / d[0][0] : 0;
 }
 
-// Before an explicit run the block relaxes by SDIRK2.
-static const TableauKind TABLEAUS[] = {[SCHEME_SDIRK2] = TABLEAU_SDIRK2,
-                                       [SCHEME_EXPLICIT] = TABLEAU_SDIRK2,
-                                       [SCHEME_EULER] = TABLEAU_EULER,
-                                       [SCHEME_SDIRK3] = TABLEAU_SDIRK3};
-
 bool model_build_rod(Simulation *simulation, RodKind kind, Error *err)
 {
     const Material *material = &simulation->material;
@@ -51,34 +42,13 @@ bool model_build_rod(Simulation *simulation, RodKind kind, Error *err)
 bool model_prepare_steps(Simulation *simulation, Error *err)
 {
     const Scene *scene = &simulation->scene;
-    double slip = friction_slip(simulation), velocity = scene->rod.velocity;
-    simulation->t_end = scene->time.until_t;
-    if (scene->time.until_U > 0) {
-        double t_end = scene->time.until_U / velocity;
-        if (!(simulation->t_end > 0 && simulation->t_end < t_end)) simulation->t_end = t_end;
-    }
-    double tolerance = scene->time.tolerance > 0 ? scene->time.tolerance
-                                                 : TOLERANCES[scene->time.accuracy];
-    bool driven = scene->rod.kind != ROD_NONE;
-    StepControlDef def = {.scheme = TABLEAUS[scene->time.scheme],
-                          .tolerance = tolerance * slip,
-                          .step_max = driven ? STEP_MAX_SLIP * slip / velocity
-                                             : simulation->t_end / STEPS_AT_LEAST,
-                          .relax_step = simulation->scales.time,
-                          .energy_tolerance = scene->time.energy_tolerance,
-                          .growth_max = 2,
-                          .use_certificate = scene->time.certificate};
-    bool implicit = scene->time.scheme != SCHEME_EXPLICIT;   // the keys mean the scheme named
-    def.wave_step = scene->time.wave_step * simulation->model.length /
-                    material_speeds(&simulation->material).longitudinal;
-    // Rungs are halvings of the longest step: it is raised so that the wave step, at which most
-    // steps are taken, is a rung and not up to twice as long as the next one.
-    if (driven) def.step_max = def.wave_step * exp2(ceil(log2(def.step_max / def.wave_step)));
-    if (implicit && scene->time.step_max > 0) def.step_max = scene->time.step_max;
-    def.watch_time = scene->time.watch * def.wave_step / scene->time.wave_step;
-    def.step_min = implicit && scene->time.step_min > 0
-                       ? scene->time.step_min
-                       : STEP_RANGE * fmin(def.step_max, def.wave_step);
+    StepSizes sizes = {.slip = friction_slip(simulation),
+                       .crossing = simulation->model.length /
+                                   material_speeds(&simulation->material).longitudinal,
+                       .tolerance = TOLERANCES[scene->time.accuracy]};
+    StepControlDef def = step_rule(scene, &sizes);
+    def.relax_step = simulation->scales.time;
+    simulation->t_end = step_rule_end(scene);
     RodKind kind = scene->start.rod == START_ROD_HELD && scene->rod.kind != ROD_NONE
                        ? (scene->rod.kind == ROD_PUSH ? ROD_PUSHES : ROD_IS_BONDED)
                        : ROD_AWAY;
