@@ -53,26 +53,33 @@ static void fill_bounds(const Simulation *simulation, double *bound)
         bound[interface_rod(interface, j)] = simulation->scene.rod.displacement;
 }
 
+// Bounds in [interface_count] `bound` and Coulomb's law in `law`, both borrowed; S and g are the
+// caller's to add.
+static ContactProblem contact_problem(const Simulation *simulation, FrictionLaw *law, double *bound)
+{
+    const Scene *scene = &simulation->scene;
+    *law = (FrictionLaw){.kind = FRICTION_COULOMB, .mu_static = scene->friction.mu_static};
+    fill_bounds(simulation, bound);
+    return (ContactProblem){.interface = &simulation->interface,
+                            .law = law,
+                            .rod_kind = scene->rod.kind == ROD_BONDED ? ROD_IS_BONDED : ROD_PUSHES,
+                            .rod_softness = simulation->rod.softness,
+                            .rod_reach = 1,
+                            .bound = bound};
+}
+
 // All nodes start sticking and the rod touching; bound: [interface_count] work.
 static bool solve_contact(const Simulation *simulation, InterfaceOperator *stiffness,
                           const double *g, double *bound, StaticSolution *solution, Error *err)
 {
     const Interface *interface = &simulation->interface;
-    FrictionLaw coulomb = {.kind = FRICTION_COULOMB,
-                           .mu_static = simulation->scene.friction.mu_static};
+    FrictionLaw coulomb;
     ContactSolver solver = {0};
-    fill_bounds(simulation, bound);
     for (int32_t j = 0; j < interface->rod_count; j++) solution->rod_touches[j] = 1;
     for (int32_t i = 0; i < interface->contact_count; i++) solution->status[i] = CONTACT_STICK;
-    ContactProblem problem = {.interface = interface,
-                              .law = &coulomb,
-                              .rod_kind = simulation->scene.rod.kind == ROD_BONDED ? ROD_IS_BONDED
-                                                                                   : ROD_PUSHES,
-                              .rod_softness = simulation->rod.softness,
-                              .rod_reach = 1,
-                              .schur = interface_operator_schur(stiffness),
-                              .g = g,
-                              .bound = bound};
+    ContactProblem problem = contact_problem(simulation, &coulomb, bound);
+    problem.schur = interface_operator_schur(stiffness);
+    problem.g = g;
     ContactSolution contact = {.velocity = solution->contact_displacement,
                                .reaction = solution->contact_reaction,
                                .status = solution->status,
@@ -192,16 +199,8 @@ static double contact_violation(const Simulation *simulation, const StaticSoluti
                                 double *bound)
 {
     const Interface *interface = &simulation->interface;
-    FrictionLaw coulomb = {.kind = FRICTION_COULOMB,
-                           .mu_static = simulation->scene.friction.mu_static};
-    fill_bounds(simulation, bound);
-    ContactProblem problem = {.interface = interface,
-                              .law = &coulomb,
-                              .rod_kind = simulation->scene.rod.kind == ROD_BONDED ? ROD_IS_BONDED
-                                                                                   : ROD_PUSHES,
-                              .rod_softness = simulation->rod.softness,
-                              .rod_reach = 1,
-                              .bound = bound};
+    FrictionLaw coulomb;
+    ContactProblem problem = contact_problem(simulation, &coulomb, bound);
     double force = dense_max_abs(solution->contact_reaction, interface->count);
     double length = dense_max_abs(solution->displacement, simulation->bulk.dof_count);
     ContactResidual residual = contact_residual(&problem, solution->contact_displacement,
