@@ -5,7 +5,8 @@
 #define AMONTONS_TESTS_SEEN_BY_HAND_H
 
 #include "near.h"
-#include "run/observation.h"
+#include "run/events.h"
+#include "run/recorder.h"
 
 enum { SEEN_NODES = 5 };
 
@@ -71,6 +72,35 @@ static inline const Observation *hand_seen(HandSeen *hand, double t, const doubl
         hand->seen.max_slip_rate = fmax(hand->seen.max_slip_rate, fabs(rate[i]));
     }
     return &hand->seen;
+}
+
+// A made-up run: observations at t = 0, 1, ... handed to events and what follows them.
+typedef struct HandRun {
+    HandSeen hand;
+    char names[2][GROUP_NAME_SIZE];   // of the pads
+    Events events;   // the caller's to destroy
+    Recorders recorders;   // events; the caller adds the others
+    double time;   // of the next observation
+} HandRun;
+
+// pads: 1, or 2, the second of nodes 3 and 4.
+static inline void hand_run_begin(HandRun *run, int32_t pads)
+{
+    Error err = {0};
+    *run = (HandRun){.names = {"left", "right"}};
+    hand_seen_init(&run->hand);
+    run->hand.interface.pad_count = pads;
+    run->hand.interface.pad_name = run->names;
+    if (pads == 2) run->hand.pad[3] = run->hand.pad[4] = 1;
+    assert_true(events_create(&run->hand.interface, 1, &run->events, &err));
+    recorders_add(&run->recorders, &run->events, events_record);
+}
+
+static inline void hand_run_see(HandRun *run, double mu, const double rate[SEEN_NODES])
+{
+    Error err = {0};
+    run->hand.seen.mu = mu;
+    assert_true(recorders_record(&run->recorders, hand_seen(&run->hand, run->time++, rate), &err));
 }
 
 #endif

@@ -4,34 +4,23 @@
 #include "run/falls.h"
 
 #include "base/memory.h"
-#include "run/recorder.h"
 #include "seen_by_hand.h"
 
 typedef struct Fixture {
-    HandSeen hand;
-    char names[2][GROUP_NAME_SIZE];
-    Events events;
+    HandRun run;
     Pads pads;
     Falls falls;
-    Recorders recorders;
-    double time;
 } Fixture;
 
 static void fixture_build(Fixture *fixture)
 {
     Error err = {0};
-    *fixture = (Fixture){.names = {"left", "right"}};
-    hand_seen_init(&fixture->hand);
-    Interface *interface = &fixture->hand.interface;
-    fixture->hand.pad[3] = fixture->hand.pad[4] = 1;
-    interface->pad_count = 2;
-    interface->pad_name = fixture->names;
-    assert_true(events_create(interface, 1, &fixture->events, &err));
-    assert_true(pads_create(interface, &fixture->events, &fixture->pads, &err));
-    assert_true(falls_create(&fixture->events, &fixture->pads, 1e-2, &fixture->falls, &err));
-    recorders_add(&fixture->recorders, &fixture->events, events_record);
-    recorders_add(&fixture->recorders, &fixture->pads, pads_record);
-    recorders_add(&fixture->recorders, &fixture->falls, falls_record);
+    hand_run_begin(&fixture->run, 2);
+    assert_true(
+        pads_create(&fixture->run.hand.interface, &fixture->run.events, &fixture->pads, &err));
+    assert_true(falls_create(&fixture->run.events, &fixture->pads, 1e-2, &fixture->falls, &err));
+    recorders_add(&fixture->run.recorders, &fixture->pads, pads_record);
+    recorders_add(&fixture->run.recorders, &fixture->falls, falls_record);
 }
 
 static void fixture_destroy(Fixture *fixture)
@@ -39,17 +28,14 @@ static void fixture_destroy(Fixture *fixture)
     falls_destroy(&fixture->falls);
     falls_destroy(&fixture->falls);
     pads_destroy(&fixture->pads);
-    events_destroy(&fixture->events);
+    events_destroy(&fixture->run.events);
 }
 
 static const double REST[] = {0, 0, 0, 0, 0}, ACROSS[] = {9, 9, 9, 9, 9}, LEFT[] = {9, 9, 9, 0, 0};
 
 static void see(Fixture *fixture, double mu, const double rate[SEEN_NODES])
 {
-    Error err = {0};
-    fixture->hand.seen.mu = mu;
-    assert_true(recorders_record(&fixture->recorders,
-                                 hand_seen(&fixture->hand, fixture->time++, rate), &err));
+    hand_run_see(&fixture->run, mu, rate);
 }
 
 // Slow rise to `peak`, an event with these rates down to `after`, rest.
@@ -187,7 +173,7 @@ static void test_memory_faults(void **state)
     Falls falls;
     int64_t live = memory_counters().live;
     memory_fail_after(0);
-    assert_false(falls_create(&fixture.events, &fixture.pads, 1e-2, &falls, &err));
+    assert_false(falls_create(&fixture.run.events, &fixture.pads, 1e-2, &falls, &err));
     memory_fail_after(-1);
     assert_int_equal(err.code, ERROR_MEMORY);
     falls_destroy(&falls);
@@ -195,11 +181,11 @@ static void test_memory_faults(void **state)
     for (int32_t k = 0; k < 16; k++) fall(&fixture, 0.3, 0.1, ACROSS);
     err = (Error){0};
     memory_fail_after(0);   // the list is full: the next fall needs room
-    fixture.hand.seen.mu = 0.3;
-    falls_record(&fixture.falls, hand_seen(&fixture.hand, 900, REST), &err);
-    fixture.events.ended = true;
-    fixture.hand.seen.mu = 0.1;
-    assert_false(falls_record(&fixture.falls, hand_seen(&fixture.hand, 901, REST), &err));
+    fixture.run.hand.seen.mu = 0.3;
+    falls_record(&fixture.falls, hand_seen(&fixture.run.hand, 900, REST), &err);
+    fixture.run.events.ended = true;
+    fixture.run.hand.seen.mu = 0.1;
+    assert_false(falls_record(&fixture.falls, hand_seen(&fixture.run.hand, 901, REST), &err));
     memory_fail_after(-1);
     assert_int_equal(err.code, ERROR_MEMORY);
     assert_int_equal(fixture.falls.count, 16);

@@ -7,54 +7,38 @@
 #include "base/memory.h"
 #include "io/result_file.h"
 #include "result_place.h"
-#include "run/recorder.h"
 #include "run/simulation.h"
 #include "seen_by_hand.h"
 
 typedef struct Fixture {
-    HandSeen hand;
-    char names[2][GROUP_NAME_SIZE];
-    Events events;
+    HandRun run;
     Pads pads;
-    Recorders recorders;
-    double time;
 } Fixture;
 
 static void fixture_build(Fixture *fixture)
 {
     Error err = {0};
-    hand_seen_init(&fixture->hand);
-    fixture->hand.pad[3] = fixture->hand.pad[4] = 1;
-    fixture->hand.interface.pad_count = 2;
-    fixture->hand.interface.pad_name = fixture->names;
-    snprintf(fixture->names[0], GROUP_NAME_SIZE, "left");
-    snprintf(fixture->names[1], GROUP_NAME_SIZE, "right");
-    fixture->recorders = (Recorders){0};
-    fixture->time = 0;
-    assert_true(events_create(&fixture->hand.interface, 1, &fixture->events, &err));
-    assert_true(pads_create(&fixture->hand.interface, &fixture->events, &fixture->pads, &err));
-    recorders_add(&fixture->recorders, &fixture->events, events_record);
-    recorders_add(&fixture->recorders, &fixture->pads, pads_record);
+    hand_run_begin(&fixture->run, 2);
+    assert_true(
+        pads_create(&fixture->run.hand.interface, &fixture->run.events, &fixture->pads, &err));
+    recorders_add(&fixture->run.recorders, &fixture->pads, pads_record);
 }
 
 static void fixture_destroy(Fixture *fixture)
 {
     pads_destroy(&fixture->pads);
     pads_destroy(&fixture->pads);
-    events_destroy(&fixture->events);
+    events_destroy(&fixture->run.events);
 }
 
 // Node i presses with 10 mu + i and is held by mu + i.
 static void see(Fixture *fixture, double mu, const double rate[SEEN_NODES])
 {
-    Error err = {0};
-    fixture->hand.seen.mu = mu;
     for (int32_t i = 0; i < SEEN_NODES; i++) {
-        fixture->hand.reaction[interface_normal(i)] = 10 * mu + i;
-        fixture->hand.reaction[interface_tangent(i)] = -(mu + i);
+        fixture->run.hand.reaction[interface_normal(i)] = 10 * mu + i;
+        fixture->run.hand.reaction[interface_tangent(i)] = -(mu + i);
     }
-    assert_true(recorders_record(&fixture->recorders,
-                                 hand_seen(&fixture->hand, fixture->time++, rate), &err));
+    hand_run_see(&fixture->run, mu, rate);
 }
 
 static const double REST[] = {0, 0, 0, 0, 0}, ACROSS[] = {9, 9, 9, 9, 9};
@@ -200,7 +184,7 @@ static void test_memory_faults(void **state)
         Error err = {0};
         Pads pads;
         memory_fail_after(k);
-        done = pads_create(&fixture.hand.interface, &fixture.events, &pads, &err);
+        done = pads_create(&fixture.run.hand.interface, &fixture.run.events, &pads, &err);
         memory_fail_after(-1);
         assert_int_equal(err.code, done ? ERROR_NONE : ERROR_MEMORY);
         pads_destroy(&pads);

@@ -4,42 +4,31 @@
 #include "run/peaks.h"
 
 #include "base/memory.h"
-#include "run/recorder.h"
 #include "seen_by_hand.h"
 
 typedef struct Fixture {
-    HandSeen hand;
-    Events events;
+    HandRun run;
     Peaks peaks;
-    Recorders recorders;
-    double time;
 } Fixture;
 
 static void fixture_build(Fixture *fixture)
 {
     Error err = {0};
-    hand_seen_init(&fixture->hand);
-    fixture->recorders = (Recorders){0};
-    fixture->time = 0;
-    assert_true(events_create(&fixture->hand.interface, 1, &fixture->events, &err));
-    assert_true(peaks_create(&fixture->events, 0.01, &fixture->peaks, &err));
-    recorders_add(&fixture->recorders, &fixture->events, events_record);
-    recorders_add(&fixture->recorders, &fixture->peaks, peaks_record);
+    hand_run_begin(&fixture->run, 1);
+    assert_true(peaks_create(&fixture->run.events, 0.01, &fixture->peaks, &err));
+    recorders_add(&fixture->run.recorders, &fixture->peaks, peaks_record);
 }
 
 static void fixture_destroy(Fixture *fixture)
 {
     peaks_destroy(&fixture->peaks);
     peaks_destroy(&fixture->peaks);
-    events_destroy(&fixture->events);
+    events_destroy(&fixture->run.events);
 }
 
 static void see(Fixture *fixture, double mu, const double rate[SEEN_NODES])
 {
-    Error err = {0};
-    fixture->hand.seen.mu = mu;
-    assert_true(recorders_record(&fixture->recorders,
-                                 hand_seen(&fixture->hand, fixture->time++, rate), &err));
+    hand_run_see(&fixture->run, mu, rate);
 }
 
 static const double REST[] = {0, 0, 0, 0, 0}, SLOW[] = {0.5, 0.5, 0, 0, 0};
@@ -49,13 +38,13 @@ static const double FAST[] = {9, 9, 9, 0, 0}, ACROSS[] = {9, 9, 9, 9, 9};
 static void cycle(Fixture *fixture, double mu, bool certified)
 {
     see(fixture, 0.5 * mu, REST);
-    fixture->hand.seen.certified = certified;
+    fixture->run.hand.seen.certified = certified;
     see(fixture, mu, SLOW);
     see(fixture, 0.95 * mu, FAST);
     see(fixture, 0.9 * mu, ACROSS);
     see(fixture, 2 * mu, ACROSS);   // whatever the force does while it slides
     see(fixture, 0.3 * mu, REST);
-    fixture->hand.seen.certified = true;
+    fixture->run.hand.seen.certified = true;
 }
 
 static void test_no_peak(void **state)
@@ -298,7 +287,7 @@ static void test_memory_faults(void **state)
     int64_t live = memory_counters().live;
     Peaks made;
     memory_fail_after(0);
-    assert_false(peaks_create(&fixture.events, 0.01, &made, &err));
+    assert_false(peaks_create(&fixture.run.events, 0.01, &made, &err));
     memory_fail_after(-1);
     assert_int_equal(err.code, ERROR_MEMORY);
     peaks_destroy(&made);
@@ -306,10 +295,10 @@ static void test_memory_faults(void **state)
     for (int32_t k = 0; k < 16; k++) cycle(&fixture, 0.3, true);
     error_clear(&err);
     see(&fixture, 0.3, SLOW);
-    hand_seen(&fixture.hand, fixture.time, ACROSS);
-    assert_true(events_record(&fixture.events, &fixture.hand.seen, &err));
+    hand_seen(&fixture.run.hand, fixture.run.time, ACROSS);
+    assert_true(events_record(&fixture.run.events, &fixture.run.hand.seen, &err));
     memory_fail_after(0);
-    assert_false(peaks_record(&fixture.peaks, &fixture.hand.seen, &err));
+    assert_false(peaks_record(&fixture.peaks, &fixture.run.hand.seen, &err));
     memory_fail_after(-1);
     assert_int_equal(err.code, ERROR_MEMORY);
     assert_int_equal(fixture.peaks.count, 16);
