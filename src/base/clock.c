@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// Monotonic: a clock that is set by hand or by the network must not bend a timing.
 #include "base/clock.h"
 
 #include <time.h>

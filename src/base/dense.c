@@ -32,6 +32,8 @@ void dense_use_one_thread(void)
     if (blas_thread_shutdown_) blas_thread_shutdown_();
 }
 
+// A = L L'. LAPACK stops at the first pivot that is not above 0, which is the test for definiteness
+// itself: no tolerance is involved.
 bool dense_cholesky(double *a, int32_t n)
 {
     int info = 0;
@@ -50,6 +52,8 @@ bool dense_lu(double *a, int32_t n, int32_t *pivots)
     return info == 0;
 }
 
+// det A = (-1)^(row swaps) times the product of U's diagonal: only signs are multiplied, since the
+// product itself would overflow.
 int dense_lu_sign(const double *lu, int32_t n, const int32_t *pivots)
 {
     int sign = 1;
@@ -89,6 +93,8 @@ void dense_lower_solve_transposed(const double *lower, int32_t n, double *x)
     if (n > 0) cblas_dtrsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, n, lower, n, x, 1);
 }
 
+// L is copied into c with zeros above its diagonal, then multiplied by L' from the right, which
+// costs half of a general product.
 void dense_lower_square(const double *lower, int32_t n, double *c)
 {
     if (n == 0) return;
@@ -100,6 +106,7 @@ void dense_lower_square(const double *lower, int32_t n, double *c)
                 n, c, n);
 }
 
+// dpotri leaves the inverse in the lower triangle: the upper one is mirrored from it.
 bool dense_invert_factored(double *a, int32_t n)
 {
     int info = 0;
@@ -110,6 +117,8 @@ bool dense_invert_factored(double *a, int32_t n)
     return info == 0;
 }
 
+// Two triangular solves, from the left and from the right; turns a x = lambda L L' x into a
+// symmetric problem of its own.
 void dense_divide_both_sides(const double *lower, int32_t n, double *a)
 {
     if (n == 0) return;
@@ -124,6 +133,7 @@ int64_t dense_eigen_work(int32_t n)
     return 34 * (int64_t)n + 64;   // (block size 32 + 2) n
 }
 
+// dsyev: reduction to tridiagonal form, then implicit QL (LAPACK Users' Guide, 3rd ed., 2.4.4).
 bool dense_eigen(double *a, int32_t n, double *values, double *work)
 {
     int info = 0, size = (int)dense_eigen_work(n);
@@ -131,6 +141,7 @@ bool dense_eigen(double *a, int32_t n, double *values, double *work)
     return info == 0;
 }
 
+// dgeev: Hessenberg form, then shifted QR. Left eigenvectors are not asked for.
 bool dense_eigen_general(double *a, int32_t n, double *re, double *im, double *vectors,
                          double *work)
 {
@@ -146,6 +157,7 @@ static void scale_by(double keep, int64_t count, double *c)
     for (int64_t k = 0; k < count; k++) c[k] = keep == 0 ? 0 : keep * c[k];
 }
 
+// BLAS wants a leading dimension of 1 at least, so matrices without rows are dealt with here.
 void dense_multiply_transposed(DenseView a, DenseView b, double factor, double keep, double *c)
 {
     if (a.columns == 0 || b.columns == 0) return;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// The first cause is kept, also when clean-up after it fails again. Messages live in the Error
+// itself: reporting that memory ran out must not need any.
 #include "base/error.h"
 
 #include <stdarg.h>
@@ -17,6 +19,8 @@ void error_set(Error *err, ErrorCode code, const char *file, int32_t line, const
     va_end(arguments);
 }
 
+// The context goes in front; where both do not fit the end of the cause is cut, and a context that
+// would leave no room for it is dropped.
 void error_context(Error *err, const char *format, ...)
 {
     if (err->code == ERROR_NONE) return;

@@ -12,6 +12,8 @@ static atomic_llong allocation_count;
 static atomic_llong live_count;
 static atomic_llong allocations_until_failure = -1;
 
+// Counts down to the failure that a test asked for, and stays at 0 from then on: what fails once
+// goes on failing, as memory that has run out does.
 static bool fault_is_due(void)
 {
     long long left = atomic_load(&allocations_until_failure);
@@ -53,6 +55,7 @@ void *memory_bytes(int64_t size, Error *err)
     return allocate(size, 1, &padded, err);
 }
 
+// Copied rather than realloc'ed: realloc does not keep the alignment.
 void *memory_resize(void *array, int64_t old_count, int64_t new_count, size_t size, Error *err)
 {
     void *longer = memory_array(new_count, size, err);

@@ -36,6 +36,7 @@ void sparse_pattern_destroy(SparsePattern *pattern)
     *pattern = (SparsePattern){0};
 }
 
+// Bisection: the columns of a row are ascending. The entry must exist.
 int32_t sparse_entry(const SparsePattern *pattern, int32_t row, int32_t column)
 {
     int32_t low = pattern->start[row], high = pattern->start[row + 1] - 1;
@@ -87,6 +88,7 @@ static bool border_is_last(const SparseAnalysis *analysis, const int32_t *member
     return true;
 }
 
+// Symbolic factorisation in the given `order` [n]; an earlier one is dropped.
 static bool analyse_in_order(SparseAnalysis *analysis, int32_t *order, bool postorder, Error *err)
 {
     cholmod_common *common = &analysis->common;
@@ -131,6 +133,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// The pattern is copied: the analysis outlives the caller's arrays. CHOLMOD prints nothing.
 SparseAnalysis *sparse_analyse(const SparsePattern *pattern, const int32_t *border,
                                int32_t border_count, Error *err)
 {
@@ -204,6 +207,11 @@ static void compute_schur(SparseFactor *factor, double *square)
     }
 }
 
+//     A = [A_ii A_ib]   L = [L_ii     ]   S = A_bb - A_bi A_ii^-1 A_ib = L_bb L_bb'
+//         [A_bi A_bb]       [L_bi L_bb]
+//
+// With the border last, S stands in the factor and is copied out of it once. ERROR_COMPUTE: not
+// positive definite, which a user's mesh or material can cause.
 SparseFactor *sparse_factorise(SparseAnalysis *analysis, const double *values, Error *err)
 {
     cholmod_common *common = &analysis->common;
@@ -252,6 +260,8 @@ const double *sparse_schur(const SparseFactor *factor)
     return factor->schur;
 }
 
+// L y = rhs; then g = L_bb y_b = rhs_b - A_bi A_ii^-1 rhs_i. y stays in `forward` for the matching
+// sparse_expand: the two go in pairs.
 bool sparse_condense(SparseFactor *factor, const double *rhs, double *g, Error *err)
 {
     SparseAnalysis *analysis = factor->analysis;
@@ -271,6 +281,8 @@ cleanup:
     return error_is_clean(err);
 }
 
+// With x_b known, L_bb' x_b takes the place of y_b, and L' x = y gives the interior. No memory is
+// allocated after the first call: CHOLMOD keeps its workspaces.
 bool sparse_expand(SparseFactor *factor, const double *x_border, double *x, Error *err)
 {
     SparseAnalysis *analysis = factor->analysis;
