@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// M, C and K of the semi-discrete block, M u'' + C u' + K u = f, summed element by element (Hughes,
+// The Finite Element Method, ch. 2). K and C share one pattern of 2x2 blocks, one for each pair of
+// nodes with a common element; both triangles are stored. M is lumped: a vector.
+//
+//     unknown 2 i: u_x of node i;  2 i + 1: u_z;  row-compressed, columns ascending
 #include "bulk/assembly.h"
 
 #include "base/memory.h"
@@ -59,6 +64,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// From nodes to unknowns: each neighbour gives two columns, and both rows of a node are alike.
 static bool build_pattern(const Mesh *mesh, SparsePattern *pattern, Error *err)
 {
     NodeGraph graph = {0};
@@ -83,6 +89,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Unknowns 2 b and 2 b + 1 of a node stand side by side in every row, so one look-up serves both.
 static void add_element(const Mesh *mesh, int32_t e, const ElementMatrices *matrices, Bulk *bulk)
 {
     const int32_t *element = mesh->element_nodes + mesh->first_node[e];
@@ -103,6 +110,7 @@ static void add_element(const Mesh *mesh, int32_t e, const ElementMatrices *matr
     bulk->area += matrices->area;
 }
 
+// The mesh has been checked: every determinant is positive, and no element can fail here.
 bool bulk_assemble(const Mesh *mesh, const Material *material, Bulk *bulk, Error *err)
 {
     *bulk = (Bulk){.dof_count = 2 * mesh->node_count};
@@ -140,6 +148,8 @@ void bulk_destroy(Bulk *bulk)
     *bulk = (Bulk){0};
 }
 
+// Row and column are emptied but for the diagonal: the matrices stay symmetric and positive, and
+// the unknown, without load, stays at 0. Its mass and its diagonal entries are left as they are.
 void bulk_hold(int32_t dof, Bulk *bulk)
 {
     const SparsePattern *pattern = &bulk->pattern;
@@ -164,6 +174,7 @@ static void edge_weights(const Mesh *mesh, const MeshCurve *curve, int32_t edge,
     weight[2] = length * 4 / 6;
 }
 
+// w_i = int N_i ds of the curve, at its mesh nodes: what turns a nodal reaction into a stress.
 void curve_add_weights(const Mesh *mesh, const MeshCurve *curve, double *weight)
 {
     for (int32_t edge = 0; edge < curve->edge_count; edge++) {
@@ -174,6 +185,7 @@ void curve_add_weights(const Mesh *mesh, const MeshCurve *curve, double *weight)
     }
 }
 
+// f_i = int N_i t ds for a uniform t, exact on straight edges of either order.
 void bulk_add_traction(const Mesh *mesh, const MeshCurve *curve, const double traction[2],
                        Bulk *bulk)
 {

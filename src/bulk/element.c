@@ -4,6 +4,11 @@
 
 #include <string.h>
 
+//     (eps_xx, eps_zz, 2 eps_xz) = B u_e,     [ N_a,x    0   ]
+//                                       B_a = [   0    N_a,z ]
+//                                             [ N_a,z  N_a,x ]
+//
+// with slopes in x and z by the inverse of the Jacobian J = d(x, z)/d(xi, eta). Returns det J.
 double element_strain_matrix(ElementKind kind, const double (*position)[2], const double point[2],
                              double b[3][ELEMENT_DOFS_MAX])
 {
@@ -40,6 +45,8 @@ static void add_quadratic_form(int32_t dofs, const double b[3][ELEMENT_DOFS_MAX]
 }
 
 // Shares out the element's mass in proportion to int N_a^2.
+// Row sums would give corners of a T6 no mass, and those of a Q8 a negative one; this rule of
+// Hinton, Rock and Zienkiewicz (Earthq. Eng. Struct. Dyn. 4, 1976) keeps all positive.
 static void lump_mass(ElementKind kind, const double (*position)[2], double density,
                       ElementMatrices *out)
 {
@@ -59,6 +66,7 @@ static void lump_mass(ElementKind kind, const double (*position)[2], double dens
     for (int32_t a = 0; a < nodes; a++) out->mass[a] *= density * out->area / square_sum;
 }
 
+// K_e = int B' D B dA and C_e = int B' D_eta B dA by the element's own quadrature, per unit width.
 void element_matrices(ElementKind kind, const double (*position)[2], const Material *material,
                       ElementMatrices *out)
 {

@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// Kelvin-Voigt: sigma = D eps + D_eta eps', both isotropic. Vectors are (xx, zz, 2 xz) for strains
+// and (xx, zz, xz) for stresses, so that
+//
+//         [ d + t    t     0  ]
+//     D = [   t    d + t   0  ]    d: deviator, E/(1+nu) or eta1;  t: trace, lambda or eta2
+//         [   0      0    d/2 ]
 #include "bulk/material.h"
 
 #include <math.h>
@@ -9,6 +15,7 @@ Material material_default(void)
     return (Material){.young = 1, .poisson = 0.34, .density = 1, .eta1 = 1, .eta2 = 1};
 }
 
+// E nu / ((1+nu)(1-2nu)), or what sigma_yy = 0 makes of it in a thin plate: E nu / (1 - nu^2).
 static double lame_lambda(const Material *material)
 {
     double nu = material->poisson, young = material->young;
@@ -35,6 +42,7 @@ void material_viscous(const Material *material, double d[3][3])
     fill_isotropic(material->eta1, material->eta2, d);
 }
 
+// sigma_yy: 0 in plane stress; in plane strain what holds the block's faces in place.
 double material_out_of_plane(const Material *material, const double strain[3],
                              const double strain_rate[3])
 {
@@ -50,6 +58,8 @@ static double rayleigh_function(double s, double k)
     return (2 - s) * (2 - s) - 4 * sqrt(1 - s) * sqrt(1 - s * k);
 }
 
+// c_L = sqrt(D_xx / rho), c_S = sqrt(G / rho), of the plane problem at hand: in plane stress c_L is
+// that of a plate. c_R by bisection of the Rayleigh function to the last bit.
 WaveSpeeds material_speeds(const Material *material)
 {
     WaveSpeeds speeds;

@@ -30,6 +30,7 @@ static int compare_places(const void *a, const void *b, void *position)
     return (first[1] > second[1]) - (first[1] < second[1]);
 }
 
+// By place, so that numbers given out by gmsh do not decide the order of contact nodes.
 void mesh_sort_nodes(const Mesh *mesh, int32_t *nodes, int32_t count)
 {
     if (count > 1) qsort_r(nodes, (size_t)count, sizeof *nodes, compare_places, mesh->position);
@@ -192,6 +193,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Flatness first: the later checks rely on all nodes lying on one line.
 bool mesh_contact(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], int32_t name_count,
                   MeshContact *contact, Error *err)
 {

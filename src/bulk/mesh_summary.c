@@ -25,6 +25,8 @@ static double element_area(const Mesh *mesh, int32_t e)
     return area;
 }
 
+// Aspect is longest over shortest edge of an element; a triangle's needle with two long edges shows
+// in it, a flat one with an obtuse corner only mildly.
 // Edges are measured between corners, also where a mid-side node bends them.
 MeshSummary mesh_summarise(const Mesh *mesh)
 {

@@ -33,6 +33,7 @@ typedef struct Strains {
     double strain[3], rate[3];   // xx, zz, 2 xz
 } Strains;
 
+// Of element `e` at reference coordinates `point`: B u_e and B v_e; displacement, velocity: [dofs].
 static Strains strains_at(const Mesh *mesh, int32_t e, const double point[2],
                           const double *displacement, const double *velocity)
 {
@@ -55,6 +56,7 @@ static Strains strains_at(const Mesh *mesh, int32_t e, const double point[2],
     return found;
 }
 
+// sqrt(3 J_2) with all three normal stresses: sigma_yy counts in plane strain.
 static double von_mises(const double stress[3], double out_of_plane)
 {
     double xx = stress[0], zz = stress[1], xz = stress[2], yy = out_of_plane;
@@ -62,6 +64,8 @@ static double von_mises(const double stress[3], double out_of_plane)
                 3 * xz * xz);
 }
 
+// Every element gives its own stress to each of its nodes; the mean over the elements is taken
+// last, and von Mises of that mean, not the mean of von Mises.
 void nodal_stress_recover(const Mesh *mesh, const Material *material, const double *displacement,
                           const double *velocity, NodalStress *stress)
 {
