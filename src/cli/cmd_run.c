@@ -4,7 +4,6 @@
 #include "cli/scene_words.h"
 
 #include <stdio.h>
-#include <string.h>
 
 enum { OPTION_PROFILE = OPTION_OWN };
 
@@ -51,15 +50,6 @@ static void read_options(int argc, char **argv, Options *options)
     options_parse(&argp, argc, argv, "amontons run", options);
 }
 
-// "validation/paper/fig1.yaml" gives "fig1-result".
-static void default_folder(const char *scene, char *folder, size_t size)
-{
-    const char *slash = strrchr(scene, '/'), *name = slash ? slash + 1 : scene;
-    const char *dot = strrchr(name, '.');
-    size_t length = dot && dot != name ? (size_t)(dot - name) : strlen(name);
-    snprintf(folder, size, "%.*s-result", (int)(length < 200 ? length : 200), name);
-}
-
 static int run_scene(const Scene *scene, const Options *options, const char *folder)
 {
     Error err = {0};
@@ -88,7 +78,7 @@ int command_run(int argc, char **argv)
     const SceneWords *words = &options.words;
     int status = scene_words_check(words, "run", "validation/paper/fig1.yaml");
     if (status != 0) return status;
-    default_folder(words->scene, folder, sizeof folder);
+    default_folder(words->scene, "-result", folder, sizeof folder);
     status = scene_words_read(words, &scene);
     if (status == 0) status = run_scene(scene, &options, words->folder ? words->folder : folder);
     amontons_scene_destroy(scene);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "cli/progress.h"
 #include "cli/scene_words.h"
 
 #include <math.h>
@@ -173,28 +174,6 @@ static int check_options(const SweepWords *words, SweepOptions *options)
     return 0;
 }
 
-// "validation/paper/fig2a.yaml" gives "fig2a-sweep".
-static void default_folder(const char *study, char *folder, size_t size)
-{
-    const char *slash = strrchr(study, '/'), *name = slash ? slash + 1 : study;
-    const char *dot = strrchr(name, '.');
-    size_t length = dot && dot != name ? (size_t)(dot - name) : strlen(name);
-    snprintf(folder, size, "%.*s-sweep", (int)(length < 200 ? length : 200), name);
-}
-
-static void format_left(double seconds, char *text, size_t size)
-{
-    if (isnan(seconds)) {
-        snprintf(text, size, "-:--");
-        return;
-    }
-    long whole = seconds < 3.6e6 ? (long)(seconds + 0.5) : 3600000;
-    if (whole >= 3600)
-        snprintf(text, size, "%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
-    else
-        snprintf(text, size, "%ld:%02ld", whole / 60, whole % 60);
-}
-
 // A line a point; on a terminal a last line that says how far everything is.
 static void show_point(const SweepView *view, void *context)
 {
@@ -204,7 +183,7 @@ static void show_point(const SweepView *view, void *context)
         snprintf(display->failed[display->failures++], sizeof display->failed[0], "%.190s: %.290s",
                  view->words, view->message);
     if (display->quiet) return;
-    format_left(view->seconds_left, left, sizeof left);
+    progress_format_left(view->seconds_left, left, sizeof left);
     if (display->bar) fprintf(stderr, "\r\033[K");
     if (view->message)
         snprintf(what, sizeof what, "FAILED");
@@ -254,7 +233,7 @@ int command_sweep(int argc, char **argv)
     if (status != 0) return status;
     options.stop = stop_on_signals();
     options.slurm = words.slurm;
-    default_folder(words.study, folder, sizeof folder);
+    default_folder(words.study, "-sweep", folder, sizeof folder);
     options.folder = words.folder ? words.folder : folder;
     options.overrides = words.overrides;
     options.override_count = words.override_count;

@@ -19,6 +19,10 @@ int command_info(int argc, char **argv);
 // argp_parse with our exit status for wrong options; `--help` ends the program.
 void options_parse(const struct argp *argp, int argc, char **argv, const char *name, void *input);
 
+// The folder for results where -o gives none, here: "validation/paper/fig1.yaml" and "-result" give
+// "fig1-result".
+void default_folder(const char *file, const char *ending, char *folder, size_t size);
+
 // Prints "amontons: error: ..." and gives the exit status that belongs to it.
 int report_error(const Error *err);
 void report_warnings(const RunWarnings *warnings);   // "amontons: warning: ...", a line each

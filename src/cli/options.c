@@ -4,12 +4,21 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 void options_parse(const struct argp *argp, int argc, char **argv, const char *name, void *input)
 {
     argp_err_exit_status = error_exit_status(ERROR_INPUT);
     argv[0] = (char *)name;   // argp shows it, and does not write to it
     argp_parse(argp, argc, argv, 0, NULL, input);
+}
+
+void default_folder(const char *file, const char *ending, char *folder, size_t size)
+{
+    const char *slash = strrchr(file, '/'), *name = slash ? slash + 1 : file;
+    const char *dot = strrchr(name, '.');
+    size_t length = dot && dot != name ? (size_t)(dot - name) : strlen(name);
+    snprintf(folder, size, "%.*s%s", (int)(length < 200 ? length : 200), name, ending);
 }
 
 int report_error(const Error *err)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cli/progress.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/ioctl.h>
@@ -28,26 +29,30 @@ static int32_t terminal_width(void)
     return size.ws_col < WIDTH_MAX ? size.ws_col : WIDTH_MAX;
 }
 
-// "1:05", "2:03:40"; "-:--" while nothing can be said.
-static void format_left(double fraction, double elapsed, char *text, size_t size)
+void progress_format_left(double seconds, char *text, size_t size)
 {
-    if (fraction < 1e-3 || elapsed < 0.2) {
+    if (isnan(seconds)) {
         snprintf(text, size, "-:--");
         return;
     }
-    double left = elapsed * (1 - fraction) / fraction;
-    long seconds = left < 3.6e6 ? (long)(left + 0.5) : 3600000;
-    if (seconds >= 3600)
-        snprintf(text, size, "%ld:%02ld:%02ld", seconds / 3600, seconds / 60 % 60, seconds % 60);
+    long whole = seconds < 3.6e6 ? (long)(seconds + 0.5) : 3600000;
+    if (whole >= 3600)
+        snprintf(text, size, "%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
     else
-        snprintf(text, size, "%ld:%02ld", seconds / 60, seconds % 60);
+        snprintf(text, size, "%ld:%02ld", whole / 60, whole % 60);
+}
+
+// Seconds left at the pace so far; NaN while too little is done to tell.
+static double seconds_left(double fraction, double elapsed)
+{
+    return fraction < 1e-3 || elapsed < 0.2 ? NAN : elapsed * (1 - fraction) / fraction;
 }
 
 // "U 0.00123/0.006  mu 0.2034  dt 0.012  3 events  0:12 left"
 static void format_state(const StepView *view, double elapsed, char *text, size_t size)
 {
     char left[32], end[32] = "";
-    format_left(view->fraction, elapsed, left, sizeof left);
+    progress_format_left(seconds_left(view->fraction, elapsed), left, sizeof left);
     if (view->fraction > 0) snprintf(end, sizeof end, "/%.4g", view->U / view->fraction);
     snprintf(text, size, "U %.4g%s  mu %.4f  dt %.2g  %d event%s  %s left", view->U, end, view->mu,
              view->step_size, view->events, view->events == 1 ? "" : "s", left);

@@ -22,6 +22,9 @@ Progress progress_begin(bool quiet);   // looks whether standard error is a term
 
 void progress_step(const StepView *view, void *progress);   // a StepCallback
 
+// "1:05", "2:03:40"; "-:--" for NaN.
+void progress_format_left(double seconds, char *text, size_t size);
+
 // Clears the bar, so that something else can be printed.
 void progress_end(Progress *progress);
 
