@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// What a user wants to know first stands first: mu_M, and whether to trust it. Only files that are
+// there are named.
 #include "cli/closing.h"
 
 #include <dirent.h>
@@ -23,6 +25,8 @@ static void print_falls(const RunSummary *summary)
                summary->falls);
 }
 
+// Each number with what bounds it: how many peaks it comes from, by how much they differ, whether
+// they repeat.
 static void print_answers(const RunSummary *summary)
 {
     if (isnan(summary->mu_M))
@@ -58,12 +62,15 @@ static void print_answers(const RunSummary *summary)
            summary->seconds_solve, summary->seconds_output);
 }
 
+// A filter for scandir.
 static int is_picture(const struct dirent *entry)
 {
     const char *dot = strrchr(entry->d_name, '.');
     return dot && strcmp(dot, ".png") == 0;
 }
 
+// By what lies in the folder, not by what was asked for: a picture that could not be drawn is not
+// named.
 static void print_pictures(const char *folder)
 {
     char figures[AMONTONS_PATH_SIZE + 16];

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// `amontons info`: what a file holds, before anything is computed with it. The library finds out
+// what kind of file it is and writes the text.
 #include "cli/commands.h"
 
 #include <stdio.h>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// `amontons model1d`: theory beside simulation, a line a position of the front, then the lengths
+// and coefficients by each way of finding them.
 #include "cli/point_table.h"
 #include "cli/scene_words.h"
 
@@ -62,6 +64,7 @@ static void read_options(int argc, char **argv, Model1dWords *words)
     options_parse(&argp, argc, argv, "amontons model1d", words);
 }
 
+// The words of --alpha and --points as `options`. The exit status.
 static int check_words(const Model1dWords *words, Model1dOptions *options)
 {
     char *end = NULL;
@@ -83,6 +86,7 @@ static int check_words(const Model1dWords *words, Model1dOptions *options)
     return 0;
 }
 
+// A Model1dCallback; `l seen` and `mu seen` are empty where nothing was simulated.
 static void show_point(const Model1dPoint *point, void *table)
 {
     if (!point_table_line(table, "         l            U        mu   mu line  Re omega_0  "
@@ -96,6 +100,7 @@ static void show_point(const Model1dPoint *point, void *table)
     printf("\n");
 }
 
+// Twice: as the paper has it, and with the terms that it leaves out.
 static void print_theory(const Model1dSummary *summary)
 {
     printf("\nTheory, as in the paper (off-diagonal terms neglected)\n");

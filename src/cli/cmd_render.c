@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// `amontons render`: pictures of a stored result, or of a plot that a file describes. Which of the
+// two the name's ending tells.
 #include "cli/commands.h"
 
 #include <stdio.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// `amontons run`: one simulation, with progress while it goes on and its answers at the end.
 #include "cli/closing.h"
 #include "cli/progress.h"
 #include "cli/scene_words.h"
@@ -50,6 +51,7 @@ static void read_options(int argc, char **argv, Options *options)
     options_parse(&argp, argc, argv, "amontons run", options);
 }
 
+// Warnings come also where the run failed: they may say why. The exit status.
 static int run_scene(const Scene *scene, const Options *options, const char *folder)
 {
     Error err = {0};

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// `amontons stability`: the quasi-static path as a table, a line a position of the front, and below
+// it where stability is lost.
 #include "cli/point_table.h"
 #include "cli/scene_words.h"
 
@@ -67,6 +69,7 @@ static void read_options(int argc, char **argv, StabilityWords *words)
     options_parse(&argp, argc, argv, "amontons stability", words);
 }
 
+// The words of --from and --slidings as `options`. The exit status.
 static int check_options(const StabilityWords *words, StabilityOptions *options)
 {
     int status = scene_words_check(&words->common, "stability", "validation/paper/fig1.yaml");
@@ -91,6 +94,7 @@ static int check_options(const StabilityWords *words, StabilityOptions *options)
     return 0;
 }
 
+// A StabilityCallback.
 static void show_point(const StabilityPoint *point, void *table)
 {
     if (!point_table_line(table, "         l  slipping            U        mu    Re lambda    "
@@ -122,6 +126,7 @@ static void print_pads(const StabilitySummary *summary)
            "carried.\n");
 }
 
+// `none` stands where the path ended before the loss was met.
 static void print_answers(const StabilitySummary *summary)
 {
     printf("\n");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// `amontons static`: one equilibrium, with the sums by which a user can judge it.
 #include "cli/scene_words.h"
 
 #include <stdio.h>

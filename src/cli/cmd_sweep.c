@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// `amontons sweep`: a line a point on standard error, the ranked table on standard output. With the
+// hidden option --element it is one of its own jobs on a cluster.
 #include "cli/progress.h"
 #include "cli/scene_words.h"
 
@@ -27,13 +29,13 @@ typedef struct SweepWords {
     bool retry, fresh, quiet, too_many_studies, too_many_overrides;
 } SweepWords;
 
+// What show_point keeps from call to call.
 typedef struct SweepDisplay {
     bool quiet, bar;   // a terminal: the last line is written over
     int32_t failures;
     char failed[FAILURES_SHOWN][500];
 } SweepDisplay;
 
-// A signal can reach nothing but a variable of the file.
 static error_t take_option(int key, char *word, struct argp_state *state)
 {
     SweepWords *words = state->input;
@@ -156,6 +158,7 @@ static int run_element(const char *list)
     return amontons_sweep_element(list, (int32_t)element, &err) ? 0 : report_error(&err);
 }
 
+// What can be wrong with words alone; the study itself is the library's to judge. The exit status.
 static int check_options(const SweepWords *words, SweepOptions *options)
 {
     if (!words->study)
@@ -199,6 +202,7 @@ static void show_point(const SweepView *view, void *context)
     }
 }
 
+// Failed points are no error of the sweep, but its exit status tells of them. ranked: text or NULL.
 static int close_sweep(const SweepDisplay *display, const char *folder, const char *ranked,
                        const SweepSummary *summary)
 {

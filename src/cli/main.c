@@ -12,6 +12,7 @@ typedef struct Command {
     const char *sentence;
 } Command;
 
+// In the order in which `--help` lists them.
 static const Command commands[] = {
     {"run", command_run, "SCENE", "simulates a scene into a result folder"},
     {"static", command_static, "SCENE", "finds the equilibrium under a given load"},
@@ -75,6 +76,7 @@ static int help_on(const char *name)
     return command->run(2, words);
 }
 
+// The first word decides; everything behind it is the command's own to read. The exit status.
 static int run_command(int argc, char **argv)
 {
     const char *word = argc > 1 ? argv[1] : NULL;
@@ -91,6 +93,8 @@ static int run_command(int argc, char **argv)
     return command->run(argc - 1, argv + 1);
 }
 
+// A full disk or a closed pipe may show only when the last words are written: a command that went
+// well but could not say so has not gone well.
 int main(int argc, char **argv)
 {
     int status = run_command(argc, argv);

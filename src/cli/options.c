@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+// argp leaves the program by itself where an option is unknown, with the status set here.
 void options_parse(const struct argp *argp, int argc, char **argv, const char *name, void *input)
 {
     argp_err_exit_status = error_exit_status(ERROR_INPUT);
@@ -21,6 +22,8 @@ void default_folder(const char *file, const char *ending, char *folder, size_t s
     snprintf(folder, size, "%.*s%s", (int)(length < 200 ? length : 200), name, ending);
 }
 
+// Standard output is flushed first, here and below: in a file that takes both, lines stand in the
+// order in which they were said.
 int report_error(const Error *err)
 {
     fflush(stdout);

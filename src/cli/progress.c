@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// A bar is one line written over with \r and cleared to its end (ESC [K); it is never longer than
+// the terminal is wide, because a line that wraps cannot be written over.
 #include "cli/progress.h"
 
 #include <math.h>
@@ -22,6 +24,7 @@ static double seconds_between(const struct timespec *from, const struct timespec
     return (double)(to->tv_sec - from->tv_sec) + 1e-9 * (double)(to->tv_nsec - from->tv_nsec);
 }
 
+// Asked each time: windows are resized while a run goes on.
 static int32_t terminal_width(void)
 {
     struct winsize size = {0};
@@ -58,6 +61,9 @@ static void format_state(const StepView *view, double elapsed, char *text, size_
              view->step_size, view->events, view->events == 1 ? "" : "s", left);
 }
 
+//     [######............]  33 %  U 0.00198/0.006  mu 0.2034  dt 0.012  3 events  0:12 left
+//
+// In a narrow window the bar goes first, then the end of the text.
 static void draw_bar(const StepView *view, const char *state)
 {
     int32_t width = terminal_width() - 1, percent = (int32_t)(100 * view->fraction);
@@ -89,6 +95,8 @@ Progress progress_begin(bool quiet)
     return progress;
 }
 
+// The clock starts at the first step: mesh and relaxation are not steps, and would spoil the time
+// left.
 void progress_step(const StepView *view, void *context)
 {
     Progress *progress = context;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// Words are only gathered while argp reads them and judged afterwards by scene_words_check, so that
+// an error is one line in our own form, and `--help` works whatever else is wrong.
 #include "cli/scene_words.h"
 
 #include <string.h>
@@ -82,12 +84,14 @@ int scene_words_read(const SceneWords *words, Scene **scene)
 // A signal can reach nothing but a variable of the file.
 static volatile sig_atomic_t stop_wanted = 0;
 
+// All that a signal handler may safely do: the loop of steps looks at the flag.
 static void want_stop(int signal_number)
 {
     (void)signal_number;
     stop_wanted = 1;
 }
 
+// SA_RESETHAND gives the signal its default back: a second Ctrl-C ends the program at once.
 const volatile sig_atomic_t *stop_on_signals(void)
 {
     struct sigaction action = {.sa_handler = want_stop, .sa_flags = (int)SA_RESETHAND};
