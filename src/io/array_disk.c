@@ -54,6 +54,7 @@ static haddr_t disk_allocate(H5FD_t *base, H5FD_mem_t type, hid_t transfer, hsiz
     return address;
 }
 
+// Nothing comes back: see disk_allocate. The file is a little longer for it.
 static herr_t disk_free(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_t address,
                         hsize_t size)
 {
@@ -67,6 +68,7 @@ static haddr_t disk_end_of_space(const H5FD_t *base, H5FD_mem_t type)
     return ((const ArrayDisk *)base)->end_of_space;
 }
 
+// For HDF5 alone; otherwise only disk_allocate moves the end.
 static herr_t disk_set_end_of_space(H5FD_t *base, H5FD_mem_t type, haddr_t end)
 {
     (void)type;
@@ -136,6 +138,7 @@ static herr_t disk_truncate(H5FD_t *base, hid_t transfer, hbool_t closing)
     return 0;
 }
 
+// FLMAP_DICHOTOMY: metadata and raw data are gathered apart, though both go to one file.
 bool array_disk_use(ArrayDisk *disk, const PartFile *file, hid_t access, hid_t *driver)
 {
     static const H5FD_class_t description = {
@@ -162,6 +165,7 @@ bool array_disk_use(ArrayDisk *disk, const PartFile *file, hid_t access, hid_t *
     return *driver >= 0 && H5Pset_driver(access, *driver, &address) >= 0;
 }
 
+// status: of the HDF5 call just made; what: it was about, for the message.
 bool array_disk_check(const ArrayDisk *disk, herr_t status, const char *what, Error *err)
 {
     char cause[HDF5_CAUSE_SIZE];
@@ -175,6 +179,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// The walk begins where the fault was found; outer entries only repeat that something failed.
 static herr_t keep_innermost(unsigned position, const H5E_error2_t *entry, void *cause)
 {
     if (position == 0) snprintf(cause, HDF5_CAUSE_SIZE, "%s", entry->desc);

@@ -43,6 +43,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// First what lies in our own buffers, then what lies in HDF5's.
 static bool hdf5_flush(Hdf5File *file, Error *err)
 {
     if (!file->writing) return true;
@@ -101,6 +102,7 @@ static void destroy(Hdf5File *file)
     memory_free(file);
 }
 
+// A second writer of the same path is refused by part_file as long as this one is open.
 static Hdf5File *hdf5_create(const char *path, Error *err)
 {
     Hdf5File *file = NEW_ARRAY(Hdf5File, 1, err);
@@ -136,6 +138,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// No lock is taken, so that the file of a run at work can be read as of its last flush.
 static Hdf5File *hdf5_open(const char *path, Error *err)
 {
     char cause[HDF5_CAUSE_SIZE];
@@ -174,6 +177,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// After a failure or a stop: what there is stays readable as `path`.part.
 static void hdf5_abandon(Hdf5File *file)
 {
     Error ignored = {0};
@@ -201,6 +205,7 @@ static herr_t write_text(hid_t object, const char *name, const char *value)
 
 // Attributes stand in the root of the file. Setting one again replaces it.
 
+// An attribute cannot be changed in place: an old one of this name goes first.
 static bool hdf5_set_number(Hdf5File *file, const char *name, double value, Error *err)
 {
     TRY(check_writable(file, err));
@@ -223,6 +228,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// A scalar or an array of one, whatever its stored type: HDF5 converts.
 static bool hdf5_get_number(Hdf5File *file, const char *name, double *value, Error *err)
 {
     char cause[HDF5_CAUSE_SIZE];
@@ -259,6 +265,7 @@ cleanup:
 
 // --- writing series -----------------------------------------------------------------------------
 
+// NULL: none. A file has some twenty series, so a scan will do.
 static SeriesWriter *find_series(const Hdf5File *file, const char *name)
 {
     for (int32_t s = 0; s < file->series_count; s++)
@@ -278,6 +285,8 @@ static bool grow_series_list(Hdf5File *file, Error *err)
     return true;
 }
 
+// The unit and the description are attributes of the dataset itself: who opens the file with h5py
+// finds them beside the numbers.
 static bool hdf5_add_series(Hdf5File *file, const ArraySeries *series, Error *err)
 {
     SeriesWriter added = {0};
@@ -335,6 +344,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// *values: [*rows * *width], the caller's; memory_free.
 static bool hdf5_read(Hdf5File *file, const char *name, double **values, int64_t *rows,
                       int32_t *width, Error *err)
 {
@@ -363,6 +373,7 @@ cleanup:
 
 // --- the module's one entry ---------------------------------------------------------------------
 
+// One table of functions, so that a single look-up by name binds all of them.
 __attribute__((visibility("default"))) const ArrayFileModule *amontons_array_file_module(void)
 {
     static const ArrayFileModule module = {

@@ -31,6 +31,7 @@ static size_t item_size(ArrayType type)
     return 0;
 }
 
+// In the file: little-endian, whatever the machine.
 static hid_t stored_type(ArrayType type)
 {
     switch (type) {
@@ -46,6 +47,7 @@ static hid_t stored_type(ArrayType type)
     return -1;
 }
 
+// In the buffer: the machine's own; HDF5 converts on the way.
 static hid_t memory_type(ArrayType type)
 {
     switch (type) {
@@ -93,6 +95,8 @@ static hid_t create_dataset(const SeriesWriter *writer, hid_t id)
     return dataset;
 }
 
+// A chunk is what is compressed and read as one: CHUNK_BYTES of it make both worth the while. The
+// buffer holds one chunk.
 bool series_create(SeriesWriter *writer, hid_t id, const ArraySeries *series, Error *err)
 {
     char cause[HDF5_CAUSE_SIZE];
@@ -174,6 +178,8 @@ static void convert(SeriesWriter *writer, int64_t first, const double *values, i
     }
 }
 
+// Rows are handed over a whole chunk at a time: a chunk that is not full would be compressed again
+// with every row.
 bool series_append(SeriesWriter *writer, const ArrayDisk *disk, const double *values, int64_t rows,
                    Error *err)
 {

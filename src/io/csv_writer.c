@@ -38,6 +38,7 @@ static void begin_cell(CsvWriter *csv)
     csv->in_row = true;
 }
 
+// RFC 4180, 2.6 and 2.7: a cell with a comma, a quote or a line end stands in quotes.
 void csv_text(CsvWriter *csv, const char *text)
 {
     begin_cell(csv);
@@ -71,6 +72,7 @@ void csv_end_row(CsvWriter *csv)
     csv->in_row = false;
 }
 
+// The first failure of any call since csv_create is reported here.
 bool csv_finish(CsvWriter *csv, Error *err)
 {
     bool good = error_is_clean(&csv->first);

@@ -53,6 +53,7 @@ static bool write_bytes(void *file, const char *bytes, int64_t size, Error *err)
     return part_file_write(file, bytes, size, err);
 }
 
+// The grid's arrays are VTK's only while encoding; it copies none of them.
 static bool write_grid(const char *path, const FieldGrid *grid, FieldFormat format, Error *err)
 {
     PartFile file = {0};
@@ -136,6 +137,7 @@ static void put_collection(FILE *out, const FieldSeriesEntry *entries, int32_t c
     fputs("  </Collection>\n</VTKFile>\n", out);
 }
 
+// A list of (time, file) pairs in ParaView's own XML, put together in memory first.
 bool field_file_write_pvd(const char *path, const FieldSeriesEntry *entries, int32_t count,
                           Error *err)
 {

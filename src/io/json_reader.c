@@ -100,6 +100,7 @@ static const char *find(const char *text, const char *path)
     return at;
 }
 
+// The text is walked once, up to the value; braces inside strings are skipped with their strings.
 bool json_find_number(const char *text, const char *path, double *value)
 {
     const char *at = find(text, path);
@@ -132,6 +133,7 @@ static char unescape(const char *at, int32_t *used)
     return code > 0 && code < 0x80 ? (char)code : '?';
 }
 
+// Escapes are undone; what does not fit is cut, never in the middle of an escape.
 bool json_find_text(const char *text, const char *path, char *value, int32_t size)
 {
     const char *at = find(text, path);

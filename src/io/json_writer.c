@@ -140,6 +140,8 @@ static void begin_level(JsonWriter *json, const char *key, bool is_list)
     json->levels[++json->depth] = (JsonLevel){.is_list = is_list, .one_line = is_list};
 }
 
+// The file is opened at once, so that a folder that cannot be written to shows before anything is
+// computed for it.
 JsonWriter *json_create(const char *path, Error *err)
 {
     JsonWriter *json = NEW_ARRAY(JsonWriter, 1, err);
@@ -164,6 +166,7 @@ void json_begin_list(JsonWriter *json, const char *key)
     begin_level(json, key, true);
 }
 
+// A list of plain values was kept on one line and ends there.
 void json_end(JsonWriter *json)
 {
     if (json->depth == 0) {
@@ -211,6 +214,7 @@ void json_boolean(JsonWriter *json, const char *key, bool value)
     append_text(json, value ? "true" : "false");
 }
 
+// Text and file go in one write, then fsync and rename: a reader sees all of the document or none.
 bool json_finish(JsonWriter *json, Error *err)
 {
     // A missing end is a bug of the caller; the file would not be JSON.

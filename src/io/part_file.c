@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// The lock is flock's: it belongs to the open file, is given up when that is closed or the process
+// dies, and leaves nothing to clean up. rename(2) is atomic within a file system, which a file and
+// its .part share.
 #include "io/part_file.h"
 
 #include <errno.h>
@@ -26,6 +29,7 @@ static bool name_leads_to(const char *name, int descriptor)
            named.st_dev == opened.st_dev && named.st_ino == opened.st_ino;
 }
 
+// Opens, locks, and looks whether what was locked is still what the name leads to; else again.
 bool part_file_create(PartFile *file, const char *path, Error *err)
 {
     // Not emptied when opened (O_TRUNC): only the holder of the lock may do that.
@@ -72,6 +76,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// fsync before rename: after a power cut a name without its bytes could stand there otherwise.
 bool part_file_commit(PartFile *file, Error *err)
 {
     // EINVAL: a file system that cannot sync, which is no fault of the file.

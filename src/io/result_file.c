@@ -109,6 +109,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Numbers in a row: one for each contact node or pad, or one.
 static int32_t series_width(const ResultHead *head, ResultSeries series)
 {
     double last = 0;   // pads are numbered from 0
@@ -124,6 +125,7 @@ static int32_t series_width(const ResultHead *head, ResultSeries series)
     }
 }
 
+// Nodes are written now; series are made, empty, and grow as the run goes on.
 ArrayFile *result_file_create(const char *folder, const ResultHead *head, Error *err)
 {
     char path[PATH_MAX];
@@ -147,6 +149,7 @@ cleanup:
     return NULL;
 }
 
+// Tables (peaks, events) are known at the end only, and are added then.
 bool result_file_write_table(ArrayFile *file, ResultTable table, const double *values,
                              int32_t count, Error *err)
 {
@@ -158,6 +161,7 @@ cleanup:
 
 // --- reading ------------------------------------------------------------------------------------
 
+// A run that was killed has history.h5.part, which array_file_open takes where nothing else stands.
 ArrayFile *result_file_open(const char *folder, Error *err)
 {
     char path[PATH_MAX];
@@ -211,6 +215,7 @@ bool result_file_read_table(ArrayFile *file, ResultTable table, double **values,
     return *values != NULL;
 }
 
+// NaN: the file does not have it, as an older one may not.
 double result_file_number(ArrayFile *file, ResultNumber number)
 {
     Error absent = {0};
@@ -252,6 +257,7 @@ static void put_last_cell(FILE *out, const char *text)
     fputs(" |\n", out);
 }
 
+// shape: of all rows, where it does not depend on the row.
 static void describe_rows(FILE *out, const ResultRow *rows, int32_t count, const char *shape)
 {
     static const char *const shapes[] = {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// Pipes and devices are read as files are, since a shell may hand over a pipe (/dev/fd/63); so the
+// size is asked for twice, before reading and while.
 #include "io/text_file.h"
 
 #include "base/memory.h"
@@ -8,6 +10,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+// A mesh of 100 MB given by mistake is refused, not read.
 static bool check_size(const char *path, int64_t size, int32_t size_max, Error *err)
 {
     if (size > size_max)
@@ -17,6 +20,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// What the name is wrong about is the input's fault, what the system refuses is not.
 static bool check_kind(const char *path, int32_t size_max, Error *err)
 {
     struct stat status;

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
+// Indices, not pointers, name nodes: the array moves as it grows.
 bool yaml_add_node(YamlDocument *document, YamlKind kind, int32_t position, int32_t *index,
                    Error *err)
 {
@@ -33,6 +34,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// All scalars stand in one buffer, zero-terminated, and are named by their offsets.
 static bool add_text(YamlDocument *document, const char *text, size_t length, int32_t *offset,
                      Error *err)
 {
@@ -52,6 +54,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// YAML leaves open what a key twice means; here it is an error with both places.
 static bool check_key_is_new(const YamlDocument *document, int32_t map, int32_t key, Error *err)
 {
     const char *word = yaml_text(document, key);
@@ -104,6 +107,8 @@ static bool is_null(const char *text, size_t length)
            (length == 4 && memcmp(text, "null", 4) == 0);
 }
 
+// Where the event has no mark of its own, an empty value for instance: the key it belongs to, or
+// else the list or map it is in.
 int32_t yaml_build_position(const YamlBuilder *builder)
 {
     if (builder->depth == 0) return 0;
@@ -112,6 +117,7 @@ int32_t yaml_build_position(const YamlBuilder *builder)
     return builder->document->nodes[node].position;
 }
 
+// position: byte in the text; below 0: not known.
 bool yaml_build_scalar(YamlBuilder *builder, const char *text, size_t length, bool quoted,
                        int32_t position, Error *err)
 {
@@ -128,6 +134,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// The new list or map takes what follows, until yaml_build_close.
 bool yaml_build_open(YamlBuilder *builder, YamlKind kind, int32_t position, Error *err)
 {
     YamlDocument *document = builder->document;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// A tree in two arrays: nodes, linked by first child and next sibling, and their texts. Positions
+// are bytes; lines and columns are counted only when an error wants them.
 #include "io/yaml_document.h"
 
 #include "base/memory.h"
@@ -57,6 +59,7 @@ const char *yaml_key(const YamlDocument *document, YamlNode node)
     return key == YAML_NO_NODE ? "" : yaml_text(document, key);
 }
 
+// One level of `path` a round; a name with a dot in it cannot be looked up.
 YamlNode yaml_look_up(const YamlDocument *document, const char *path)
 {
     YamlNode node = YAML_ROOT;
@@ -82,6 +85,7 @@ static bool starts_character(char byte)
     return ((unsigned char)byte & 0xC0) != 0x80;
 }
 
+// Columns count characters, not bytes: continuation bytes of UTF-8 (10xxxxxx) are passed over.
 YamlPlace yaml_place(const YamlDocument *document, int32_t position)
 {
     YamlPlace place = {.line = 1, .column = 1};
@@ -170,6 +174,7 @@ void yaml_describe(const YamlDocument *document, YamlNode node, char *words, int
     }
 }
 
+// NULL is fine, and so is a document that was never finished.
 void yaml_destroy(YamlDocument *document)
 {
     if (!document) return;

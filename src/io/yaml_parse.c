@@ -17,6 +17,7 @@ static int32_t token_position(struct fy_token *token)
     return mark ? (int32_t)mark->input_pos : -1;
 }
 
+// Block scalars (| and >) count as quoted: `null` in one of them is a word.
 static bool take_scalar(YamlBuilder *builder, struct fy_token *token, Error *err)
 {
     size_t length = 0;
@@ -31,6 +32,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// At the token, or where that has no place at what is being built.
 static bool refuse(const YamlBuilder *builder, struct fy_token *token, const char *message,
                    Error *err)
 {
@@ -40,6 +42,7 @@ static bool refuse(const YamlBuilder *builder, struct fy_token *token, const cha
     return false;
 }
 
+// An anchor can stand at a scalar, a list or a map; each is refused before anything is built of it.
 static bool take_event(YamlBuilder *builder, const struct fy_event *event, Error *err)
 {
     static const char no_anchors[] = "anchors and aliases (& and *) are not allowed in a scene";
@@ -72,6 +75,7 @@ static bool take_event(YamlBuilder *builder, const struct fy_event *event, Error
     }
 }
 
+// libfyaml would print what it finds; we ask it for its errors instead.
 static void discard_output(struct fy_diag *diag, void *user, const char *text, size_t length)
 {
     (void)diag;
@@ -91,6 +95,7 @@ static void report_syntax(const YamlDocument *document, struct fy_diag *diag, Er
     yaml_error_at(document, position < 0 ? 0 : position, err, message);
 }
 
+// Returns at the first fault, ours or libfyaml's; the tree is the caller's to destroy.
 static bool parse_events(YamlDocument *document, Error *err)
 {
     struct fy_diag_cfg diag_cfg;
@@ -142,6 +147,7 @@ static int32_t utf8_length(const unsigned char *text, int32_t left)
     return code < least[length] || code > 0x10FFFF || surrogate ? 0 : length;
 }
 
+// Before libfyaml sees it: a binary file gets a sentence with the byte and its place.
 static bool check_is_text(const YamlDocument *document, Error *err)
 {
     const unsigned char *text = (const unsigned char *)document->shown;
@@ -193,6 +199,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// `skip` bytes are overwritten by blanks in what is read, so that places keep their columns.
 bool yaml_parse(const char *name, const char *text, int32_t skip, YamlDocument **document,
                 Error *err)
 {

@@ -114,9 +114,12 @@ static bool end_figure(Figure *figure, Error *err)
     memory_free(figure->scene);
     figure_path(figure, "json", path);
     figure_path(figure, "png", png);
-    if (json) json_end(json);
-    if (json) json_finish(json, err);
-    if (error_is_clean(err)) amontons_render_plot_file(path, png, err);
+    if (!error_is_clean(err)) {
+        json_abandon(json);
+        return false;
+    }
+    json_end(json);
+    if (json_finish(json, err)) amontons_render_plot_file(path, png, err);
     return error_is_clean(err);
 }
 
