@@ -23,6 +23,7 @@ static double axis_part(const Axis *axis, double value)
     return value > 0 ? log(value / axis->low) / log(axis->high / axis->low) : NAN;
 }
 
+// y grows upwards in the data and downwards on the canvas.
 Point axes_place(const Axes *axes, double x, double y)
 {
     const Box *box = &axes->box;
@@ -91,6 +92,7 @@ static double left_width(const Page *page, const Axes *axes)
     return widest;
 }
 
+// In points; the same sums as in draw_left, from the frame to the picture's edge.
 double axes_left_margin(const Page *page, const Axes *axes)
 {
     double numbers = left_width(page, axes) / page->point;
@@ -152,6 +154,8 @@ static void minor_marks(const Page *page, const Axes *axes, const Ticks *ticks, 
     }
 }
 
+// From the frame downwards: ticks, numbers, then the name in the middle with the power of ten at
+// its right.
 static void draw_below(const Page *page, const Axes *axes)
 {
     Ticks ticks = ticks_along_x(page, axes);
@@ -175,6 +179,7 @@ static void draw_below(const Page *page, const Axes *axes)
               axes->x.label);
 }
 
+// Numbers end at `edge`, pixels; a power of ten stands above the frame.
 static void left_numbers(const Page *page, const Axes *axes, const TextStyle *style, double edge)
 {
     Ticks ticks = ticks_along_y(page, axes);
@@ -192,6 +197,7 @@ static void left_numbers(const Page *page, const Axes *axes, const TextStyle *st
                    &ticks);
 }
 
+// What stands at y = 1, 2, ... in the place of numbers; there are no minor ticks between names.
 static void left_names(const Page *page, const Axes *axes, const TextStyle *style, double edge)
 {
     for (int32_t k = 0; k < axes->y.name_count; ++k) {
@@ -218,6 +224,7 @@ static void draw_left(const Page *page, const Axes *axes)
               axes->y.label);
 }
 
+// The frame last: its line covers where ticks and data meet it.
 void axes_draw(const Page *page, const Axes *axes)
 {
     Stroke stroke = {.color = axes->color, .width = FRAME_WIDTH * page->point};

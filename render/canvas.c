@@ -110,6 +110,7 @@ static void attribute_set(GLuint place, GLint numbers, size_t offset)
     glVertexAttribPointer(place, numbers, GL_FLOAT, GL_FALSE, sizeof(Vertex), (const void *)offset);
 }
 
+//     location 0: x, y in pixels   1: u, v of a texture   2: red, green, blue, alpha
 static void layout_create(Canvas *canvas)
 {
     glGenVertexArrays(1, &canvas->layout);
@@ -170,6 +171,8 @@ cleanup:
     return error_is_clean(err);
 }
 
+// The context must be current. Rows are packed without padding, both ways: pixels go to libpng as
+// they are read.
 Canvas *canvas_create(int32_t width, int32_t height, Error *err)
 {
     Canvas *canvas = NULL;
@@ -239,6 +242,7 @@ static void batch_draw(Canvas *canvas)
     canvas->batched = 0;
 }
 
+// Vertices are copied into the batch; three at a time, so that no triangle is torn in two.
 void canvas_triangles(Canvas *canvas, PaintKind kind, const Vertex *vertices, int64_t count)
 {
     if (kind != canvas->kind) batch_draw(canvas);
@@ -250,6 +254,7 @@ void canvas_triangles(Canvas *canvas, PaintKind kind, const Vertex *vertices, in
     }
 }
 
+// Whole pixels; NULL: all of the canvas. What has gathered is drawn under the old clip.
 void canvas_clip(Canvas *canvas, const Box *box)
 {
     batch_draw(canvas);
@@ -271,6 +276,7 @@ void canvas_set_glyphs(Canvas *canvas, const uint8_t *sheet)
                  GL_UNSIGNED_BYTE, sheet);
 }
 
+// MAP_SIZE colours from low to high; `below` for values under 0, see the fragment shader.
 void canvas_set_map(Canvas *canvas, const uint8_t *colors, Color below)
 {
     batch_draw(canvas);
@@ -280,6 +286,8 @@ void canvas_set_map(Canvas *canvas, const uint8_t *colors, Color below)
                 below.alpha);
 }
 
+// One texel a value, not interpolated: a pixel shows a number that was computed, never a mixture.
+// Faults are kept and reported by canvas_read.
 void canvas_heat(Canvas *canvas, const Box *box, const float *values, int32_t columns, int32_t rows)
 {
     Error *err = &canvas->failure;
@@ -306,6 +314,8 @@ void canvas_heat(Canvas *canvas, const Box *box, const float *values, int32_t co
     batch_draw(canvas);
 }
 
+// Samples are resolved into a plain frame buffer first: they cannot be read themselves. pixels:
+// [height * width * 3], top row first, the caller's.
 bool canvas_read(Canvas *canvas, uint8_t **pixels, Error *err)
 {
     *pixels = NULL;

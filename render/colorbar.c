@@ -89,6 +89,7 @@ static void scale_draw(const Page *page, const Colorbar *bar, const Box *colors)
     text_draw(page->text, &style, (Point){out, (colors->top + colors->bottom) / 2}, bar->label);
 }
 
+// The same colour map as the picture's, sampled along the bar, so the two cannot differ.
 void colorbar_draw(const Page *page, const Colorbar *bar, const Box *box)
 {
     Stroke stroke = {.color = INK, .width = FRAME_WIDTH * page->point};

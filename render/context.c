@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// OSMesa (Mesa's off-screen OpenGL) is known here and nowhere else: Mesa 25.1 dropped it, and
+// another way to a context, EGL for instance, takes this file's place. Pictures are drawn into
+// frame buffers of the canvas's own; the buffer given to OSMesa is only what it insists on.
 #include "render/context.h"
 
 #include "base/memory.h"
@@ -12,6 +15,7 @@ struct RenderContext {
     uint8_t token[TOKEN_SIZE * TOKEN_SIZE * 4];   // never drawn into
 };
 
+// 3.3 core is what the shaders need; a driver may give a later version.
 RenderContext *context_create(Error *err)
 {
     static const int wanted[] = {OSMESA_FORMAT,

@@ -21,6 +21,7 @@ static const Color COLORS[PLOT_COLORS] = {{0.08f, 0.08f, 0.10f, 1}, {0.00f, 0.35
                                           {0.55f, 0.20f, 0.55f, 1}, {0.72f, 0.55f, 0.00f, 1},
                                           {0.30f, 0.62f, 0.85f, 1}, {0.50f, 0.50f, 0.52f, 1}};
 
+// Sizes are chosen so that circle, square and triangle cover the same area: none looks heavier.
 static void marker_shape(Canvas *canvas, PlotMarker marker, Color color, Point at, double radius)
 {
     const double side = 0.89 * radius;   // of equal area
@@ -38,6 +39,7 @@ static void marker_shape(Canvas *canvas, PlotMarker marker, Color color, Point a
         shape_polygon(canvas, color, triangle, 3);
 }
 
+// share: of the usual size, less in an inset. An open mark is its filled shape with paper inside.
 static void marker_draw(const Page *page, const PlotSeries *series, Point at, double share)
 {
     double radius = MARKER_RADIUS * share * page->point;
@@ -46,6 +48,7 @@ static void marker_draw(const Page *page, const PlotSeries *series, Point at, do
     if (!series->filled) marker_shape(page->canvas, series->marker, PAPER, at, RIM * radius);
 }
 
+// share: of the usual width.
 static Stroke line_stroke(const Page *page, const PlotSeries *series, double share)
 {
     double width = series->line == LINE_SOLID ? CURVE_WIDTH : THIN_WIDTH;
@@ -57,6 +60,7 @@ static Stroke line_stroke(const Page *page, const PlotSeries *series, double sha
     return stroke;
 }
 
+// A NaN breaks the line; so does what a logarithmic axis cannot show.
 static bool line_draw(const Page *page, const Axes *axes, const PlotSeries *series, double share,
                       Error *err)
 {
@@ -93,6 +97,8 @@ static void bars_draw(const Page *page, const Axes *axes, const PlotSeries *seri
     }
 }
 
+// Only series with a label, in their order, in the corner the file names; a sample of line and
+// mark, then the words.
 static void legend_draw(const Page *page, const Axes *axes, const PlotPanel *panel, double share)
 {
     TextStyle style = {.size = axes->number_size * page->point, .color = INK, .up = 0.5};
@@ -123,6 +129,8 @@ static void legend_draw(const Page *page, const Axes *axes, const PlotPanel *pan
     }
 }
 
+// Lines and bars are cut off at the frame; a mark on the frame is drawn whole, one beyond it not at
+// all.
 static bool panel_draw(const Page *page, const Axes *axes, const PlotPanel *panel, double share,
                        Error *err)
 {
@@ -146,6 +154,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// From parts of the frame to pixels.
 static Box inset_place(const Plot *plot, const Box *frame)
 {
     double width = frame->right - frame->left, height = frame->bottom - frame->top;
@@ -170,6 +179,7 @@ static Axes inset_axes(const Page *page, const Plot *plot, const Box *frame)
     return axes;
 }
 
+// The inset covers what lies below it: its place is cleared to paper first.
 bool figure_curves(const Page *page, const Plot *plot, Error *err)
 {
     double point = page->point;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// What the pictures over (U, x) share: frame, axes, pads, the grid of pixels, the front.
 #include "render/map_page.h"
 
 #include "base/memory.h"

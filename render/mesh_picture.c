@@ -65,11 +65,13 @@ static double frame_shape(const Axes *axes)
     return (axes->y.high - axes->y.low) / (axes->x.high - axes->x.low);
 }
 
+// Room above the frame for title and note, points.
 static double head_points(const RenderMesh *mesh)
 {
     return 4 + HEAD_HEIGHT * ((mesh->title && mesh->title[0]) + (mesh->note && mesh->note[0]));
 }
 
+// To scale, but no more than SIDE_MAX times as high as wide.
 static int32_t picture_height(const RenderMesh *mesh, int32_t width)
 {
     Axes axes = {0};
@@ -80,6 +82,7 @@ static int32_t picture_height(const RenderMesh *mesh, int32_t width)
     return (int32_t)lround(fmin(height, SIDE_MAX * width));
 }
 
+// The largest frame of the block's shape that fits, in the middle.
 static void place_frame(MeshPage *map)
 {
     const Page *page = map->page;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// A bar and a name for each pad at the right of a map, so that gaps in it can be told from open
+// contact. A single contact needs none.
 #include "render/pad_marks.h"
 
 #include <math.h>
@@ -30,6 +32,7 @@ static void pad_name(const ResultView *view, int32_t pad, char name[NAME_SIZE])
         snprintf(name, NAME_SIZE, "%.*s", length, start);
 }
 
+// Pads are numbered from 0 without gaps; one is the least.
 static int32_t pad_count(const ResultView *view)
 {
     double last = 0;

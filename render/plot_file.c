@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// The file is read key by key; what is given twice, unknown or of the wrong kind is refused with
+// its place. Ends of the axes that the file leaves open are found last, from all series.
 #include "render/plot_file.h"
 
 #include "base/memory.h"
@@ -23,6 +25,7 @@ typedef struct PlotReader {
     Error *err;
 } PlotReader;
 
+// Sets ERROR_INPUT with place, what was found and what is allowed; false.
 static bool refuse(const PlotReader *reader, YamlNode node, const char *what, const char *allowed)
 {
     char found[100];
@@ -57,6 +60,7 @@ static bool check_keys(const PlotReader *reader, YamlNode map, const char *what,
     return true;
 }
 
+// *choice keeps its value where the key is missing. names: NULL at the end.
 static bool read_choice(const PlotReader *reader, YamlNode map, const char *key,
                         const char *const *names, int32_t *choice)
 {
@@ -73,6 +77,7 @@ static bool read_choice(const PlotReader *reader, YamlNode map, const char *key,
     return refuse(reader, node, key, allowed);
 }
 
+// text keeps what it holds where the key is missing.
 static bool read_text(const PlotReader *reader, YamlNode map, const char *key, char *text,
                       size_t size)
 {
@@ -114,6 +119,7 @@ static bool read_numbers(const PlotReader *reader, YamlNode list, const char *wh
     return true;
 }
 
+// *values: [count], owned by the series; NULL where the key is missing.
 static bool read_array(const PlotReader *reader, YamlNode map, const char *key, int32_t count,
                        double **values)
 {
@@ -123,6 +129,7 @@ static bool read_array(const PlotReader *reader, YamlNode map, const char *key, 
     return *values && read_numbers(reader, list, key, count, *values);
 }
 
+// Its length is that of `x`; `y`, `low` and `high` must have the same.
 static bool read_series(const PlotReader *reader, YamlNode map, PlotSeries *series)
 {
     int32_t marker = MARKER_NONE, line = LINE_SOLID;
@@ -196,6 +203,8 @@ static bool read_axis(const PlotReader *reader, YamlNode panel, const char *name
 
 // --- ends of the axes ---------------------------------------------------------------------------
 
+// Takes [count] values into the range `ends`; logarithms on a logarithmic axis, NaN and what it
+// cannot show left out.
 static void widen(const Axis *axis, const double *values, int32_t count, double ends[2])
 {
     for (int32_t k = 0; values && k < count; k++) {
@@ -232,6 +241,7 @@ static void fit_axis(const PlotPanel *panel, bool is_x, Axis *axis)
 
 // --- the whole ----------------------------------------------------------------------------------
 
+// The plot itself, or its inset: both have axes, a legend and series.
 static bool read_panel(const PlotReader *reader, YamlNode map, PlotPanel *panel)
 {
     YamlNode list = child(reader, map, "series");
@@ -259,6 +269,7 @@ static bool read_panel(const PlotReader *reader, YamlNode map, PlotPanel *panel)
     return true;
 }
 
+// Keys are checked here, as an inset has a `place` more than a plot.
 static bool read_inset(const PlotReader *reader, YamlNode map, Plot *plot)
 {
     YamlNode place = child(reader, map, "place");
@@ -292,6 +303,7 @@ static bool read_plot(const PlotReader *reader, Plot *plot)
            (inset == YAML_NO_NODE || read_inset(reader, inset, plot));
 }
 
+// plot is half filled after a failure: plot_destroy frees it.
 bool plot_file_read(const char *path, Plot *plot, Error *err)
 {
     PlotReader reader = {.err = err};

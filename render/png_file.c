@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// PNG by libpng (ISO/IEC 15948): 8-bit RGB, sRGB, with the density that gives the picture its
+// printed width. Written as `path`.part and renamed. Bytes are the same for the same pixels: no
+// time is stored.
 #include "render/png_file.h"
 
 #include <png.h>
@@ -22,6 +25,7 @@ static void fault_keep(png_structp png, png_const_charp message)
     png_longjmp(png, 1);
 }
 
+// libpng would print it.
 static void warning_drop(png_structp png, png_const_charp message)
 {
     (void)png;
@@ -70,6 +74,7 @@ static bool picture_write(FILE *out, const PngPicture *picture, Error *err)
     return error_is_clean(err);
 }
 
+// ERROR_FILE says what the system or libpng said, and which file.
 bool png_file_write(const char *path, const PngPicture *picture, Error *err)
 {
     char part[PATH_MAX + 8];

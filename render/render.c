@@ -55,6 +55,7 @@ static Figure figure_get(FigureId id)
     return figure;
 }
 
+// The figure called `name`, or ERROR_INPUT with the names there are.
 static bool figure_find(const char *name, Figure *figure, Error *err)
 {
     char names[NAMES_SIZE] = "";
@@ -69,6 +70,7 @@ cleanup:
     return false;
 }
 
+// pixels: as canvas_read gives them.
 static bool figure_save(const RenderRequest *request, const Figure *figure, const Canvas *canvas,
                         const uint8_t *pixels, Error *err)
 {
@@ -111,6 +113,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// result/figures; fine when it is there.
 static bool folder_make(const char *result, Error *err)
 {
     char folder[PATH_MAX];
@@ -138,6 +141,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// One context and one open result serve all pictures.
 __attribute__((visibility("default"))) bool amontons_render(const RenderRequest *request,
                                                             Error *err)
 {

@@ -107,6 +107,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Three columns of the file into a list of peaks.
 static bool peaks_read(ResultView *view, Error *err)
 {
     static const ResultTable tables[3] = {PEAKS_U, PEAKS_MU, PEAKS_COUNTS};
@@ -122,6 +123,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// As peaks; a kind that this version does not know becomes -1 and is drawn by nobody.
 static bool events_read(ResultView *view, Error *err)
 {
     static const ResultTable tables[3] = {EVENTS_KIND, EVENTS_U_START, EVENTS_U_STOP};
@@ -140,6 +142,8 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Series of one number a step are read at once, those over the nodes on demand: they are the most
+// of the file.
 bool result_view_open(const char *folder, ResultView *view, Error *err)
 {
     char units[UNITS_SIZE] = "";

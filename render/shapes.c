@@ -48,6 +48,7 @@ void shape_disc(Canvas *canvas, Color color, Point centre, double radius)
     }
 }
 
+// A fan from the first corner, which a convex polygon allows.
 void shape_polygon(Canvas *canvas, Color color, const Point *corners, int32_t count)
 {
     for (int32_t k = 2; k < count; ++k) {
@@ -96,6 +97,7 @@ static bool point_is_finite(Point point)
     return isfinite(point.x) && isfinite(point.y);
 }
 
+// Discs of the line's width make joints and ends round. Dashes run on over the joints.
 void shape_line(Canvas *canvas, const Stroke *stroke, const Point *points, int64_t count)
 {
     double done = 0;
@@ -134,6 +136,7 @@ void shape_outline(Canvas *canvas, const Stroke *stroke, const Box *box)
                &(Box){outer.right - stroke->width, outer.top, outer.right, outer.bottom});
 }
 
+// Lines at 45 degrees that begin left of the box, as far as it is high; the clip cuts them off.
 void shape_hatch(Canvas *canvas, const Stroke *stroke, const Box *box, double spacing)
 {
     double height = box->bottom - box->top;

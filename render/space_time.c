@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// From values at (step, node) to pixels in two moves: steps to columns, then nodes to rows. A pixel
+// shows the largest value that falls into it, because what matters in these maps is short and
+// narrow: a mean would hide it. Steps are far from equal: some columns hold hundreds of them,
+// others lie inside one.
 #include "render/space_time.h"
 
 #include "base/memory.h"
@@ -6,6 +10,8 @@
 #include <math.h>
 #include <string.h>
 
+// Half way to the neighbours on the same pad; the last node of a pad has nothing beyond it, so that
+// gaps stay gaps.
 void node_extent(const SpaceTime *data, int32_t i, double *from, double *to)
 {
     bool joined_before = i > 0 && data->pad[i - 1] == data->pad[i];
@@ -29,6 +35,7 @@ static int32_t column_of(const PixelGrid *grid, double U)
     return place >= grid->columns ? grid->columns : (int32_t)place;
 }
 
+// by_column: [columns * nodes]; an open node counts as more than any rate.
 static void step_add(const SpaceTime *data, int64_t row, int32_t column, float *by_column)
 {
     const double *rate = data->slip_rate + row * data->nodes;
@@ -79,6 +86,7 @@ static bool node_is_at(const SpaceTime *data, int32_t i, double x, double pixel)
     return (x >= from && x < to) || (data->x[i] >= x - pixel / 2 && data->x[i] < x + pixel / 2);
 }
 
+// Row 0 is at the top, x_high. Several nodes in a pixel: the largest of them; none: NaN.
 static void rows_fill(const SpaceTime *data, PixelGrid *grid, const float *by_column)
 {
     double pixel = (grid->x_high - grid->x_low) / grid->rows;
@@ -94,6 +102,7 @@ static void rows_fill(const SpaceTime *data, PixelGrid *grid, const float *by_co
     }
 }
 
+// grid->values: [rows * columns], made here; pixel_grid_destroy.
 bool space_time_to_pixels(const SpaceTime *data, PixelGrid *grid, Error *err)
 {
     float *by_column = NULL;

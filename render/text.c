@@ -259,6 +259,7 @@ static void line_walk(Text *text, Line *line, const char *words)
     }
 }
 
+// In the pixels of `size`, marks not counted.
 double text_width(Text *text, double size, const char *words)
 {
     TextStyle style = {.size = size};
@@ -267,6 +268,7 @@ double text_width(Text *text, double size, const char *words)
     return line.along;
 }
 
+// Placed by its measured width; the line then starts on a whole pixel, and glyphs keep sharp.
 void text_draw(Text *text, const TextStyle *style, Point place, const char *words)
 {
     double back = style->across * text_width(text, style->size, words);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// Ticks at 1, 2 or 5 times a power of ten, and numbers with no more decimals than the step has.
+// Integers count them: k * step is then the double nearest to what the label says.
 #include "render/ticks.h"
 
 #include <math.h>
@@ -39,6 +41,8 @@ Ticks ticks_choose(double low, double high, int32_t wanted)
     return ticks;
 }
 
+// Every power of ten where there are few, else every second, third, ...; multiples of that
+// distance, so that 10^0 is a tick whenever it is in range.
 Ticks ticks_choose_log(double low, double high, int32_t wanted)
 {
     Ticks ticks = {.is_log = true, .minor = 1};
@@ -57,6 +61,7 @@ double tick_value(const Ticks *ticks, int32_t k)
     return (double)(ticks->first + k) * ticks->step;
 }
 
+// The sign is written by hand: 0 must not become "-0", and a minus sign is not a hyphen.
 void tick_label(const Ticks *ticks, int32_t k, char label[TICK_LABEL_SIZE])
 {
     if (ticks->is_log) {

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// Which part of U the zoomed pictures show: the last precursors before a sliding, of a cycle that
+// stands for the periodic regime. From the table of events where there is one, else from the falls
+// of mu.
 #include "render/zoom.h"
 
 #include <math.h>
@@ -116,6 +119,8 @@ static bool cycle_from_mu(const ResultView *view, Cycle *cycle)
     return found;
 }
 
+// From the first precursor to be shown to a little beyond the sliding; never less than SPAN_MIN of
+// the cycle, and never beyond the history.
 Zoom zoom_choose(const ResultView *view)
 {
     Cycle cycle = {0};
