@@ -19,6 +19,7 @@ typedef struct Formula {
 
 static double read_sum(Formula *formula);
 
+// The next character that is no blank, where reading goes on.
 static char next_of(Formula *formula)
 {
     formula->at += strspn(formula->at, " \t");
@@ -32,6 +33,8 @@ static bool take(Formula *formula, char wanted)
     return true;
 }
 
+// Says what is wanted at this place; NaN, so that it can be returned as a value. The first fault
+// counts.
 static double refuse(Formula *formula, const char *wanted)
 {
     if (next_of(formula))
@@ -45,6 +48,7 @@ static double refuse(Formula *formula, const char *wanted)
     return NAN;
 }
 
+// A key of the scene, or sqrt with its bracket.
 static double read_name(Formula *formula)
 {
     char name[NAME_SIZE] = "";
@@ -66,6 +70,7 @@ static double read_name(Formula *formula)
     return value;
 }
 
+// depth bounds the recursion: a text of a thousand brackets must not overflow the stack.
 static double read_unit(Formula *formula)
 {
     char next = next_of(formula);
@@ -90,6 +95,7 @@ static double read_unit(Formula *formula)
     return value;
 }
 
+// To the right: 2^3^2 is 2^9; and -2^2 is -4, as in mathematics.
 static double read_power(Formula *formula)
 {
     if (++formula->depth > DEPTH_MAX) return refuse(formula, "a formula of fewer signs and powers");
@@ -119,6 +125,7 @@ static double read_product(Formula *formula)
     return value;
 }
 
+// To the left: 1-2-3 is -4.
 static double read_sum(Formula *formula)
 {
     if (++formula->depth > DEPTH_MAX) return refuse(formula, "a formula of fewer brackets");

@@ -24,6 +24,7 @@ bool study_refuse(const Study *study, YamlNode node, const char *name, const cha
     return false;
 }
 
+// A mistyped key would silently change the study.
 static bool check_keys(const Study *study, Error *err)
 {
     static const char *const known[] = {
@@ -53,6 +54,7 @@ static bool check_keys(const Study *study, Error *err)
     return true;
 }
 
+// text stays as it is where the key is missing.
 static bool read_text(const Study *study, const char *key, char text[SCENE_TEXT_SIZE], Error *err)
 {
     YamlNode node = yaml_look_up(study->file, key);
@@ -64,6 +66,7 @@ static bool read_text(const Study *study, const char *key, char text[SCENE_TEXT_
     return true;
 }
 
+// Relative to the study's folder, whatever the working directory.
 static bool read_scene_path(Study *study, Error *err)
 {
     char given[SCENE_TEXT_SIZE] = "";
@@ -84,6 +87,7 @@ cleanup:
 
 // --- what varies --------------------------------------------------------------------------------
 
+// A key that stands in several places is one column.
 static bool add_column(Study *study, const char *key, Error *err)
 {
     for (int32_t k = 0; k < study->column_count; k++)
@@ -138,6 +142,7 @@ static bool is_formula(const YamlDocument *document, YamlNode node)
            yaml_text(document, node)[0] == '=';
 }
 
+// Formulas make columns, since their values differ from point to point; plain values do not.
 static bool read_set(Study *study, Error *err)
 {
     study->set = yaml_look_up(study->file, "set");
@@ -153,6 +158,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Every key of any case is a column; a case without it has the base scene's value there.
 static bool read_cases(Study *study, Error *err)
 {
     study->case_count = 1;
@@ -178,6 +184,7 @@ cleanup:
 
 // --- ranges -------------------------------------------------------------------------------------
 
+// Without a unit, and finite.
 bool study_plain_number(const Study *study, YamlNode node, double *value)
 {
     const char *text = yaml_text(study->file, node);
@@ -261,6 +268,8 @@ cleanup:
     return error_is_clean(err);
 }
 
+// A key of `vary`: its values as they stand, or those of a range, made into a document of their
+// own.
 static bool read_axis(Study *study, YamlNode item, Error *err)
 {
     StudyAxis *axis = &study->axes[study->axis_count];
@@ -299,6 +308,7 @@ cleanup:
 
 // --- the whole ----------------------------------------------------------------------------------
 
+// A key that varies is refused, rather than silently losing to `vary`.
 static bool read_override(Study *study, const char *text, Error *err)
 {
     char shown[STUDY_NAME_SIZE + 8];
@@ -320,6 +330,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Counted in 64 bits: a product of lists overflows 32 sooner than it looks.
 static bool count_points(Study *study, Error *err)
 {
     int64_t count = study->case_count;
@@ -332,6 +343,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// What is wrong with values shows when scenes are made, point by point (study_point_scene).
 bool study_read(const char *path, const char *const *overrides, int32_t override_count,
                 Study *study, Error *err)
 {

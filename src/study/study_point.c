@@ -31,6 +31,7 @@ static const MeshParameter *find_parameter(const Scene *scene, const char *key)
     return NULL;
 }
 
+// A FormulaLookUp over a scene: its numbers, and those of the mesh's parameters.
 static bool look_up(const void *context, const char *name, double *value)
 {
     const Scene *scene = context;
@@ -46,6 +47,7 @@ static bool look_up(const void *context, const char *name, double *value)
     return true;
 }
 
+// Twelve digits: what a user typed comes back as it was typed.
 void study_scene_value(const Scene *scene, const char *key, char *words, int32_t size,
                        double *number)
 {
@@ -65,6 +67,7 @@ void study_scene_value(const Scene *scene, const char *key, char *words, int32_t
 
 // --- gathering ----------------------------------------------------------------------------------
 
+// Formulas are put aside, to be worked out when all plain values are in.
 static bool add(PointSettings *settings, const SceneSetting *setting, Error *err)
 {
     bool is_formula = yaml_kind(setting->document, setting->node) == YAML_SCALAR &&
@@ -168,6 +171,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// The scene is read again after each formula: the next one may use its value.
 static bool make_scene(const Study *study, int32_t point, YamlNode changes, Scene *scene,
                        Error *err)
 {

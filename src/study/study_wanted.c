@@ -64,6 +64,7 @@ static bool read_record(Study *study, YamlNode node, const char *what, int32_t *
     return false;
 }
 
+// Without `record`, the standard columns of STUDY_RECORDS.
 static bool read_records(Study *study, Error *err)
 {
     YamlNode list = yaml_look_up(study->file, "record");
@@ -135,6 +136,7 @@ static bool read_choice(const Study *study, const WantedKey *key, const char *co
     return study_refuse(study, key->node, key->name, allowed, err);
 }
 
+// -1: no key of this name varies.
 static int32_t find_column(const Study *study, const char *name)
 {
     for (int32_t k = 0; k < study->column_count; k++)
@@ -192,6 +194,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// What is ranked by becomes a column of the table where it is none yet.
 static bool read_rank(Study *study, Error *err)
 {
     static const char *const orders[] = {"highest", "lowest"};
@@ -239,6 +242,7 @@ static bool read_axis(Study *study, const WantedKey *key, StudyAxisData *axis, E
     return !axis->is_record || read_record(study, key->node, key->name, &axis->index, err);
 }
 
+// As for the ranking, `x` and `y` become columns where they name a result.
 static bool read_plot(Study *study, Error *err)
 {
     static const char *const logs[] = {"none", "x", "y", "both"};

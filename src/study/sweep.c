@@ -16,6 +16,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+// folder and folder/points, with all that leads there.
 static bool make_folders(const char *path, Error *err)
 {
     char folder[POINT_PATH_SIZE];
@@ -66,6 +67,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// ERROR_INPUT where no point at all has a baseline: the ranking would have no gains.
 static bool find_baselines(Sweep *sweep, PointMesh *mesh, Scene *scene, Error *err)
 {
     const Study *study = &sweep->study;
@@ -175,6 +177,7 @@ bool sweep_is_stopped(const Sweep *sweep)
     return stop && *stop;
 }
 
+// Called as points end, in whatever order that is; the table keeps the study's.
 void sweep_take(Sweep *sweep, int32_t k, double seconds, const char *report)
 {
     sweep->points[k].status = point_status(report);
@@ -216,6 +219,7 @@ static void summarise(const Sweep *sweep, SweepSummary *summary)
     }
 }
 
+// A stopped sweep still leaves its table, with what is not done marked as pending.
 bool amontons_sweep(const char *path, const SweepOptions *options, SweepSummary *summary,
                     Error *err)
 {

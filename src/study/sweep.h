@@ -54,6 +54,7 @@ void point_folder(const Sweep *sweep, int32_t point, char folder[POINT_PATH_SIZE
 // run.json of the point (memory_free); NULL without an error when there is none.
 char *point_report(const Sweep *sweep, int32_t point, Error *err);
 PointStatus point_status(const char *report);   // of a run.json, or NULL
+const char *point_status_name(PointStatus status);   // "pending"; static storage
 void point_remove(const Sweep *sweep, int32_t point);
 bool point_run(const Sweep *sweep, int32_t point, Error *err);   // in this process
 // run.json for a point that left none: `failure` in a word or two, `message` in full.

@@ -22,6 +22,8 @@
 
 enum { ELEMENTS_BYTES_MAX = 1 << 24, SETTING_SIZE = 1000 };
 
+// Paths are stored as the sweep was given them, with the folder it was called in: errors in an
+// element's report then read as they would in the pool's.
 bool elements_write(const Sweep *sweep, const char *path, const int32_t *points, int32_t count,
                     Error *err)
 {
@@ -62,6 +64,7 @@ typedef struct ElementSettings {
     int32_t count;
 } ElementSettings;
 
+// The text at `list`.`index`.
 static bool find(const char *text, const char *list, int32_t index, char *value, int32_t size)
 {
     char path[40];
@@ -112,6 +115,8 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Costs one scene, not the study: an array of thousands does not plan thousands of points each
+// time.
 static bool check_scene(const Sweep *sweep, int32_t point, Error *err)
 {
     PointMesh mesh = {0};

@@ -27,6 +27,7 @@ static const char *last_word(const char *key)
     return dot ? dot + 1 : key;
 }
 
+// The paper's symbol where there is one, with text.h's marks.
 static void record_label(const StudyRecord *record, char label[LABEL_SIZE])
 {
     static const struct {
@@ -90,6 +91,7 @@ static void figure_path(const Figure *figure, const char *ending, char path[POIN
              ending);
 }
 
+// Opens figures/NAME.json, and takes the first point's scene for its units.
 static bool begin_figure(Figure *figure, Error *err)
 {
     char path[POINT_PATH_SIZE];
@@ -149,6 +151,7 @@ typedef struct Curve {
     const double *x, *y, *low, *high;
 } Curve;
 
+// Bars stand where `low` is given; `high` comes with it.
 static void write_curve(JsonWriter *json, const Curve *curve)
 {
     json_begin_object(json, NULL);
@@ -234,6 +237,7 @@ static void write_baseline(Figure *figure, const SweepTable *table, const Rankin
     write_curve(figure->json, &line);
 }
 
+// Nothing is drawn where no point has a value.
 bool figure_of_ranking(const Sweep *sweep, const SweepTable *table, const Ranking *ranking,
                        Error *err)
 {
@@ -404,6 +408,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// The x axis fits its data; the y axis leaves room for the legend.
 static void write_axes(Figure *figure, const SweepTable *table, int32_t curves)
 {
     const Study *study = &figure->sweep->study;
@@ -419,6 +424,7 @@ static void write_axes(Figure *figure, const SweepTable *table, int32_t curves)
     write_axis(figure, "y", y, plot->log_y, has_range ? range : NULL);
 }
 
+// A curve for each value of `series`, in the study's order, whose colours go round after seven.
 bool figure_of_plot(const Sweep *sweep, const SweepTable *table, Error *err)
 {
     const Study *study = &sweep->study;

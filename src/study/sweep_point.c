@@ -28,6 +28,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Numbers count by their bits; the mesh by its content, wherever it lies; the title not at all.
 bool point_hash(const Scene *scene, PointMesh *mesh, char text[HASH_TEXT_SIZE], Error *err)
 {
     int32_t count = 0;
@@ -76,6 +77,7 @@ static void report_path(const Sweep *sweep, int32_t point, char path[POINT_PATH_
     strcat(path, "/run.json");
 }
 
+// Missing is no error; unreadable is.
 char *point_report(const Sweep *sweep, int32_t point, Error *err)
 {
     char path[POINT_PATH_SIZE + 16], *bytes = NULL;
@@ -85,6 +87,7 @@ char *point_report(const Sweep *sweep, int32_t point, Error *err)
     return bytes;
 }
 
+// An interrupted run is not finished, though it left a run.json.
 PointStatus point_status(const char *report)
 {
     char status[20] = "", failure[40] = "";
@@ -94,6 +97,14 @@ PointStatus point_status(const char *report)
     return strcmp(failure, error_name(ERROR_INTERRUPT)) == 0 ? POINT_PENDING : POINT_FAILED;
 }
 
+const char *point_status_name(PointStatus status)
+{
+    static const char *const names[] = {
+        [POINT_PENDING] = "pending", [POINT_DONE] = "done", [POINT_FAILED] = "failed"};
+    return names[status];
+}
+
+// Only run.json: it alone makes a point finished.
 void point_remove(const Sweep *sweep, int32_t point)
 {
     char path[POINT_PATH_SIZE + 16];
@@ -101,6 +112,7 @@ void point_remove(const Sweep *sweep, int32_t point)
     unlink(path);   // the rest is the next run's to overwrite
 }
 
+// An ordinary run, over what an earlier try may have left in the folder.
 bool point_run(const Sweep *sweep, int32_t point, Error *err)
 {
     char folder[POINT_PATH_SIZE];
@@ -116,6 +128,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Has the scene in it like every run.json, so that it can be run again by hand.
 bool point_write_failure(const Sweep *sweep, int32_t point, const char *failure,
                          const char *message, Error *err)
 {
@@ -141,6 +154,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// What does not fit into POINT_WORDS_SIZE is left out, key by key.
 void point_words(const Sweep *sweep, const Scene *scene, char words[POINT_WORDS_SIZE])
 {
     size_t used = 0;

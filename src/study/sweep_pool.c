@@ -51,6 +51,8 @@ static void be_child(const Sweep *sweep, int32_t point, int pipe, pid_t parent)
 
 // --- in the parent ------------------------------------------------------------------------------
 
+// The child's pid is compared with ours after the fork (be_child): a parent that died in between
+// would leave it without one.
 static bool start_worker(Pool *pool, Worker *worker, int32_t point, Error *err)
 {
     int ends[2] = {-1, -1};
@@ -101,6 +103,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Waits for the child and frees its worker. The status as waitpid has it.
 static int reap(Worker *worker)
 {
     int ending = 0;
@@ -176,6 +179,7 @@ static void end_workers(Pool *pool)
     }
 }
 
+// Poll, not signals, tells of children: a pipe closes when its child ends, however that ends.
 bool pool_run(Sweep *sweep, Error *err)
 {
     int32_t cores = (int32_t)sysconf(_SC_NPROCESSORS_ONLN), running = 0;

@@ -30,6 +30,7 @@ static int compare(const void *left, const void *right)
     return a->point - b->point;
 }
 
+// NaN where there is none, or where it failed.
 static double baseline_value(const Sweep *sweep, const double *values, const Ranking *ranking,
                              int32_t point)
 {
@@ -39,6 +40,7 @@ static double baseline_value(const Sweep *sweep, const double *values, const Ran
     return base >= 0 ? values[base] : NAN;
 }
 
+// `lowest` is sorted as `highest` of the negative values, which are turned back afterwards.
 bool ranking_make(const Sweep *sweep, const SweepTable *table, Ranking *ranking, Error *err)
 {
     const Study *study = &sweep->study;
@@ -85,12 +87,11 @@ static void add_note(char note[NOTE_SIZE], const char *words)
 static bool row_notes(const Sweep *sweep, const SweepTable *table, const RankRow *row,
                       char note[NOTE_SIZE], char warning[RUN_WARNING_SIZE], Error *err)
 {
-    static const char *const names[] = {"pending", "done", "failed"};
     PointStatus status = sweep->points[row->point].status;
     char *report = status == POINT_DONE ? point_report(sweep, row->point, err) : NULL;
     *note = *warning = 0;
     TRY(error_is_clean(err));
-    if (status != POINT_DONE) add_note(note, names[status]);
+    if (status != POINT_DONE) add_note(note, point_status_name(status));
     if (status == POINT_DONE && isnan(row->value)) add_note(note, "no value");
     if (table->period[row->point] == 0) add_note(note, "not periodic");
     if (table->period[row->point] == 2) add_note(note, "every second peak");
@@ -119,6 +120,7 @@ static void write_head(CsvWriter *csv, const Study *study)
     csv_end_row(csv);
 }
 
+// rank is left empty for a point without a value; its note says why.
 static bool write_row(CsvWriter *csv, const Sweep *sweep, const SweepTable *table,
                       const RankRow *row, int32_t rank, Error *err)
 {
@@ -147,6 +149,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// All points, also those that a terminal does not show.
 bool ranking_write(const Sweep *sweep, const SweepTable *table, const Ranking *ranking, Error *err)
 {
     char path[POINT_PATH_SIZE];
@@ -199,6 +202,7 @@ static void print_head(const Study *study, PrintedRow *row, int32_t *count)
     snprintf(add_cell(row, count), CELL_SIZE, "gain");
 }
 
+// Key columns that follow from formulas are left out: they tell no point from another.
 static bool print_row(const Sweep *sweep, const SweepTable *table, const RankRow *from,
                       int32_t rank, PrintedRow *row, Error *err)
 {
@@ -268,6 +272,7 @@ static void print_rows(const PrintedRow *rows, int32_t shown, int32_t cells, FIL
     }
 }
 
+// Nothing is printed where the caller wants nothing (options->out NULL).
 bool ranking_print(const Sweep *sweep, const SweepTable *table, const Ranking *ranking, Error *err)
 {
     FILE *out = sweep->options->out;

@@ -67,6 +67,7 @@ typedef struct SlurmRun {
 
 // --- Slurm's commands ---------------------------------------------------------------------------
 
+// Runs one of Slurm's commands; its words, without the last line end, in run->answer.
 static bool ask(SlurmRun *run, const char *const *words, int *status, Error *err)
 {
     if (!program_run(words, run->answer, run->answer_size, status, err))
@@ -86,6 +87,7 @@ static bool any_alive(SlurmRun *run, Error *err)
     return ask(run, words, &status, err) && status == 0 && run->answer[0];
 }
 
+// A signal ends it early, which is what is wanted of a stop.
 static void nap(double seconds)
 {
     struct timespec time = {.tv_sec = (time_t)seconds,
@@ -200,6 +202,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// As many arrays as MaxArraySize asks for; array k's elements are `count` from `first` on.
 static bool submit_all(SlurmRun *run, Error *err)
 {
     int32_t limit = array_limit(run), *points = NULL;
@@ -227,6 +230,7 @@ cleanup:
 
 // --- waiting ------------------------------------------------------------------------------------
 
+// All others are waiting or at work, also those this list does not know.
 static bool is_ended(const char *state)
 {
     static const char *const ended[] = {"BOOT_FAIL", "CANCELLED", "COMPLETED",     "DEADLINE",
@@ -373,6 +377,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// squeue is asked every LOOK_PAUSE seconds, the stop flag far more often.
 static bool wait_for_all(SlurmRun *run, Error *err)
 {
     bool answered = false;
@@ -468,6 +473,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Room for all points: how many are pending is known only afterwards.
 static bool list_elements(SlurmRun *run, Error *err)
 {
     const Sweep *sweep = run->sweep;
@@ -480,6 +486,8 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Whatever goes wrong, nothing of ours stays in the queue: the file `running` is removed only when
+// that is known, and otherwise tells the next sweep to look.
 bool slurm_run(Sweep *sweep, Error *err)
 {
     static const char *const version[] = {"sbatch", "--version", NULL};

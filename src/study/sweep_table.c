@@ -20,12 +20,6 @@ typedef struct TableWriter {
     char *cell;   // [CELL_SIZE] work
 } TableWriter;
 
-static const char *status_name(PointStatus status)
-{
-    static const char *const names[] = {"pending", "done", "failed"};
-    return names[status];
-}
-
 // --- sweep.csv ----------------------------------------------------------------------------------
 
 static void write_head(TableWriter *writer)
@@ -42,6 +36,7 @@ static void write_head(TableWriter *writer)
 
 // --- rows ---------------------------------------------------------------------------------------
 
+// NaN where the list is full: such a word still stands in sweep.csv.
 static double word_index(WordList *list, const char *word)
 {
     for (int32_t k = 0; k < list->count; k++)
@@ -51,6 +46,7 @@ static double word_index(WordList *list, const char *word)
     return list->count++;
 }
 
+// Into a row of the CSV file and a row of the arrays at once.
 static void write_keys(TableWriter *writer, int32_t point, const Scene *scene)
 {
     const Study *study = &writer->sweep->study;
@@ -98,6 +94,7 @@ static void note_bounds(SweepTable *table, int32_t point, const char *report)
     }
 }
 
+// A failed point keeps its keys and its message, and has no results.
 static bool write_row(TableWriter *writer, int32_t point, Scene *scene, Error *err)
 {
     const Sweep *sweep = writer->sweep;
@@ -112,7 +109,7 @@ static bool write_row(TableWriter *writer, int32_t point, Scene *scene, Error *e
     write_records(writer, point, at->status == POINT_DONE ? report : NULL);
     writer->table->period[point] = writer->table->low[point] = writer->table->high[point] = NAN;
     if (at->status == POINT_DONE && report) note_bounds(writer->table, point, report);
-    csv_text(writer->csv, status_name(at->status));
+    csv_text(writer->csv, point_status_name(at->status));
     *writer->cell = 0;
     if (at->status == POINT_FAILED && report)
         json_find_text(report, "message", writer->cell, ERROR_MESSAGE_SIZE);
@@ -139,6 +136,7 @@ static bool write_column(ArrayFile *file, ArraySeries series, const double *valu
            array_file_append(file, series.name, values, count, err);
 }
 
+// "push|bonded": the word of index k is the k-th.
 static bool write_words(ArrayFile *file, const char *column, const WordList *list, Error *err)
 {
     char name[STUDY_NAME_SIZE + 16], text[WORDS_MAX * (WORD_SIZE + 2)] = "";
@@ -175,6 +173,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Written after sweep.csv: the arrays are filled by its rows.
 static bool write_h5(const Sweep *sweep, const SweepTable *table, Error *err)
 {
     char path[POINT_PATH_SIZE];
@@ -204,6 +203,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Both files get their names when they are whole; an older table stands until then.
 bool table_write(const Sweep *sweep, SweepTable *table, Error *err)
 {
     char path[POINT_PATH_SIZE];
