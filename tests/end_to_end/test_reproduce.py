@@ -152,7 +152,7 @@ class Windows(unittest.TestCase):
         fine = window((1, 0.3))
         self.assertEqual(windows.reason(window((1, 0.302)), fine, 40), "")
         self.assertIn("2.0 cells", windows.reason(window((1, 0.32), l_c=0.05), fine, 40))
-        self.assertIn("let go", windows.reason(window((1, 0.32), l_c=0.95), fine, 40))
+        self.assertIn("let go", windows.reason(window((1, 0.32), l_c=0.97), fine, 40))
         self.assertIn("scatter", windows.reason(window((1, 0.32)), fine, 40))
 
 

@@ -10,7 +10,8 @@ import json
 import numpy as np
 
 GAP = 0.3               # in ln P: further apart, another window
-CELLS_RESOLVED = 4      # l_c shorter than this many cells is not resolved
+CELLS_RESOLVED = 8      # l_c shorter than this many cells of the coarser mesh is not resolved
+END_CELLS = 2           # fewer left when it slides: when the last nodes let go decides
 AGREE = 0.01
 
 
@@ -76,7 +77,7 @@ def reason(window, fine, cells):
         return ""
     if window.l_c * cells < CELLS_RESOLVED:
         return f"l_c is {window.l_c * cells:.1f} cells"
-    if window.l_c > 1 - CELLS_RESOLVED / cells:
+    if window.l_c > 1 - END_CELLS / cells:
         return f"slides when the last {(1 - window.l_c) * cells:.1f} cells let go"
     scatter = np.hypot(window.scatter, fine.scatter) / window.mu
     return f"steps and branches: single runs scatter by {100 * scatter:.1f} %"
@@ -90,12 +91,12 @@ def branch_words(window):
 def agreement_words(pairs, cells):
     """pairs: (window, fine). The windows' central runs alone are compared as well."""
     differences = np.array([abs(difference(*pair)) for pair in pairs])
-    resolved = np.array([a.l_c * cells >= CELLS_RESOLVED and a.l_c <= 1 - CELLS_RESOLVED / cells for a, _ in pairs])
+    resolved = np.array([a.l_c * cells >= CELLS_RESOLVED and a.l_c <= 1 - END_CELLS / cells for a, _ in pairs])
     alone = np.array([abs(mu_of(fine.centre) / mu_of(coarse.centre) - 1) for coarse, fine in pairs])
     words = (f"Meshes of {cells} and {2 * cells} cells agree within 1 % at {(differences <= AGREE).sum()} of {len(pairs)} points, "
              f"within 2 % at {(differences <= 2 * AGREE).sum()}; single runs at {(alone <= AGREE).sum()}.")
     if resolved.any():
-        words += (f" Where l_c is {CELLS_RESOLVED} cells of the coarser mesh or more, and as far from L, it is "
+        words += (f" Where l_c is {CELLS_RESOLVED} cells of the coarser mesh or more, and {END_CELLS} or more from L, it is "
                   f"{(differences[resolved] <= AGREE).sum()} of {resolved.sum()}, median {100 * np.median(differences[resolved]):.2g} %, "
                   f"largest {100 * differences[resolved].max():.2g} %.")
     return words + "\n"
