@@ -5,6 +5,7 @@
 (alpha = 0.2): by the paper's formula, with all terms kept, and as its own simulation finds them at its first peak.
 """
 import json
+import shutil
 import subprocess
 
 import h5py
@@ -16,16 +17,24 @@ SCENES = {"A": ("fig1", 1.0), "B": ("set-b", 0.04)}
 CYCLE = {"A": 10, "B": 30}        # rod's way to run, over P L: three slidings at least
 
 
-def ask(program, command, scene, folder, settings, *options):
-    """The numbers of one command; None where it found no sliding to start from."""
-    words = [str(program), command, str(scene), "--quiet", "--overwrite", "-o", str(folder), *options]
-    if command == "stability":
-        words.remove("--overwrite")
-    for key, value in {**QUIET, **settings}.items():
-        words += ["--set", f"{key}={value}"]
-    done = subprocess.run(words, check=False, capture_output=True, text=True)
+def ask(place, command, scene, folder, settings):
+    """The numbers of one command, of an earlier call where there are some; None where it found no sliding to start from."""
     path = folder / f"{command}.json"
-    return json.loads(path.read_text()) if done.returncode == 0 else None
+    if place.fresh or not path.exists():
+        shutil.rmtree(folder, ignore_errors=True)
+        words = [str(place.program), command, str(scene), "--quiet", "-o", str(folder)]
+        for key, value in {**QUIET, **settings}.items():
+            words += ["--set", f"{key}={value}"]
+        subprocess.run(words, check=False, capture_output=True)
+    return json.loads(path.read_text()) if path.exists() else None
+
+
+def cells_of(place):
+    return 20 if place.quick else 80
+
+
+def folder_of(place, name, k):
+    return place.folder / "critical" / f"{name}{k}-{cells_of(place)}"
 
 
 def measure(place, here, name):
@@ -33,13 +42,12 @@ def measure(place, here, name):
     rows, (scene, length) = [], SCENES[name]
     scene = here / f"{scene}.yaml"
     for k, P in enumerate(PRESSURES[name][::2] if place.quick else PRESSURES[name]):
-        cells = 20 if place.quick else 80
-        settings = {"load.pressure": f"{P:.8g}", "mesh.set.nx": cells, "mesh.set.nz": cells,
+        settings = {"load.pressure": f"{P:.8g}", "mesh.set.nx": cells_of(place), "mesh.set.nz": cells_of(place),
                     "time.until": f"{{U: {CYCLE[name] * P * length:.8g}, periodic: true}}"}
-        folder = place.folder / "critical" / f"{name}{k}"
+        folder = folder_of(place, name, k)
         folder.mkdir(parents=True, exist_ok=True)
-        line = ask(place.program, "model1d", scene, folder / "line", settings)
-        block = ask(place.program, "stability", scene, folder / "block", settings)
+        line = ask(place, "model1d", scene, folder / "line", settings)
+        block = ask(place, "stability", scene, folder / "block", settings)
         rows.append({"P": P, "PL": P * length, **read(line["theory"], "line_", LINE_KEYS),
                      **read(line["simulation"], "simulated_", SIMULATED_KEYS),
                      **read(block["results"] if block else {}, "block_", BLOCK_KEYS)})
@@ -83,7 +91,7 @@ def figure(rows, dynamic, name):
 
 def figure_growth(place, name, k):
     """Real part of the fastest rate against l/L at one pressure: the line by the paper and with all terms, and the block."""
-    folder = place.folder / "critical" / f"{name}{k}"
+    folder = folder_of(place, name, k)
     with h5py.File(folder / "line" / "model1d.h5") as file:
         front, omega, rate = (file[f"points/{key}"][:] for key in ("front", "omega_re", "rate_re"))
     length = SCENES[name][1]

@@ -112,7 +112,7 @@ def figure_speeds(cases):
     for name, key, line in (("L", "longitudinal", "dashed"), ("S", "shear", "solid"), ("R", "rayleigh", "thin")):
         series.append({"label": f"~{{c}}_{{{name}}}", "x": [0, 1], "y": [c[key], c[key]], "line": line, "color": 0})
     return {"title": "how fast the fronts of rapid precursors run", "height": 0.85, "x": {"label": "~{x} / ~{L}", "range": [0, 1]},
-            "y": {"label": "front speed  (√(E/ρ))", "scale": "log", "range": [0.1, 20]}, "legend": "upper-right", "series": series}
+            "y": {"label": "front speed  (√(E/ρ))", "scale": "log", "range": [0.1, 100]}, "legend": "upper-right", "series": series}
 
 
 def events_of(row):

@@ -124,11 +124,11 @@ def figure_adiabatic(place, rows):
         "series": [{"x": plain(V), "y": plain(row["mu_M"] for row in rows), "marker": "circle", "color": ORANGE}]})
 
 
-def figures_critical(place, rows, rates):
-    """rows: of the sweeps; rates: of critical.measure, by set."""
+def figures_critical(place, found, rates):
+    """found: windows of the sweeps; rates: of critical.measure; by set."""
     for name, at in rates.items():
         length = critical.SCENES[name][1]
-        dynamic = [(row["load.pressure"] * length, row["l_c"]) for row in rows[name] if same(row["mesh.set.length"], length)]
+        dynamic = [(w.P * length, w.l_c) for w in found[name] if same(w.length, length)]
         place.draw(f"critical-{name.lower()}", critical.figure(at, dynamic, name))
     place.draw("growth", critical.figure_growth(place, "A", len(rates["A"]) // 2))
 
