@@ -26,13 +26,15 @@ def curves_of_pressure(found, finer, material, filled):
         P = [w.P for w in at]
         series.append({"label": f"~{{L}} = {length:g}", "x": P, "y": [w.mu for w in at], "low": [w.low for w in at],
                        "high": [w.high for w in at], "color": k + 1, "marker": MARKERS[k], "filled": filled})
-        at = [w for w in finer if w.length == length]
-        series.append({"x": [w.P for w in at], "y": [w.mu for w in at], "color": k + 1, "line": "dashed"})
+        if finer:
+            at = [w for w in finer if w.length == length]
+            series.append({"x": [w.P for w in at], "y": [w.mu for w in at], "color": k + 1, "line": "dashed"})
         fine = np.geomspace(min(P) / 1.3, max(P) * 1.3, 120)
         series.append({"x": plain(fine), "y": plain(material.mu(length, p) for p in fine), "color": k + 1,
                        "line": "thin"})
     series[-1]["label"] = "1D theory"
-    series[-2]["label"] = "twice as many cells"
+    if finer:
+        series[-2]["label"] = "twice as many cells"
     return series
 
 

@@ -186,7 +186,7 @@ CRITICAL = """
 
 l_sc, where a disturbance first grows swinging, and l_c, where one first grows without, over L. The 1D model (alpha = 0.2): by
 the paper's formula, with all terms of its linear problem, and as its simulation finds them at the first peak. The block:
-by `amontons stability`, for V towards 0 and at V, and by time stepping (the circles, from the sweeps above).
+by `amontons stability`, for V towards 0 and at V, and by time stepping (the circles: windows of the finer mesh above).
 
 """
 

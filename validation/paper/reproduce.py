@@ -110,10 +110,10 @@ def pressure_parts(place, parts):
     found = {name: windows(at) for name, at in rows.items()}
     found_fine = {name: windows(at) for name, at in fine.items()}
     for name, material, filled in (("A", theory.A, False), ("B", theory.B, True)):
-        figures.figure_2(place, f"fig2{name.lower()}", found[name], found_fine[name], material, filled)
+        figures.figure_2(place, f"fig2{name.lower()}", found[name], [] if place.quick else found_fine[name], material, filled)
         pairs = list(zip(found[name], found_fine[name]))
         parts[name.lower()] = report.mu_table(found[name], found_fine[name], cells)
-        parts[f"agreement_{name.lower()}"] = "(not compared with a finer mesh: quick)\n" if place.quick else agreement_words(pairs, cells)
+        parts[f"agreement_{name.lower()}"] = "(quick: no finer mesh; its columns repeat the coarser's)\n" if place.quick else agreement_words(pairs, cells)
     figures.figure_3a(place, found_fine)
     widest = found["A"][-1].rows
     parts.update(cells=cells, runs=len(widest), width=100 * (max(r["load.pressure"] for r in widest) / found["A"][-1].P - 1))
