@@ -72,8 +72,19 @@ If (StrCmp(shape, "quad") != 0 && StrCmp(shape, "triangle") != 0)
     Abort;
 EndIf
 
+If (floor > 0 && size_contact > floor)
+    Error("size_contact must be at most floor = %g (or floor = 0: pointed grooves), found %g", floor,
+          size_contact);
+    Abort;
+EndIf
+
 // --- the outline, its underside from x = 0 to x = length ----------------------------------------
 contact_length = (length - grooves * width) / (grooves + 1);
+If (size_contact > contact_length / 2)
+    Error("size_contact must be at most half of a contact, which is %g long, found %g", contact_length,
+          size_contact);
+    Abort;
+EndIf
 walk[] = {};
 first = newp;
 Point(first) = {0, 0, 0, size_contact};

@@ -158,6 +158,11 @@ For k In {0 : n - 1}
     sum += step ^ k;
 EndFor
 shortest = touching / sum * (step < 1 ? step ^ (n - 1) : 1);
+If (size_contact > shortest / 2)
+    Error("size_contact must be at most half of the shortest pad, which is %g long, found %g", shortest,
+          size_contact);
+    Abort;
+EndIf
 
 If (fillet >= pad_height || (margin > 0 && fillet >= margin) || (n > 1 && 2 * fillet >= gap_length))
     If (fillet > 0)

@@ -56,6 +56,10 @@ enum {
     X("moment_error", "errors.moment", true, "balance of moments, relative")                       \
     X("reduction_error", "errors.reduction", true, "reduced bulk against the full one")            \
     X("mu_max", "results.mu_max", true, "largest mu of the whole run")                             \
+    X("mu_trusted", "results.mu_trusted", true, "lowest of the falls of the force")                \
+    X("mu_falls_high", "results.falls.mu_high", false, "highest of them")                          \
+    X("fall_period", "results.falls.period", false, "in falls; 0: they do not repeat")             \
+    X("mu_first_pad", "results.mu_first_pad", false, "lowest mu at which a whole pad slides")      \
     X("first_mu", "results.peaks.0.mu", false, "first peak, from the start state")                 \
     X("contact_nodes", "model.contact_nodes", false, "nodes on the interface")                     \
     X("reduced_dofs", "model.reduced_dofs", false, "unknowns stepped; 0: the full mesh")

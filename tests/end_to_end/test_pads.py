@@ -216,6 +216,8 @@ class Pads(unittest.TestCase):
                 ("mesh.set.gap=0.2", "do not fit"),
                 ("mesh.set.gap=-0.05", "gap must be above 0"),
                 ("mesh.set.fillet=0.08", "fillet must be below pad_height = 0.05"),
+                ("mesh.set={n: 4, fill: 0.9, pad_height: 0.1, fillet: 0.02}", "half a gap = 0.0166667"),
+                ("mesh.set.size_contact=0.2", "half of the shortest pad, which is 0.15 long"),
                 ("mesh.set.pads=4", "pads")):
             code, out, err = amontons("run", self.scene, "-o", self.path("result"), "--overwrite",
                                       "--set", setting)

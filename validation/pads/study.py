@@ -5,21 +5,24 @@
     validation/pads/study.py [-o DIR] [-j N] [--program PROGRAM] [--publish]
 
 DIR (default results/pads) gets a folder a sweep, tables.md and figures/*.png; what is there already
-is not computed again. --publish copies tables and figures beside this file, for README.md.
+is not computed again. --publish copies tables and figures beside this file, for README.md. Needs h5py
+(python3-h5py) for the figure of the loads in time.
 """
 import argparse
 import csv
 import json
 import shutil
 import subprocess
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-SWEEPS = ("plain", "count", "height", "gap", "fill", "count-b", "check", "check-b")
-FIGURES = ("count", "count-b", "height", "fill", "pads")
-STABILITY = {0.003: (1, 2, 4, 5, 8), 0.006: (1, 2, 3, 4, 6, 8, 11)}   # P: numbers of pads
-PAD_FIELDS = ("normal_force_peak", "shear_peak", "l_c_over_length")
+SWEEPS = ("plain", "count", "height", "gap", "fill", "grooves", "plain-b", "count-b", "check", "check-b")
+FIGURES = ("count", "count-b", "load", "drag", "transfer", "shape")
+SET_A, SET_B = (0.001, 0.003, 0.006, 0.012), (1.5e-5, 5.75e-5, 2.3e-4)   # pressures
+COUNTS = range(1, 13)
+MU = "~{\u03bc}"
 
 
 def number(text):
@@ -27,24 +30,22 @@ def number(text):
 
 
 class Point:
-    """One run: the keys varied, the columns recorded, and run.json."""
+    """One run: what was varied and recorded, and run.json."""
 
     def __init__(self, folder, row):
-        self.row = row
         run = json.loads((folder / row["run"] / "run.json").read_text()) if row["run"] else {}
-        scene = run.get("scene", {})
-        self.results = run.get("results", {})
-        self.pads = self.results.get("pads", [])
-        self.P = scene["load"]["pressure"]
-        self.V = scene["rod"]["velocity"]
-        self.mesh = scene["mesh"]["set"]
-        self.accuracy = scene["time"]["accuracy"]
-        self.n = int(self.mesh["n"])
-        self.mu, self.period = number(row["mu_M"]), int(row["period"] or 0)
-        self.l_c = number(row["l_c"])
-        self.fall_low = number(row["results.mu_trusted"])
-        self.fall_high = number(row["results.falls.mu_high"])
-        self.load = sum(pad["normal_force_start"] for pad in self.pads)
+        scene = run["scene"]
+        self.scene, self.results = scene, run["results"]
+        self.pads = self.results["pads"]
+        self.P, self.mesh = scene["load"]["pressure"], scene["mesh"]["set"]
+        self.n = int(self.mesh.get("n", 0))
+        self.mu, self.trusted = number(row["mu_M"]), number(row["mu_trusted"])
+        self.high, self.first_pad = number(row["mu_falls_high"]), number(row["mu_first_pad"])
+        self.l_c, self.period = number(row["l_c"]), int(number(row["fall_period"]) or 0)
+
+    def branches(self):
+        """mu and the number of pads that slide, of each fall of the period."""
+        return ", ".join(f"{b['mu']:.3f} ({b['pads']})" for b in self.results["falls"]["branches"])
 
 
 class Study:
@@ -59,19 +60,28 @@ class Study:
         with open(out / "sweep.csv", encoding="utf-8") as file:
             return [Point(out, row) for row in csv.DictReader(file) if row["status"] == "done"]
 
-    def stability(self, P, n):
-        out = self.folder / "stability" / f"P{P}-n{n}"
+    def stability(self, scene, sets):
+        """results and pads of `amontons stability`; None where it failed."""
+        name = "-".join(str(value) for value in sets.values())
+        out = self.folder / "stability" / f"{scene}-{name}"
         if not (out / "stability.json").exists():
-            subprocess.run([self.program, "stability", HERE / "pads.yaml", "-o", out, "--overwrite",
-                            "--quiet", "--set", f"load.pressure={P}", "--set", f"mesh.set.n={n}",
-                            "--set", f"time.until.U={10 * P}"], check=True)
-        return json.loads((out / "stability.json").read_text())["results"], out
+            words = [word for key, value in sets.items() for word in ("--set", f"{key}={value}")]
+            subprocess.run([self.program, "stability", HERE / f"{scene}.yaml", "-o", out, "--overwrite",
+                            "--quiet", *words], check=False, stdout=subprocess.DEVNULL)
+        if not (out / "stability.json").exists():
+            return None
+        found = json.loads((out / "stability.json").read_text())
+        return {**found["results"], "pads": found["pads"]}
+
+    def stabilities(self, scene, every):
+        with ThreadPoolExecutor(self.jobs) as pool:
+            return list(pool.map(lambda sets: self.stability(scene, sets), every))
 
     def plot(self, name, **content):
         path = self.folder / "figures" / f"{name}.yaml"
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(json.dumps(content, indent=1, ensure_ascii=False), encoding="utf-8")
-        subprocess.run([self.program, "render", path], check=True)
+        subprocess.run([self.program, "render", path], check=True, stdout=subprocess.DEVNULL)
 
     def table(self, title, head, rows):
         self.lines += [f"### {title}", "", "| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
@@ -84,161 +94,253 @@ def show(cell):
     return f"{cell:.4g}" if isinstance(cell, float) else str(cell)
 
 
-def series(label, points, x, color, **more):
-    """A curve of mu_M with bars from the lowest to the highest mu at which the force falls."""
-    return {"label": label, "x": [x(p) for p in points], "y": [p.mu for p in points],
-            "low": [low_of(p) for p in points], "high": [high_of(p) for p in points],
+def near(a, b):
+    return abs(a / b - 1) < 1e-9
+
+
+def of_pressure(points, P):
+    return [p for p in points if near(p.P, P)]
+
+
+def curve(label, points, x, color, **more):
+    """mu to trust against x, bars up to the highest fall."""
+    return {"label": label, "x": [x(p) for p in points], "y": [p.trusted for p in points],
+            "low": [p.trusted for p in points], "high": [p.high or p.trusted for p in points],
             "color": color, "marker": "circle", "line": "thin", **more}
-
-
-def low_of(point):
-    return min(v for v in (point.mu, point.fall_low) if v is not None)
-
-
-def high_of(point):
-    return max(v for v in (point.mu, point.fall_high) if v is not None)
 
 
 def level(value, x, color):
     return {"x": x, "y": [value, value], "color": color, "marker": "none", "line": "dashed"}
 
 
-def of_pressure(points, P):
-    return [p for p in points if abs(p.P / P - 1) < 1e-9]
+# --- how many pads --------------------------------------------------------------------------------
+
+def study_count(study, name, points, plain, pressures, title):
+    content, rows = [], []
+    for color, P in enumerate(pressures, start=1):
+        here, whole = of_pressure(points, P), of_pressure(plain, P)[0]
+        content += [curve(f"~{{P}} = {P:g}", here, lambda p: p.n, color),
+                    level(whole.trusted, [0.6, 12.4], color)]
+        rows += [[f"{P:g}", "none", whole.trusted, whole.mu, whole.first_pad, whole.period,
+                  whole.branches(), whole.l_c]]
+        rows += [[f"{P:g}", p.n, p.trusted, p.mu, p.first_pad, p.period, p.branches(), p.l_c]
+                 for p in here]
+    study.table(f"Number of pads, equal contact length 0.6 L ({title}); none: the block without gaps",
+                ["P", "n", "mu to trust", "mu_M", "first whole pad", "period",
+                 "falls (pads that slide)", "l_c/L"], rows)
+    low, high = (0.2, 0.44) if name == "count" else (0.4, 1.3)
+    study.plot(name, title=f"mu against the number of pads, {title}", height=0.8,
+               x={"label": "pads ~{n}", "range": [0.4, 12.6]}, y={"label": MU, "range": [low, high]},
+               legend="upper-right" if name == "count" else "upper-left", series=content)
 
 
-MU, FALL = "~{\u03bc}_{M}", "~{\u03bc} at which the force falls"
+# --- which pad goes, and why ----------------------------------------------------------------------
+
+def runaway_table(study, scene, pressures, reach, points):
+    """Which pad the growing mode lies on, and what the trailing pad bears; by pressure and n."""
+    found = {}
+    for P in pressures:
+        every = [{"load.pressure": P, "mesh.set.n": n, "time.until.U": reach * P} for n in COUNTS]
+        for n, one in zip(COUNTS, study.stabilities(scene, every)):
+            if one:
+                found[P, n] = one
+    rows = []
+    for (P, n), one in found.items():
+        run = [p for p in of_pressure(points, P) if p.n == n]
+        pad, most = one["pads"][0], max(range(n), key=lambda k: one["pads"][k]["mode"])
+        others = sorted((p["mode"] for p in one["pads"]), reverse=True)[1:2]
+        l_c = [p["l_c_over_length"] for p in one["pads"]]
+        rows.append([f"{P:g}", n, one["mu_M"], run[0].trusted if run else None,
+                     run[0].mu if run else None, most + 1, others[0] if others else None,
+                     " ".join("–" if v is None else f"{v:.2f}" for v in l_c),
+                     pad["pressure"] / P * 0.6, pad["load"], pad["drag"], pad["drag"] * pad["length"]])
+    study.table(f"Loss of stability at V on the quasi-static path ({scene}.yaml): the pad that the growing "
+                "mode lies on; of the trailing pad its share of load, what it bears and its drag",
+                ["P", "n", "mu, stability", "mu to trust, stepping", "mu_M, stepping", "pad that goes",
+                 "next in mode", "l_c of each pad alone, over its length", "load share",
+                 "weakening / borne", "drag", "drag x length"], rows)
+    return found
 
 
-def study_count(study, points, plain):
+def study_load(study, a, b):
     content = []
+    for color, (found, P, name) in enumerate(
+            [(a, P, "A") for P in SET_A[1:]] + [(b, P, "B") for P in SET_B], start=1):
+        n = [k for k in COUNTS if (P, k) in found]
+        content.append({"label": f"{name}, ~{{P}} = {P:g}", "x": n, "color": color,
+                        "y": [found[P, k]["pads"][0]["load"] for k in n],
+                        "marker": "circle" if name == "A" else "square", "line": "thin"})
+    study.plot("load", title="Weakening over what the trailing pad bears alone", height=0.7,
+               x={"label": "pads ~{n}", "range": [0.4, 12.6]},
+               y={"label": "weakening / borne", "scale": "log"}, legend="upper-right",
+               series=content + [level(1, [0.6, 12.4], 0)])
+
+
+def study_drag(study, grooves):
+    """Drag of a pad in the middle: by its height, its number, and the depth of grooves."""
+    heights, rows, content = (0.0125, 0.025, 0.05, 0.075, 0.1, 0.15), [], []
+    for color, n in enumerate((1, 2, 4, 8), start=1):
+        found = study.stabilities("pads", [{"load.pressure": 0.006, "mesh.set.n": n,
+                                            "mesh.set.pad_height": h} for h in heights])
+        x, y = [], []
+        for h, one in zip(heights, found):
+            if one is None:
+                continue
+            first, middle = one["pads"][0], one["pads"][n // 2]
+            rows.append([f"{n} pads", h, first["drag"], middle["drag"], first["drag"] * first["length"],
+                         first["load"], one["mu_M"]])
+            x.append(h)
+            y.append(first["drag"])
+        content.append({"label": f"~{{n}} = {n}", "x": x, "y": y, "color": color, "marker": "circle",
+                        "line": "thin"})
+    for color, count in enumerate((3, 7), start=5):
+        depths = sorted({p.mesh["depth"] for p in grooves if near(p.mesh["width"], 0.05)})
+        found = study.stabilities("grooved", [{"load.pressure": 0.006, "mesh.set.grooves": count,
+                                               "mesh.set.depth": d} for d in depths])
+        x, y = [], []
+        for d, one in zip(depths, found):
+            if one is None:
+                continue
+            first, middle = one["pads"][0], one["pads"][count // 2]
+            rows.append([f"{count} grooves", d, first["drag"], middle["drag"],
+                         first["drag"] * first["length"], first["load"], one["mu_M"]])
+            x.append(d)
+            y.append(first["drag"])
+        content.append({"label": f"{count} grooves", "x": x, "y": y, "color": color, "marker": "square",
+                        "line": "dashed"})
+    study.table("Drag (viscous shear of the softest slip over its rate, eta1/L0) by height, P = 0.006",
+                ["contact", "height", "drag, trailing pad", "drag, middle pad", "drag x length",
+                 "weakening / borne", "mu, stability"], rows)
+    study.plot("drag", title="Drag of the trailing pad against height of pads, depth of grooves", height=0.7,
+               x={"label": "height of pads, depth of grooves / ~{L}_{0}", "range": [0, 0.2]},
+               y={"label": "drag of the trailing pad"}, legend="upper-right", series=content)
+
+
+def study_loads(study, points):
+    """What each pad carries at the peak, and in what order they let go."""
     rows = []
-    for color, P in enumerate((0.001, 0.003, 0.006, 0.012), start=1):
-        here = of_pressure(points, P)
-        whole = of_pressure(plain, P)[0]
-        content += [series(f"~{{P}} = {P:g}", here, lambda p: p.n, color),
-                    level(whole.mu, [0.6, 12.4], color)]
-        rows.append([f"{P:g}", whole.mu] + [p.mu for p in here])
-        rows.append([f"{P:g}, falls", None] + [f"{low_of(p):.3f} – {high_of(p):.3f}" for p in here])
-    study.table("Number of pads, equal contact length 0.6 L (set A)",
-                ["P", "plain block"] + [f"n = {n}" for n in range(1, 13)], rows)
-    study.plot("count", title="mu_M against the number of pads, set A", height=0.85,
-               x={"label": "pads ~{n}", "range": [0.4, 12.6]}, y={"label": MU, "range": [0.2, 0.44]},
-               legend="upper-right", series=content)
-
-
-def study_count_b(study, points):
-    study.table("Number of pads (set B, P L = 2.3e-6)",
-                ["n", "mu_M", "period", "force falls at", "l_c/L"],
-                [[p.n, p.mu, p.period, f"{low_of(p):.3f} – {high_of(p):.3f}", p.l_c] for p in points])
-    study.plot("count-b", title="mu_M against the number of pads, set B", height=0.7,
-               x={"label": "pads ~{n}", "range": [0.4, 10.6]}, y={"label": MU}, legend="none",
-               series=[series("", points, lambda p: p.n, 1)])
-
-
-def study_shape(study, points, key, span, label):
-    """Against one parameter of the mesh, a curve a number of pads and pressure: the lowest mu at which
-    the force falls, and, where some pads then stay behind, mu_M of the whole block as open squares."""
-    name = "height" if key == "pad_height" else key
-    content, rows, color = [], [], 0
-    for P in (0.003, 0.006):
-        for n in sorted({p.n for p in points}):
-            color += 1
-            here = [p for p in of_pressure(points, P) if p.n == n]
-            x = [p.mesh[key] for p in here]
-            content.append({"label": f"~{{P}} = {P:g}, ~{{n}} = {n}", "x": x, "color": color,
-                            "y": [low_of(p) for p in here], "marker": "circle", "line": "thin"})
-            apart = [p for p in here if p.mu and p.mu - low_of(p) > 0.01]
-            content.append({"x": [p.mesh[key] for p in apart], "y": [p.mu for p in apart],
-                            "color": color, "marker": "square", "filled": False, "line": "none"})
-            rows += [[f"{P:g}", n, p.mesh[key], p.mu, p.period, f"{low_of(p):.3f} – {high_of(p):.3f}",
-                      p.l_c] for p in here if p.fall_low is not None]
-    study.table(f"Varied: {key}",
-                ["P", "n", key, "mu_M", "period", "force falls at", "l_c/L"], rows)
-    content = [curve for curve in content if curve["x"]]
-    study.plot(name, title=f"mu_M against {label}", height=0.95, x={"label": label},
-               y={"label": FALL, "range": span}, legend="upper-right", series=content)
-
-
-def mode_of_pads(folder, n):
-    """How much of the unstable mode each pad takes: mean |slip|, the largest 1."""
-    try:
-        import h5py
-    except ImportError:
-        return ["needs h5py"]
-    with h5py.File(folder / "stability.h5") as file:
-        x, slip = file["nodes/x"][:], abs(file["critical/slip"][:])
-    pad = [min(int(value * n), n - 1) for value in x]
-    means = [sum(s for s, p in zip(slip, pad) if p == k) / pad.count(k) for k in range(n)]
-    return [round(float(m / max(max(means), 1e-300)), 2) for m in means]
-
-
-def study_stability(study, points):
-    rows = []
-    for P, numbers in STABILITY.items():
-        for n in numbers:
-            found, folder = study.stability(P, n)
-            run = [p for p in of_pressure(points, P) if p.n == n][0]
-            mode = mode_of_pads(folder, n)
-            rows.append([f"{P:g}", n, found["mu_M"], run.mu, found["l_c_at_V_over_L"], run.l_c,
-                         " ".join(map(str, mode))])
-    study.table("Loss of stability on the quasi-static path, and which pads move in the unstable mode",
-                ["P", "n", "mu_M, stability", "mu_M, time stepping", "l_c/L, stability",
-                 "l_c/L, time stepping", "mode, pad by pad"], rows)
-
-
-def study_pads(study, points):
-    """What each pad carries when mu is largest."""
-    rows, content = [], []
-    for color, (P, n) in enumerate(((0.006, 2), (0.006, 4), (0.006, 9), (0.006, 11)), start=1):
+    for P, n in ((0.003, 5), (0.006, 2), (0.006, 4), (0.006, 8), (0.006, 12)):
         run = [p for p in of_pressure(points, P) if p.n == n][0]
-        if any(pad[field] is None for pad in run.pads for field in PAD_FIELDS):
-            continue
-        middle = [(pad["x_from"] + pad["x_to"]) / 2 for pad in run.pads]
-        ratio = [pad["shear_peak"] / pad["normal_force_peak"] for pad in run.pads]
-        load = [pad["normal_force_peak"] / run.load * n for pad in run.pads]
-        slow = [pad["l_c_over_length"] for pad in run.pads]
-        rows.append([f"{P:g}", n, run.mu, " ".join(f"{v:.2f}" for v in load),
-                     " ".join(f"{v:.2f}" for v in ratio), " ".join(f"{v:.2f}" for v in slow)])
-        content.append({"label": f"~{{n}} = {n}", "x": middle, "y": ratio, "color": color,
-                        "marker": "circle", "line": "thin"})
-    study.table("Each pad when mu is largest: load over its share, shear over load, part that slips "
-                "before its slip turns fast", ["P", "n", "mu_M", "load", "shear/load", "slow part"], rows)
-    study.plot("pads", title="Shear over load of each pad at the peak", height=0.7,
-               x={"label": "~{x} / ~{L}", "range": [0, 1]},
-               y={"label": "shear / load of a pad", "range": [0.1, 0.42]}, legend="lower-left",
-               series=content + [level(0.38, [0, 1], 0)])
+        total = sum(pad["normal_force_start"] for pad in run.pads)
+        cells = [[f"{pad['normal_force_peak'] * n / total:.2f}" for pad in run.pads],
+                 [f"{pad['shear_peak'] / pad['normal_force_peak']:.2f}" for pad in run.pads],
+                 [f"{pad['l_c_over_length']:.2f}" if pad["l_c_over_length"] is not None else "–"
+                  for pad in run.pads],
+                 [str(pad["detachment_order"] or "–") for pad in run.pads]]
+        rows.append([f"{P:g}", n, run.mu] + [" ".join(cell) for cell in cells])
+    study.table("Each pad at mu_M: load over its share, shear over load, part that slips before its slip "
+                "turns fast, order of letting go", ["P", "n", "mu_M", "load", "shear/load", "slow part",
+                                                    "order"], rows)
 
+
+def study_transfer(study):
+    """Shear over load of each pad in time, between two slidings."""
+    import h5py
+    P, n = 0.006, 4
+    out = study.folder / "transfer"
+    if not (out / "run.json").exists():
+        subprocess.run([study.program, "run", HERE / "pads.yaml", "-o", out, "--quiet", "--overwrite",
+                        "--set", f"load.pressure={P}", "--set", f"mesh.set.n={n}", "--set",
+                        f"time.until.U={2.5 * P}", "--set", "output.figures=[]"], check=True)
+    with h5py.File(out / "history.h5") as file:
+        U, mu = file["series/rod_displacement"][:] / P, file["series/mu"][:]
+        ratio = file["pads/shear"][:] / file["pads/normal_force"][:]
+        peaks = file["peaks/U"][:] / P
+    kept = [k for k in range(len(U)) if peaks[1] < U[k] < peaks[2] + 0.03]
+    kept = [k for j, k in enumerate(kept) if j == 0 or U[k] - U[kept[j - 1]] > 1e-9]
+    kept = kept[::max(1, len(kept) // 600)]
+    content = [{"label": f"pad {pad + 1}", "x": [float(U[k]) for k in kept], "color": pad + 1,
+                "y": [float(ratio[k, pad]) for k in kept], "marker": "none", "line": "solid"}
+               for pad in range(n)]
+    content.append({"label": "block", "x": [float(U[k]) for k in kept], "color": 0,
+                    "y": [float(mu[k]) for k in kept], "marker": "none", "line": "dashed"})
+    study.plot("transfer", title="Shear over load of each pad from sliding to sliding", height=0.7,
+               x={"label": "~{U} / (~{P} ~{L} / ~{E})"}, y={"label": "shear / load", "range": [0, 0.45]},
+               legend="lower-right", series=content)
+
+
+# --- height, gap, share, grooves ------------------------------------------------------------------
+
+def shape_table(study, points, key):
+    rows = [[f"{p.P:g}", p.n, p.mesh[key], p.trusted, p.mu, p.first_pad, p.period, p.branches(), p.l_c]
+            for p in sorted(points, key=lambda p: (p.P, p.n, p.mesh[key]))]
+    study.table(f"Varied: {key}", ["P", "n", key, "mu to trust", "mu_M", "first whole pad", "period",
+                                   "falls (pads that slide)", "l_c/L"], rows)
+
+
+def study_shapes(study, points, plain):
+    for name, key in (("height", "pad_height"), ("gap", "gap"), ("fill", "fill")):
+        shape_table(study, points[name], key)
+    rows = []
+    for p in sorted(points["grooves"], key=lambda p: (p.P, p.mesh["grooves"], p.mesh["width"],
+                                                      p.mesh["depth"])):
+        whole = of_pressure(plain, p.P)[0]
+        rows.append([f"{p.P:g}", int(p.mesh["grooves"]), p.mesh["width"], p.mesh["depth"], p.trusted,
+                     f"{100 * (p.trusted / whole.trusted - 1):+.1f} %", p.mu, p.first_pad, p.period,
+                     p.branches(), p.l_c])
+    study.table("Shallow grooves; change against the block without", [
+        "P", "grooves", "width", "depth", "mu to trust", "change", "mu_M", "first whole pad", "period",
+        "falls (pads that slide)", "l_c/L"], rows)
+    content, color = [], 0
+    for P in (0.003, 0.006):
+        whole = of_pressure(plain, P)[0].trusted
+        for label, of, key, keep in (
+                [(f"{n} pads", points["height"], "pad_height", lambda p, n=n: p.n == n) for n in (4, 8)] +
+                [(f"{g} grooves", points["grooves"], "depth", lambda p, g=g: near(p.mesh["width"], 0.05) and
+                  p.mesh["grooves"] == g) for g in (3, 7)]):
+            here = sorted((p for p in of_pressure(of, P) if keep(p) and p.trusted),
+                          key=lambda p: p.mesh[key])
+            color = color % 7 + 1
+            content.append({"label": f"~{{P}} = {P:g}, {label}", "x": [p.mesh[key] for p in here],
+                            "y": [p.trusted / whole for p in here], "color": color, "line": "thin",
+                            "marker": "circle" if "pads" in label else "square",
+                            "filled": P < 0.005})
+    study.plot("shape", title="mu to trust over that of the block without gaps", height=0.85,
+               x={"label": "height of pads, depth of grooves / ~{L}_{0}", "range": [0, 0.16]},
+               y={"label": f"{MU} / {MU} without gaps"}, legend="lower-left",
+               series=content + [level(1, [0, 0.155], 0)])
+
+
+# --- how sure -------------------------------------------------------------------------------------
+
+CASES = ("as computed", "mesh twice as fine", "fine steps", "T6", "V/2", "bonded rod", "rod at H/4",
+         "start without friction")
 
 
 def case_of(point):
-    if point.mesh["size_contact"] < 0.01:
+    scene, base = point.scene, 0.0125 if point.P > 5e-4 else 0.0005
+    if point.mesh["size_contact"] < 0.9 * base:
         return "mesh twice as fine"
-    if point.accuracy == "fine":
+    if scene["time"]["accuracy"] == "fine":
         return "fine steps"
     if point.mesh.get("shape") == "triangle":
         return "T6"
-    return "V/2" if point.V < 9e-6 else "as computed"
+    if scene["rod"]["kind"] == "bonded":
+        return "bonded rod"
+    if scene["start"]["friction"] == "off":
+        return "start without friction"
+    if near(scene["rod"]["height"], 0.125):
+        return "rod at H/4"
+    slow = 9e-6 if point.P > 5e-4 else 1.1e-8
+    return "V/2" if scene["rod"]["velocity"] < slow else "as computed"
 
 
-def study_check(study, points):
-    cases = ["as computed", "mesh twice as fine", "fine steps", "T6", "V/2"]
-    rows = []
-    for P in (0.003, 0.006):
-        for n in sorted({p.n for p in points}):
-            found = {case_of(p): p for p in of_pressure(points, P) if p.n == n}
-            rows.append([f"{P:g}", n] + [found[c].mu if c in found else None for c in cases])
-    study.table("Mesh, steps, element, velocity", ["P", "n"] + cases, rows)
+def change(value, base):
+    if value is None or base is None:
+        return "–"
+    return f"{value:.4f} ({100 * (value / base - 1):+.1f} %)"
 
 
-def study_check_b(study, points, standard):
-    rows = []
-    for n in sorted({p.n for p in points}):
-        fine = [p for p in points if p.n == n]
-        rows.append([n, [p.mu for p in standard if p.n == n][0],
-                     [p.mu for p in fine if p.mesh["size_contact"] < 4e-4][0],
-                     [p.mu for p in fine if p.accuracy == "fine"][0]])
-    study.table("Set B: mesh and steps", ["n", "as computed", "mesh twice as fine", "fine steps"], rows)
+def study_check(study, points, name):
+    for what, value in (("mu to trust", lambda p: p.trusted), ("mu_M", lambda p: p.mu)):
+        rows, cases = [], [c for c in CASES if any(case_of(p) == c for p in points)]
+        for P in sorted({p.P for p in points}):
+            for n in sorted({p.n for p in points}):
+                found = {case_of(p): p for p in of_pressure(points, P) if p.n == n}
+                base = value(found["as computed"])
+                rows.append([f"{P:g}", n, base] + [
+                    change(value(found[c]), base) if c in found else None for c in cases[1:]])
+        study.table(f"{name}: {what} with one thing changed", ["P", "n"] + cases, rows)
 
 
 def publish(folder):
@@ -255,17 +357,19 @@ def main():
     reader.add_argument("--publish", action="store_true")
     words = reader.parse_args()
     words.output.mkdir(parents=True, exist_ok=True)
-    study = Study(words.program, words.output, words.jobs)
+    study = Study(words.program.resolve(), words.output, words.jobs)
     points = {name: study.sweep(name) for name in SWEEPS}
-    study_count(study, points["count"], points["plain"])
-    study_count_b(study, points["count-b"])
-    study_shape(study, points["height"], "pad_height", [0.19, 0.43], "pad height / ~{L}_{0}")
-    study_shape(study, points["gap"], "gap", [0.24, 0.36], "gap / ~{L}_{0}")
-    study_shape(study, points["fill"], "fill", [0.21, 0.41], "share of the face in contact")
-    study_pads(study, points["count"])
-    study_stability(study, points["count"])
-    study_check(study, points["check"])
-    study_check_b(study, points["check-b"], points["count-b"])
+    study_count(study, "count", points["count"], points["plain"], SET_A, "set A")
+    study_count(study, "count-b", points["count-b"], points["plain-b"], SET_B, "set B")
+    a = runaway_table(study, "pads", SET_A, 10, points["count"])
+    b = runaway_table(study, "pads-b", SET_B, 0.7, points["count-b"])
+    study_load(study, a, b)
+    study_drag(study, points["grooves"])
+    study_loads(study, points["count"])
+    study_transfer(study)
+    study_shapes(study, points, points["plain"])
+    study_check(study, points["check"], "Set A")
+    study_check(study, points["check-b"], "Set B")
     (words.output / "tables.md").write_text("\n".join(study.lines), encoding="utf-8")
     if words.publish:
         publish(words.output)
