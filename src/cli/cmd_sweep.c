@@ -120,7 +120,7 @@ static void read_options(int argc, char **argv, SweepWords *words)
             "beginning with `=` is a formula over the scene's numbers. What `record` may name, "
             "beside paths in run.json: mu_M, spread, period, low, high, peaks, l_c, l_sc, steps, "
             "unsolved, solve_s, total_s, energy_error, contact_error, moment_error, "
-            "reduction_error, mu_max, mu_trusted, mu_falls_high, fall_period, mu_first_pad, "
+            "reduction_error, mu_max, mu_trusted, mu_falls_high, mu_first_pad, "
             "first_mu, contact_nodes, reduced_dofs.\n\n"
             "`rank` ends the sweep with its best points, here and in DIR/ranking.csv, and with "
             "DIR/figures/ranking.png: `by` names a result as `record` does, `order` is highest "

@@ -58,7 +58,6 @@ enum {
     X("mu_max", "results.mu_max", true, "largest mu of the whole run")                             \
     X("mu_trusted", "results.mu_trusted", true, "lowest of the falls of the force")                \
     X("mu_falls_high", "results.falls.mu_high", false, "highest of them")                          \
-    X("fall_period", "results.falls.period", false, "in falls; 0: they do not repeat")             \
     X("mu_first_pad", "results.mu_first_pad", false, "lowest mu at which a whole pad slides")      \
     X("first_mu", "results.peaks.0.mu", false, "first peak, from the start state")                 \
     X("contact_nodes", "model.contact_nodes", false, "nodes on the interface")                     \
