@@ -90,7 +90,7 @@ typedef struct SweepTable {
     double *keys;   // [column_count][point_count]; owned, like all below
     double *records;   // [record_count][point_count]
     double *status;   // [point_count] a PointStatus
-    double *period;   // [point_count] of the peaks; 0: not periodic
+    double *period;   // [point_count] of peaks or, ranked by them, of falls; 0: none
     double *low, *high;   // [point_count] bounds of mu_M: of its own peaks where they are
         // periodic, of all peaks but the first where not
     WordList *words;   // [column_count]

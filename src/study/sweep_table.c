@@ -75,9 +75,16 @@ static void write_records(TableWriter *writer, int32_t point, const char *report
     }
 }
 
+// Studies that rank by falls ask whether falls repeat, the others whether peaks do.
+static bool ranks_by_falls(const Study *study)
+{
+    return study->rank.wanted &&
+           strcmp(study->records[study->rank.record].path, "results.mu_trusted") == 0;
+}
+
 // report: of a finished point. What mu_M may be: the range of the peaks that count where they
 // repeat, else of all peaks but the first.
-static void note_bounds(SweepTable *table, int32_t point, const char *report)
+static void note_bounds(const Study *study, SweepTable *table, int32_t point, const char *report)
 {
     double mu = NAN, spread = NAN;
     json_find_number(report, "results.period", &table->period[point]);
@@ -92,6 +99,8 @@ static void note_bounds(SweepTable *table, int32_t point, const char *report)
         if (table->low[point] == table->high[point])   // one peak bounds nothing
             table->low[point] = table->high[point] = NAN;
     }
+    if (ranks_by_falls(study))
+        json_find_number(report, "results.falls.period", &table->period[point]);
 }
 
 // A failed point keeps its keys and its message, and has no results.
@@ -108,7 +117,8 @@ static bool write_row(TableWriter *writer, int32_t point, Scene *scene, Error *e
     // What a failed point came to before it failed is no result.
     write_records(writer, point, at->status == POINT_DONE ? report : NULL);
     writer->table->period[point] = writer->table->low[point] = writer->table->high[point] = NAN;
-    if (at->status == POINT_DONE && report) note_bounds(writer->table, point, report);
+    if (at->status == POINT_DONE && report)
+        note_bounds(&sweep->study, writer->table, point, report);
     csv_text(writer->csv, point_status_name(at->status));
     *writer->cell = 0;
     if (at->status == POINT_FAILED && report)

@@ -13,11 +13,11 @@ PROGRAM = os.path.join(os.environ["AMONTONS_BIN"], "amontons")
 STUDY = os.path.join(os.environ["AMONTONS_SOURCE"], "validation/pads")
 
 
-def published(pressure):
-    """mu_M of n = 1, 2, ... in the table of the number of pads."""
+def published():
+    """mu to trust by pressure and number of pads, as words, in the two tables of the number of pads."""
     with open(os.path.join(STUDY, "tables.md"), encoding="utf-8") as file:
-        row = re.search(rf"^\| {pressure} \|.*$", file.read(), re.MULTILINE).group()
-    return [float(cell) for cell in row.strip("| \n").split("|")[2:]]
+        rows = re.findall(r"^\| (\S+) \| (none|\d+) \| ([\d.]+) \|.*\(\d+\).*$", file.read(), re.MULTILINE)
+    return {(pressure, n): float(mu) for pressure, n, mu in rows}
 
 
 class PadsStudy(unittest.TestCase):
@@ -26,32 +26,60 @@ class PadsStudy(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = folder.name
 
-    def run_program(self, command, pressure, pads, result):
-        out = os.path.join(self.folder, f"{command}{pressure}-{pads}")
-        more = ["output={history: false, figures: []}", "time.until.periodic=true"]
-        settings = [f"load.pressure={pressure}", f"mesh.set.n={pads}",
-                    f"time.until.U={10 * pressure}"] + (more if command == "run" else [])
-        words = [word for setting in settings for word in ("--set", setting)]
-        subprocess.run([PROGRAM, command, os.path.join(STUDY, "pads.yaml"), "-o", out, "--quiet", *words],
-                       check=True, timeout=300)
+    def run_program(self, command, scene, result, **keys):
+        """The report of `amontons run` or `stability` on a scene of the study; keys: P, n and others."""
+        keys = {"load.pressure": keys.pop("P"), **keys}
+        if "n" in keys:
+            keys["mesh.set.n"] = keys.pop("n")
+        out = os.path.join(self.folder, f"{command}{len(os.listdir(self.folder))}")
+        if command == "run":
+            keys = {"output": "{history: false, figures: []}", "time.until.periodic": "true", **keys}
+        words = [word for key, value in keys.items() for word in ("--set", f"{key}={value}")]
+        subprocess.run([PROGRAM, command, os.path.join(STUDY, scene), "-o", out, "--quiet", *words],
+                       check=True, timeout=300, stdout=subprocess.DEVNULL)
         with open(os.path.join(out, result), encoding="utf-8") as file:
-            return json.load(file)["results"]
+            return json.load(file)
+
+    def run_pads(self, P, n, **more):
+        return self.run_program("run", "pads.yaml", "run.json", P=P, n=n,
+                                **{"time.until.U": 10 * P, **more})["results"]
 
     def test_pad_count(self):
-        mu = {}
-        for pressure, numbers in ((0.003, (2, 4)), (0.006, (2, 4, 8))):
-            table = published(pressure)
+        mu, table = {}, published()
+        for P, numbers in ((0.003, (2, 4)), (0.006, (2, 4, 8))):
             for n in numbers:
-                found = self.run_program("run", pressure, n, "run.json")
-                mu[pressure, n] = found["mu_M"]
-                self.assertAlmostEqual(found["mu_M"] / table[n - 1], 1, delta=0.01)
+                mu[P, n] = self.run_pads(P, n)["mu_trusted"]
+                self.assertAlmostEqual(mu[P, n] / table[str(P), str(n)], 1, delta=0.01)
         self.assertGreater(mu[0.006, 4], 1.05 * mu[0.006, 2])   # raised ...
         self.assertLess(mu[0.006, 8], 0.95 * mu[0.006, 4])   # ... and lowered again
         self.assertLess(mu[0.003, 4], 0.97 * mu[0.003, 2])   # lowered from the first division on
 
+    def test_set_b(self):
+        """Three pads hold a fifth more than one of the same length."""
+        mu, table = {}, published()
+        for n in (1, 3):
+            run = self.run_program("run", "pads-b.yaml", "run.json", P=5.75e-5, n=n,
+                                   **{"time.until.U": 0.5 * 5.75e-5})
+            mu[n] = run["results"]["mu_trusted"]
+            self.assertAlmostEqual(mu[n] / table["5.75e-5", str(n)], 1, delta=0.01)
+        self.assertGreater(mu[3], 1.15 * mu[1])
+
+    def test_grooves(self):
+        """Deeper grooves let go earlier where slow slip takes most of the block, and have less drag."""
+        mu, drag = [], []
+        for depth in (0.0125, 0.05):
+            keys = {"P": 0.003, "mesh.set.grooves": 7, "mesh.set.depth": depth, "time.until.U": 0.03}
+            run = self.run_program("run", "grooved.yaml", "run.json", **keys)
+            path = self.run_program("stability", "grooved.yaml", "stability.json", **keys)
+            mu.append(run["results"]["mu_trusted"])
+            drag.append(path["pads"][0]["drag"])
+        self.assertLess(mu[1], 0.95 * mu[0])
+        self.assertLess(drag[1], 0.9 * drag[0])
+
     def test_stability(self):
-        run = self.run_program("run", 0.006, 11, "run.json")
-        path = self.run_program("stability", 0.006, 11, "stability.json")
+        run = self.run_pads(0.006, 11)
+        path = self.run_program("stability", "pads.yaml", "stability.json", P=0.006, n=11,
+                                **{"time.until.U": 0.06})["results"]
         self.assertAlmostEqual(path["mu_M"] / run["mu_first_pad"], 1, delta=0.03)
         self.assertGreater(run["mu_M"], 1.05 * path["mu_M"])   # the first fall is arrested at a gap
         slid = [event["pads"] for event in run["pad_slidings"]]
@@ -60,13 +88,7 @@ class PadsStudy(unittest.TestCase):
 
     def test_tall_pads_alternate(self):
         """Every second fall leaves the leading pad behind; the block slides at the higher branch."""
-        run = None
-        out = os.path.join(self.folder, "tall")
-        subprocess.run([PROGRAM, "run", os.path.join(STUDY, "pads.yaml"), "-o", out, "--quiet", "--set",
-                        "mesh.set.n=8", "--set", "mesh.set.pad_height=0.1", "--set",
-                        "output={history: false, figures: []}"], check=True, timeout=300)
-        with open(os.path.join(out, "run.json"), encoding="utf-8") as file:
-            run = json.load(file)["results"]
+        run = self.run_pads(0.006, 8, **{"mesh.set.pad_height": 0.1, "time.until.periodic": "false"})
         slid = [event["pads"] for event in run["pad_slidings"]][-8:]
         self.assertEqual(sorted(slid), [7] * 4 + [8] * 4)
         self.assertTrue(all(a != b for a, b in zip(slid, slid[1:])))

@@ -94,6 +94,12 @@ def show(cell):
     return f"{cell:.4g}" if isinstance(cell, float) else str(cell)
 
 
+def stress(P):
+    """A pressure in words: 0.003, 2.3e-4."""
+    mantissa, power = f"{P:.3e}".split("e")
+    return f"{P:g}" if P >= 1e-3 else f"{float(mantissa):g}e{int(power)}"
+
+
 def near(a, b):
     return abs(a / b - 1) < 1e-9
 
@@ -119,11 +125,11 @@ def study_count(study, name, points, plain, pressures, title):
     content, rows = [], []
     for color, P in enumerate(pressures, start=1):
         here, whole = of_pressure(points, P), of_pressure(plain, P)[0]
-        content += [curve(f"~{{P}} = {P:g}", here, lambda p: p.n, color),
+        content += [curve(f"~{{P}} = {stress(P)}", here, lambda p: p.n, color),
                     level(whole.trusted, [0.6, 12.4], color)]
-        rows += [[f"{P:g}", "none", whole.trusted, whole.mu, whole.first_pad, whole.period,
+        rows += [[stress(P), "none", whole.trusted, whole.mu, whole.first_pad, whole.period,
                   whole.branches(), whole.l_c]]
-        rows += [[f"{P:g}", p.n, p.trusted, p.mu, p.first_pad, p.period, p.branches(), p.l_c]
+        rows += [[stress(P), p.n, p.trusted, p.mu, p.first_pad, p.period, p.branches(), p.l_c]
                  for p in here]
     study.table(f"Number of pads, equal contact length 0.6 L ({title}); none: the block without gaps",
                 ["P", "n", "mu to trust", "mu_M", "first whole pad", "period",
@@ -150,7 +156,7 @@ def runaway_table(study, scene, pressures, reach, points):
         pad, most = one["pads"][0], max(range(n), key=lambda k: one["pads"][k]["mode"])
         others = sorted((p["mode"] for p in one["pads"]), reverse=True)[1:2]
         l_c = [p["l_c_over_length"] for p in one["pads"]]
-        rows.append([f"{P:g}", n, one["mu_M"], run[0].trusted if run else None,
+        rows.append([stress(P), n, one["mu_M"], run[0].trusted if run else None,
                      run[0].mu if run else None, most + 1, others[0] if others else None,
                      " ".join("–" if v is None else f"{v:.2f}" for v in l_c),
                      pad["pressure"] / P * 0.6, pad["load"], pad["drag"], pad["drag"] * pad["length"]])
@@ -167,7 +173,7 @@ def study_load(study, a, b):
     for color, (found, P, name) in enumerate(
             [(a, P, "A") for P in SET_A[1:]] + [(b, P, "B") for P in SET_B[1:]], start=1):
         n = [k for k in COUNTS if (P, k) in found]
-        content.append({"label": f"{name}, ~{{P}} = {P:g}", "x": n, "color": color,
+        content.append({"label": f"{name}, ~{{P}} = {stress(P)}", "x": n, "color": color,
                         "y": [found[P, k]["pads"][0]["load"] for k in n],
                         "marker": "circle" if name == "A" else "square", "line": "thin"})
     study.plot("load", title="Weakening over what the trailing pad bears alone", height=0.7,
@@ -227,7 +233,7 @@ def study_loads(study, points):
                  [f"{pad['l_c_over_length']:.2f}" if pad["l_c_over_length"] is not None else "–"
                   for pad in run.pads],
                  [str(pad["detachment_order"] or "–") for pad in run.pads]]
-        rows.append([f"{P:g}", n, run.mu] + [" ".join(cell) for cell in cells])
+        rows.append([stress(P), n, run.mu] + [" ".join(cell) for cell in cells])
     study.table("Each pad at mu_M: load over its share, shear over load, part that slips before its slip "
                 "turns fast, order of letting go", ["P", "n", "mu_M", "load", "shear/load", "slow part",
                                                     "order"], rows)
@@ -255,14 +261,14 @@ def study_transfer(study):
     content.append({"label": "block", "x": [float(U[k]) for k in kept], "color": 0,
                     "y": [float(mu[k]) for k in kept], "marker": "none", "line": "dashed"})
     study.plot("transfer", title="Shear over load of each pad from sliding to sliding", height=0.7,
-               x={"label": "~{U} / (~{P} ~{L} / ~{E})"}, y={"label": "shear / load", "range": [0, 0.45]},
-               legend="lower-right", series=content)
+               x={"label": "~{U} / (~{P} ~{L} / ~{E})"}, y={"label": "shear / load", "range": [0, 0.65]},
+               legend="upper-left", series=content)
 
 
 # --- height, gap, share, grooves ------------------------------------------------------------------
 
 def shape_table(study, points, key):
-    rows = [[f"{p.P:g}", p.n, p.mesh[key], p.trusted, p.mu, p.first_pad, p.period, p.branches(), p.l_c]
+    rows = [[stress(p.P), p.n, p.mesh[key], p.trusted, p.mu, p.first_pad, p.period, p.branches(), p.l_c]
             for p in sorted(points, key=lambda p: (p.P, p.n, p.mesh[key]))]
     study.table(f"Varied: {key}", ["P", "n", key, "mu to trust", "mu_M", "first whole pad", "period",
                                    "falls (pads that slide)", "l_c/L"], rows)
@@ -275,7 +281,7 @@ def study_shapes(study, points, plain):
     for p in sorted(points["grooves"], key=lambda p: (p.P, p.mesh["grooves"], p.mesh["width"],
                                                       p.mesh["depth"])):
         whole = of_pressure(plain, p.P)[0]
-        rows.append([f"{p.P:g}", int(p.mesh["grooves"]), p.mesh["width"], p.mesh["depth"], p.trusted,
+        rows.append([stress(p.P), int(p.mesh["grooves"]), p.mesh["width"], p.mesh["depth"], p.trusted,
                      f"{100 * (p.trusted / whole.trusted - 1):+.1f} %", p.mu, p.first_pad, p.period,
                      p.branches(), p.l_c])
     study.table("Shallow grooves; change against the block without", [
@@ -287,17 +293,17 @@ def study_shapes(study, points, plain):
         for label, of, key, keep in (
                 [(f"{n} pads", points["height"], "pad_height", lambda p, n=n: p.n == n) for n in (4, 8)] +
                 [(f"{g} grooves", points["grooves"], "depth", lambda p, g=g: near(p.mesh["width"], 0.05) and
-                  p.mesh["grooves"] == g) for g in (3, 7)]):
+                  p.mesh["grooves"] == g) for g in (7,)]):
             here = sorted((p for p in of_pressure(of, P) if keep(p) and p.trusted),
                           key=lambda p: p.mesh[key])
             color = color % 7 + 1
-            content.append({"label": f"~{{P}} = {P:g}, {label}", "x": [p.mesh[key] for p in here],
+            content.append({"label": f"~{{P}} = {stress(P)}, {label}", "x": [p.mesh[key] for p in here],
                             "y": [p.trusted / whole for p in here], "color": color, "line": "thin",
                             "marker": "circle" if "pads" in label else "square",
                             "filled": P < 0.005})
     study.plot("shape", title="mu to trust over that of the block without gaps", height=0.85,
                x={"label": "height of pads, depth of grooves / ~{L}_{0}", "range": [0, 0.16]},
-               y={"label": f"{MU} / {MU} without gaps"}, legend="lower-left",
+               y={"label": f"{MU} / {MU} without gaps", "range": [0.5, 1.1]}, legend="lower-left",
                series=content + [level(1, [0, 0.155], 0)])
 
 
@@ -338,7 +344,7 @@ def study_check(study, points, name):
             for n in sorted({p.n for p in points}):
                 found = {case_of(p): p for p in of_pressure(points, P) if p.n == n}
                 base = value(found["as computed"])
-                rows.append([f"{P:g}", n, base] + [
+                rows.append([stress(P), n, base] + [
                     change(value(found[c]), base) if c in found else None for c in cases[1:]])
         study.table(f"{name}: {what} with one thing changed", ["P", "n"] + cases, rows)
 
