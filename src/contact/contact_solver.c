@@ -17,7 +17,7 @@ bool contact_solver_create(const Interface *interface, ContactSolverDef def, Con
                            Error *err)
 {
     int64_t count = interface->count;
-    *solver = (ContactSolver){.def = def, .count = interface->count};
+    *solver = (ContactSolver){.def = def, .count = interface->count, .follows_path = true};
     solver->free = NEW_ARRAY(int32_t, count, err);
     solver->pivots = NEW_ARRAY(int32_t, count, err);
     solver->matrix = NEW_ARRAY(double, count *count, err);
@@ -345,7 +345,7 @@ bool contact_solve(ContactSolver *solver, const ContactProblem *problem, Contact
 {
     double started = clock_seconds();
     bool solved = solve_statuses(solver, problem, solution);
-    if (!solved && contact_path_follow(&solver->path, problem, solution)) {
+    if (!solved && solver->follows_path && contact_path_follow(&solver->path, problem, solution)) {
         solved = solve_statuses(solver, problem, solution);
         solver->rescued += solved;
     }

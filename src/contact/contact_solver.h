@@ -45,6 +45,7 @@ typedef struct ContactSolver {
     int64_t iterations;   // counted, Newton steps
     int64_t fallbacks;   // counted, solves in which only the worst status was changed
     ContactPath path;   // the fall-back; owned
+    bool follows_path;   // take it where Newton gives up; true unless the caller has shorter steps
     int64_t rescued;   // counted, solves in which the path found what Newton did not
     int64_t unsolved;   // counted
     double seconds;   // wall time spent
