@@ -35,8 +35,9 @@ class PadsStudy(unittest.TestCase):
         if command == "run":
             keys = {"output": "{history: false, figures: []}", "time.until.periodic": "true", **keys}
         words = [word for key, value in keys.items() for word in ("--set", f"{key}={value}")]
-        subprocess.run([PROGRAM, command, os.path.join(STUDY, scene), "-o", out, "--quiet", *words],
-                       check=True, timeout=300, stdout=subprocess.DEVNULL)
+        done = subprocess.run([PROGRAM, command, os.path.join(STUDY, scene), "-o", out, *words],
+                              check=True, timeout=300, capture_output=True, text=True)
+        self.said = done.stdout
         with open(os.path.join(out, result), encoding="utf-8") as file:
             return json.load(file)
 
@@ -59,7 +60,7 @@ class PadsStudy(unittest.TestCase):
         mu, table = {}, published()
         for n in (1, 3):
             run = self.run_program("run", "pads-b.yaml", "run.json", P=5.75e-5, n=n,
-                                   **{"time.until.U": 0.5 * 5.75e-5})
+                                   **{"time.until.U": 0.7 * 5.75e-5})
             mu[n] = run["results"]["mu_trusted"]
             self.assertAlmostEqual(mu[n] / table["5.75e-5", str(n)], 1, delta=0.01)
         self.assertGreater(mu[3], 1.15 * mu[1])
@@ -80,6 +81,7 @@ class PadsStudy(unittest.TestCase):
         run = self.run_pads(0.006, 11)
         path = self.run_program("stability", "pads.yaml", "stability.json", P=0.006, n=11,
                                 **{"time.until.U": 0.06})["results"]
+        self.assertIn("l_c alone", self.said)
         self.assertAlmostEqual(path["mu_M"] / run["mu_first_pad"], 1, delta=0.03)
         self.assertGreater(run["mu_M"], 1.05 * path["mu_M"])   # the first fall is arrested at a gap
         slid = [event["pads"] for event in run["pad_slidings"]]
@@ -98,6 +100,7 @@ class PadsStudy(unittest.TestCase):
         self.assertGreater(high, 1.1 * low)
         self.assertAlmostEqual(run["mu_trusted"] / low, 1, delta=0.01)
         self.assertAlmostEqual(run["mu_M"] / high, 1, delta=0.01)
+        self.assertRegex(self.said, rf"to trust +{run['mu_trusted']:.4f}")
 
 
 if __name__ == "__main__":
