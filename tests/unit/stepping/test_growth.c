@@ -102,6 +102,13 @@ static double *moving_matrix(const Case *test, BulkTerm term, const int32_t *mov
             if (term == BULK_DAMPING && moving[b] == dofs[0])
                 image[dofs[0]] -= slope * state->reaction[2 * i + 1];
         }
+        for (int32_t j = 0; j < test->interface.rod_count; j++) {   // springs and dampers
+            int32_t dof = test->system.interface_dofs[interface_rod(&test->interface, j)];
+            double softness = test->rod.softness[j];
+            if (moving[b] != dof || softness == 0 || !state->rod_touches[j]) continue;
+            if (term == BULK_STIFFNESS) image[dof] += 1 / softness;
+            if (term == BULK_DAMPING) image[dof] += test->rod.lag / softness;
+        }
         for (int32_t a = 0; a < count; a++) out[b * count + a] = image[moving[a]];
     }
     free(unit);
@@ -119,8 +126,9 @@ static int32_t dense_rates(const Case *test, Complex *rates)
         for (int32_t k = 0; k < test->interface.count; k++) {
             if (test->system.interface_dofs[k] != dof) continue;
             int32_t i = k / 2;
-            if (i >= test->interface.contact_count)
-                held = state->rod_touches[k - 2 * test->interface.contact_count];
+            int32_t j = k - 2 * test->interface.contact_count;
+            if (j >= 0)
+                held = state->rod_touches[j] && test->rod.softness[j] == 0;
             else
                 held = state->status[i] == CONTACT_STICK ||
                        (status_slips(state->status[i]) && k % 2);
@@ -215,6 +223,8 @@ static int32_t check_block(FrictionLaw law, double length, double pressure, bool
         free(rotation);
     }
     case_open(&test, growth_def(length, 1.06, test.interface.contact_count));
+    test.rod.softness[0] = reduced ? 0 : 0.4;   // rigid, or its end within a cell
+    test.rod.lag = 1.5;
     double factors[] = {0.03, 0.3, 0.7, 1, 2, 2.6};
     int32_t growing = 0;
     for (size_t p = 0; p < sizeof factors / sizeof *factors; p++) {
