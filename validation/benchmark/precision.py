@@ -1,125 +1,252 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Error against work: which mesh, element and tolerance buys what.
+"""Error against work: which mesh, element, scheme and tolerance buys what.
 
     validation/benchmark/precision.py [--quick] [-o FOLDER]
 
-Runs the paper's Figure 1 (set A, L = 1, P = 0.003, U to 0.012) over meshes, step tolerances,
-reduction tolerances and wave steps, and compares each with a converged reference, whose own error
-is its difference from the next best run. Leaves precision.md and precision.csv in FOLDER (default
-results/precision). Work is processor time of the whole run on a shape that is not cached, and
-steps. --quick: fewer cases, about two minutes.
-"""
+Set A, L = 1, at P = 0.006 (at the paper's 0.003 two periodic branches lie 3 % apart and errors
+between them say nothing), U to 0.012: four slidings. Errors, all relative: mu_M (mean of the
+periodic peaks), the first peak, l_c of `amontons stability`, the slip map (L1 in space and
+time up to the first sliding, over the slip it ends with) and mu while nothing slips fast (`smooth`).
+
+  space   meshes and elements against the finest two runs, whose difference is the reference's error
+  time    schemes and tolerances against SDIRK3 at 1e-6 on the same mesh
+  rest    reduction tolerance against the full path; the step allowed while waves are resolved
+
+Work is processor time of the whole run on a shape that is not cached, and steps. Leaves
+precision.md, precision.csv and figures in FOLDER (default results/precision). --quick: fewer cases,
+about two minutes."""
 import argparse
 import csv
+import json
 import math
 import os
+import subprocess
 import tempfile
 from pathlib import Path
 
 import h5py
 import numpy
 
-from measured_run import ROOT, commit, markdown_table, run
+from figure import draw, fitted_exponent
+from measured_run import PROGRAM, ROOT, commit, markdown_table, run
 
 SCENE = ROOT / "validation/paper/fig1.yaml"
-QUIET = ["output.figures=[]", "output.fields=none", "time.until.U=0.012"]
-SMOOTH = (2e-4, 1.5e-3)      # U between which nothing slips fast
-ELEMENTS = {"Q4": {"shape": "quad", "order": 1}, "Q9": {"shape": "quad", "order": 2},
-            "T3": {"shape": "triangle", "order": 1}, "T6": {"shape": "triangle", "order": 2}}
-REFERENCE = ("Q9", 64, {"grade_z": 4}, {"time.tolerance": 1e-4, "reduction.tolerance": 1e-3,
-                                        "time.wave_step": 0.1})
-SECOND = ("Q9", 48, {"grade_z": 4}, REFERENCE[3])   # tells the reference's own error
-HEAD = ["case", "nodes", "mu_M", "error of mu_M", "first peak", "slip, L1", "smooth", "steps",
-        "cpu s", "front"]
+QUIET = ["output.figures=[]", "output.fields=none", "load.pressure=0.006", "time.until.U=0.012"]
+SPEED = 1e-5                 # V
+SMOOTH = (2e-4, 3e-3)        # U between which nothing slips fast
+SLIPS = 800                  # instants at which slip is compared
+ELEMENTS = {"Q4": "shape: quad, order: 1", "Q8": "shape: quad, order: 2, incomplete: 1",
+            "Q9": "shape: quad, order: 2", "T3": "shape: triangle, order: 1",
+            "T6": "shape: triangle, order: 2"}
+ERRORS = ("mu_M", "first peak", "l_c", "slip", "smooth")
+FINE = {"time.tolerance": 1e-4}
+TIGHT = {"time.scheme": "sdirk3", "time.tolerance": 1e-6, "time.wave_step": 0.05}
 
 
-def settings_of(element, cells, grading, keys):
-    mesh = {"nx": cells, "nz": cells, "length": 1, "height": 0.5} | ELEMENTS[element] | grading
-    words = ", ".join(f"{name}: {value}" for name, value in mesh.items())
-    return QUIET + [f"mesh.set={{{words}}}"] + [f"{key}={value}" for key, value in keys.items()]
+def mesh(element, nx, nz=None, grade=1):
+    return (f"mesh.set={{length: 1, height: 0.5, nx: {nx}, nz: {nz or nx}, grade_z: {grade}, "
+            f"{ELEMENTS[element]}}}")
 
 
-def compute(case):
-    """What a run found: peaks, mu over U, slip over (U, x); and its cost."""
+def critical_length(mesh_words, folder):
+    """l_c on the way from rest, as `amontons stability` has it; NaN: none."""
+    words = [str(PROGRAM), "stability", str(SCENE), "--quiet", "--from", "start", "-o",
+             f"{folder}/stability", "--set", "load.pressure=0.006", mesh_words]
+    ended = subprocess.run(words, capture_output=True, text=True)
+    if ended.returncode != 0:
+        return math.nan
+    found = json.loads(Path(folder, "stability", "stability.json").read_text())["results"]
+    return found["l_c_over_L"] if found["l_c_over_L"] is not None else math.nan
+
+
+def compute(mesh_words, keys=(), with_length=False):
+    """What a run found (peaks, mu over U, slip over U and x) and its cost; None: it failed."""
+    settings = QUIET + [mesh_words] + [f"{key}={value}" for key, value in dict(keys).items()]
     with tempfile.TemporaryDirectory() as folder:
-        ended = run(SCENE, settings_of(*case), 600, into=folder + "/result")
+        os.environ["AMONTONS_CACHE"] = f"{folder}/cache"   # empty now: the run is the shape's first
+        ended = run(SCENE, settings, 900, into=folder + "/result")
         if ended.status != 0:
+            print(f"  {settings[-2:]}: {ended.said[-160:]}", flush=True)
             return None
         with h5py.File(f"{folder}/result/history.h5") as history:
             found = {"U": history["series/rod_displacement"][:], "mu": history["series/mu"][:],
-                     "x": history["nodes/x"][:], "slip": history["interface/slip"][:]}
-    results = ended.report["results"]
-    found["peaks"] = [peak["mu"] for peak in results["peaks"]]
-    rapid = [event["U_start"] for event in results["events"] if event["kind"] != "quasi-static"]
-    found |= {"first_event": rapid[0] if rapid else math.nan,
-              "steps": ended.report["steps"]["accepted"], "seconds": ended.seconds,
-              "nodes": len(found["x"])}
-    found["mu_M"] = numpy.mean(found["peaks"][1:]) if len(found["peaks"]) > 1 else math.nan
-    return found
+                     "x": history["nodes/x"][:], "slip": history["interface/slip"][:],
+                     "rate": history["interface/slip_rate"][:]}
+        found["l_c"] = critical_length(mesh_words, folder) if with_length else math.nan
+    results, steps = ended.report["results"], ended.report["steps"]
+    peaks = [peak["mu"] for peak in results["peaks"]]
+    rapid = [event["U_start"] for event in results["events"] if event["kind"] == "leading rapid"]
+    return found | {"mu_M": results["mu_M"] or math.nan, "peak": peaks[0] if peaks else math.nan,
+                    "slides": rapid[0] if rapid else math.nan, "steps": steps["accepted"],
+                    "solves": steps["contact_solves"], "seconds": ended.seconds,
+                    "nodes": len(found["x"])}
 
 
 def on_grid(found, U, x):
-    """Slip at the times U and places x, linear between."""
-    in_space = numpy.array([numpy.interp(x, found["x"], row) for row in found["slip"]])
-    return numpy.array([numpy.interp(U, found["U"], column) for column in in_space.T])
+    """Slip at the times U and places x: cubic (by slip and slip rate) in time, linear in space."""
+    after = numpy.clip(numpy.searchsorted(found["U"], U), 1, len(found["U"]) - 1)
+    length = found["U"][after] - found["U"][after - 1]
+    s = ((U - found["U"][after - 1]) / length)[:, None]
+    h = length[:, None]
+    old, new = found["slip"][after - 1], found["slip"][after]
+    rate_old, rate_new = (found["rate"][k] / SPEED * h for k in (after - 1, after))
+    at_nodes = (old * (1 + 2 * s) * (1 - s) ** 2 + rate_old * s * (1 - s) ** 2
+                + new * s ** 2 * (3 - 2 * s) + rate_new * s ** 2 * (s - 1))
+    return numpy.array([numpy.interp(x, found["x"], row) for row in at_nodes])
 
 
 def errors_of(found, reference):
-    """mu_M and first peak, relative; slip, L1 in space-time up to the first event, relative; mu
-    while nothing slips fast, largest, relative."""
-    U = numpy.linspace(0, 0.98 * reference["first_event"], 400)
-    x = numpy.linspace(0, 1, 161)
+    """In the order of ERRORS."""
+    U, x = numpy.linspace(0, 0.99 * reference["slides"], SLIPS), numpy.linspace(0, 1, 161)
     wanted = on_grid(reference, U, x)
-    slip = numpy.abs(on_grid(found, U, x) - wanted).sum() / numpy.abs(wanted).sum()
+    late = numpy.abs(wanted[-1]).sum() * SLIPS   # as if it had slipped so far all the time
+    slip = numpy.abs(on_grid(found, U, x) - wanted).sum() / late
     U = numpy.linspace(*SMOOTH, 100)
     wanted = numpy.interp(U, reference["U"], reference["mu"])
     smooth = numpy.abs(numpy.interp(U, found["U"], found["mu"]) - wanted).max() / wanted.max()
-    first = abs(found["peaks"][0] / reference["peaks"][0] - 1) if found["peaks"] else math.nan
-    return [abs(found["mu_M"] / reference["mu_M"] - 1), first, slip, smooth]
+    single = [abs(found[name] / reference[name] - 1) for name in ("mu_M", "peak", "l_c")]
+    return dict(zip(ERRORS, [*single, slip, smooth]))
 
 
-def cases(quick):
-    sizes = {"Q4": (10, 20, 40) if quick else (10, 20, 40, 60, 80), "Q9": (10, 20) if quick else
-             (5, 10, 20, 40), "T3": (20, 40), "T6": (10, 20) if quick else (10, 20, 40)}
-    listed = [(element, cells, {}, {}) for element, all_cells in sizes.items()
-              for cells in all_cells]
-    listed += [("Q4", cells, {"grade_z": 4, "nz": cells // 2}, {})
-               for cells in ((20, 40) if quick else (20, 40, 80))]
-    listed += [("Q9", cells, {"grade_z": 4, "nz": cells // 2}, {})
-               for cells in ((20,) if quick else (10, 20, 40))]
-    sweeps = {"time.tolerance": (1e-1, 1e-2, 1e-4), "reduction.tolerance": (1e-1, 3e-2, 1e-3),
-              "time.wave_step": (1, 0.5, 0.05)}
-    listed += [("Q9", 20, {}, {key: value}) for key, values in sweeps.items() for value in values]
-    return listed
+class Part:
+    """One table of the report: rows of cases against a reference."""
+
+    def __init__(self, title, reference, said):
+        self.title, self.reference, self.said, self.rows = title, reference, said, []
+
+    def add(self, name, series, size, found):
+        errors = errors_of(found, self.reference) if found else None
+        self.rows.append((name, series, size, found, errors))
+        if found:
+            print(f"{name}: " + " ".join(f"{e:.1e}" for e in errors.values())
+                  + f" {found['steps']} steps {found['seconds']:.2f} s", flush=True)
+
+    def done(self):
+        return [row for row in self.rows if row[3]]
+
+    def on_front(self, row):
+        """No other run is cheaper and at least as good in mu_M (to 0.1 %) and better in slip."""
+        return not any(other[3]["seconds"] < row[3]["seconds"] and
+                       max(other[4]["mu_M"], 1e-3) <= max(row[4]["mu_M"], 1e-3) and
+                       other[4]["slip"] < row[4]["slip"] for other in self.done())
+
+    def lines(self):
+        for row in self.rows:
+            name, _, _, found, errors = row
+            if not found:
+                yield [name, "failed"] + [""] * (len(ERRORS) + 4)
+                continue
+            yield [name, found["nodes"], *(f"{e:.1e}" if math.isfinite(e) else "" for e in
+                                           errors.values()), found["steps"], found["solves"],
+                   f"{found['seconds']:.2f}", "yes" if self.on_front(row) else ""]
+
+    def table(self):
+        head = ["case", "nodes", *ERRORS, "steps", "stages", "cpu s", "front"]
+        return f"### {self.title}\n\n{self.said}\n\n" + markdown_table(head, self.lines())
+
+    def curves(self, x_of, error):
+        """series -> (x, error), by size."""
+        found = {}
+        for _, series, _, run_found, errors in self.done():
+            if series and errors[error] > 0 and math.isfinite(errors[error]):
+                found.setdefault(series, ([], []))
+                found[series][0].append(x_of(run_found))
+                found[series][1].append(errors[error])
+        return {name: pair for name, pair in found.items() if len(pair[0]) > 1}
+
+    def orders(self, over):
+        """Fitted exponents of each series, error ~ size^-order."""
+        lines = []
+        for series in dict.fromkeys(row[1] for row in self.done() if row[1]):
+            members = [row for row in self.done() if row[1] == series]
+            line = [series]
+            for error in ERRORS:
+                pairs = [(row[2], row[4][error]) for row in members if row[4][error] > 0]
+                line.append(f"{-fitted_exponent(*zip(*pairs)):.1f}" if len(pairs) > 2 else "")
+            lines.append(line)
+        return f"Fitted orders in {over}:\n\n" + markdown_table(["series", *ERRORS], lines)
 
 
-def name_of(element, cells, grading, keys):
-    nz = grading.get("nz", cells)
-    graded = f" graded {grading['grade_z']}" if "grade_z" in grading else ""
-    changed = "".join(f", {key} {value}" for key, value in keys.items())
-    return f"{element} {cells}x{nz}{graded}{changed}"
+def differs(one, other):
+    return ", ".join(f"{name} {error:.1e}" for name, error in errors_of(one, other).items()
+                     if math.isfinite(error))
 
 
-def orders(rows, all_cases):
-    """Observed orders in the cell size, between neighbours of each uniform series."""
-    lines = []
-    for element in ELEMENTS:
-        series = [(case[1], row["errors"]) for case, row in zip(all_cases, rows)
-                  if case[0] == element and not case[2] and not case[3] and row]
-        for (coarse, before), (fine, after) in zip(series, series[1:]):
-            ratio = math.log(fine / coarse)
-            lines.append([f"{element} {coarse} to {fine}"] +
-                         [f"{math.log(max(a, 1e-12) / max(b, 1e-12)) / ratio:.1f}"
-                          for a, b in zip(before, after)])
-    return markdown_table(["cells", "mu_M", "first peak", "slip", "smooth"], lines)
+def space_part(quick):
+    best, second = (("Q9", 32), ("Q4", 64)) if quick else (("Q9", 60), ("Q4", 112))
+    reference = compute(mesh(*best), FINE, True)
+    other = compute(mesh(*second), FINE, True)
+    said = (f"Reference {best[0]} {best[1]}x{best[1]} at tolerance 1e-4, mu_M = "
+            f"{reference['mu_M']:.5f}, l_c/L = {reference['l_c']:.4f}; {second[0]} "
+            f"{second[1]}x{second[1]} differs from it by {differs(other, reference)}. "
+            f"All else as by default. `nodes`: rod.ends = nodes.")
+    part = Part("Meshes and elements", reference, said)
+    sizes = {"Q4": (10, 20, 40) if quick else (10, 20, 40, 80), "Q9": (10, 20) if quick else
+             (5, 10, 20, 40), "Q8": (10, 20, 40), "T3": (20, 40, 80), "T6": (10, 20, 40)}
+    if quick:
+        sizes = {name: sizes[name][:2] if name in ("Q8", "T3", "T6") else sizes[name]
+                 for name in sizes}
+    for element, all_cells in sizes.items():
+        for n in all_cells:
+            part.add(f"{element} {n}x{n}", element, n, compute(mesh(element, n), (), True))
+    for element, all_cells in {"Q4": (20, 40, 80), "Q9": (10, 20, 40)}.items():
+        for n in all_cells[:1] if quick else all_cells:
+            part.add(f"{element} {n}x{n // 2} graded", f"{element} graded", n,
+                     compute(mesh(element, n, n // 2, 4), (), True))
+    for n in (20, 40) if quick else (10, 20, 40, 80):
+        part.add(f"Q4 {n}x{n} nodes", "Q4 nodes", n,
+                 compute(mesh("Q4", n), {"rod.ends": "nodes"}, True))
+    return part
 
 
-def is_on_front(row, rows):
-    """No other run is both cheaper and better in mu_M and slip."""
-    return not any(other and other["seconds"] < row["seconds"] and
-                   max(other["errors"][0], 1e-3) <= max(row["errors"][0], 1e-3) and
-                   other["errors"][2] < row["errors"][2] for other in rows)
+def time_part(quick):
+    where = mesh("Q4", 20 if quick else 40)
+    reference = compute(where, TIGHT)
+    other = compute(where, TIGHT | {"time.scheme": "sdirk2", "time.tolerance": 1e-5})
+    said = (f"Q4 {20 if quick else 40} cells; reference SDIRK3 at tolerance 1e-6 with waves resolved "
+            f"in steps of 0.05 L/c; SDIRK2 at 1e-5 differs from it by {differs(other, reference)}. "
+            "Euler's energy ledger is left open (time.energy_tolerance 0.5).")
+    part = Part("Schemes and step tolerances", reference, said)
+    tolerances = (1e-1, 1e-2, 1e-3) if quick else (1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5)
+    for scheme in ("sdirk2", "sdirk3", "euler"):
+        for tolerance in tolerances:
+            if scheme == "euler" and tolerance < 3e-4:
+                continue
+            keys = {"time.scheme": scheme, "time.tolerance": tolerance}
+            if scheme == "euler":
+                keys["time.energy_tolerance"] = 0.5
+            found = compute(where, keys)
+            size = found["steps"] if found else 0
+            part.add(f"{scheme}, {tolerance:g}", scheme, size, found)
+    return part
+
+
+def rest_parts(quick):
+    where = mesh("Q4", 20 if quick else 40)
+    full = compute(where, {"reduction.use": "never"} | FINE)
+    reduction = Part("Reduction tolerance", full, "Against the full path, both at tolerance 1e-4.")
+    for tolerance in (1e-1, 1e-2) if quick else (3e-1, 1e-1, 3e-2, 1e-2, 1e-3, 1e-4):
+        reduction.add(f"{tolerance:g}", "", tolerance,
+                      compute(where, {"reduction.tolerance": tolerance} | FINE))
+    finest = compute(where, {"time.wave_step": 0.025} | FINE)
+    waves = Part("Steps while waves are resolved", finest,
+                 "In crossings of the block, against 0.025; tolerance 1e-4.")
+    for step in (0.4, 0.2) if quick else (0.8, 0.4, 0.2, 0.1, 0.05):
+        waves.add(f"{step:g}", "", step, compute(where, {"time.wave_step": step} | FINE))
+    return [reduction, waves]
+
+
+def figures(space, time, folder):
+    seconds, steps = (lambda f: f["seconds"]), (lambda f: f["steps"])
+    places = lambda f: f["nodes"]
+    for error, name in (("mu_M", "mu"), ("slip", "slip")):
+        draw(folder / f"precision-{name}", f"Error of {error} against work, P = 0.006",
+             "processor time, s", f"relative error of {error}", space.curves(seconds, error))
+    draw(folder / "precision-smooth", "Error of mu before anything slips fast",
+         "contact nodes", "relative error", space.curves(places, "smooth"))
+    draw(folder / "precision-time", "Error of the slip map against steps, Q4 40x40", "steps",
+         "relative error, same mesh", time.curves(steps, "slip"))
 
 
 def main():
@@ -127,35 +254,23 @@ def main():
     parser.add_argument("-o", "--output", type=Path, default=ROOT / "results/precision")
     parser.add_argument("--quick", action="store_true")
     options = parser.parse_args()
-    os.environ["AMONTONS_CACHE"] = ""
-    best, second = (REFERENCE, SECOND) if not options.quick else (
-        ("Q9", 32, *REFERENCE[2:]), ("Q9", 24, *REFERENCE[2:]))
-    reference, other = compute(best), compute(second)
-    own = errors_of(other, reference)
-    print(f"reference {name_of(*best)}: mu_M {reference['mu_M']:.5f}; the second best differs by "
-          + ", ".join(f"{error:.1e}" for error in own), flush=True)
-    all_cases, rows = cases(options.quick), []
-    for case in all_cases:
-        found = compute(case)
-        if found:
-            found["errors"] = errors_of(found, reference)
-            print(f"{name_of(*case)}: mu_M {found['mu_M']:.4f} "
-                  + " ".join(f"{error:.1e}" for error in found["errors"])
-                  + f" {found['steps']} steps {found['seconds']:.2f} s", flush=True)
-        rows.append(found)
-    lines = [[name_of(*case), row["nodes"], f"{row['mu_M']:.4f}",
-              *(f"{error:.1e}" for error in row["errors"]), row["steps"], f"{row['seconds']:.2f}",
-              "yes" if is_on_front(row, rows) else ""] if row else
-             [name_of(*case), "failed"] + [""] * 8 for case, row in zip(all_cases, rows)]
     options.output.mkdir(parents=True, exist_ok=True)
-    text = (f"# Error against work\n\nversion {commit()}; reference {name_of(*best)}, mu_M "
-            f"{reference['mu_M']:.5f}; {name_of(*second)} differs from it by "
-            f"{', '.join(f'{error:.1e}' for error in own)} (mu_M, first peak, slip, smooth), all "
-            f"errors relative.\n\n" + markdown_table(HEAD, lines)
-            + "\n\nObserved orders in the cell size:\n\n" + orders(rows, all_cases) + "\n")
+    time = time_part(options.quick)
+    rest = rest_parts(options.quick)
+    space = space_part(options.quick)
+    text = (f"## Error against work\n\nVersion {commit()}; set A, P = 0.006, L = 1, U to 0.012. "
+            "Errors are relative.\n\n"
+            + space.table() + "\n\n" + space.orders("the number of cells") + "\n\n"
+            + time.table() + "\n\n" + time.orders("the number of steps") + "\n\n"
+            + "\n\n".join(part.table() for part in rest) + "\n\n"
+            + "\n".join(f"![{name}](precision-{name}.png)"
+                        for name in ("mu", "slip", "smooth", "time")) + "\n")
     (options.output / "precision.md").write_text(text)
     with open(options.output / "precision.csv", "w", newline="") as file:
-        csv.writer(file).writerows([HEAD, *lines])
+        writer = csv.writer(file)
+        for part in (space, time, *rest):
+            writer.writerows([part.title, *line] for line in part.lines())
+    figures(space, time, options.output)
     print(f"{options.output}/precision.md")
 
 
