@@ -132,7 +132,9 @@ static const SceneKey keys[] = {
                  "takes far longer.",
      .choices = scheme_choices},
     {"time.accuracy", KEY_CHOICE, offsetof(Scene, time.accuracy), "1", RANGE_ANY, "standard",
-     .sentence = "Sets the step tolerance where time.tolerance does not.",
+     .sentence = "Error allowed to steps (1e-2, 1e-3, 1e-4) and to the reduction where their own "
+                 "keys do not say. `draft` has mu_M within 3 % on 40 cells along the contact, "
+                 "`standard` within 1 % on 80; `fine` is for references.",
      .choices = accuracy_choices},
     {"time.tolerance", KEY_NUMBER, offsetof(Scene, time.tolerance), "1", RANGE_PART_OR_ZERO, "0",
      .sentence = "Relative error allowed to a step; 0: by time.accuracy."},
