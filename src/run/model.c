@@ -8,7 +8,7 @@
 #include <math.h>
 
 // Local error of u in one step, relative to the slip that the drop of friction can drive,
-// (mu_S - mu_K) p H / E. Set A, 40x40: 1e-2 moves mu_M by 8e-4 of itself, 1e-3 by 5e-4, and the slip
+// (mu_S - mu_K) p H / E. Set A, 40x40: 1e-2 moves mu_M by 8e-4 of itself, 1e-3 by 5e-4, the slip
 // map up to the first sliding by 5e-3 and 2.6e-3 (validation/benchmark).
 static const double TOLERANCES[] = {
     [ACCURACY_DRAFT] = 1e-2, [ACCURACY_STANDARD] = 1e-3, [ACCURACY_FINE] = 1e-4};

@@ -10,7 +10,7 @@ from measured_run import PROGRAM
 MARKERS = ("circle", "square", "triangle", "down")
 
 
-def draw(path, title, x_label, y_label, curves):
+def draw(path, title, x_label, y_label, curves, legend="upper-left"):
     """PATH.yaml and PATH.png; curves: name -> (x, y), both above 0."""
     series = []
     for number, (name, (x, y)) in enumerate(curves.items()):
@@ -18,7 +18,7 @@ def draw(path, title, x_label, y_label, curves):
                        "color": 1 + number % 7, "marker": MARKERS[number % len(MARKERS)],
                        "filled": number < 4, "line": "thin"})
     plot = {"title": title, "x": {"label": x_label, "scale": "log"},
-            "y": {"label": y_label, "scale": "log"}, "legend": "upper-left", "series": series}
+            "y": {"label": y_label, "scale": "log"}, "legend": legend, "series": series}
     file = path.with_suffix(".yaml")
     file.write_text(json.dumps(plot, indent=1, ensure_ascii=False) + "\n")
     subprocess.run([str(PROGRAM), "render", str(file)], check=True, stdout=subprocess.DEVNULL)
