@@ -55,12 +55,12 @@ static void test_duration(void **state)
     Fixture fixture;
     fixture_build(LONG, &fixture);
     assert_false(borne(&fixture));
-    slip(&fixture, 1, 0.1, PRESSURE);
+    slip(&fixture, 1, 0.05, PRESSURE);
     see(&fixture, 0.99 * LONG);
     assert_false(borne(&fixture));
     see(&fixture, 0.12 * LONG);
     assert_true(borne(&fixture));
-    slip(&fixture, 2, 0.1, PRESSURE);   // a node that was not seen to move
+    slip(&fixture, 2, 0.05, PRESSURE);   // a node that was not seen to move
     assert_false(borne(&fixture));
     see(&fixture, LONG);
     assert_false(borne(&fixture));
@@ -71,7 +71,7 @@ static void test_duration(void **state)
     fixture_destroy(&fixture);
 
     fixture_build(0, &fixture);
-    slip(&fixture, 1, 0.1, PRESSURE);
+    slip(&fixture, 1, 0.05, PRESSURE);
     see(&fixture, LONG);
     assert_false(borne(&fixture));
     fixture_destroy(&fixture);
@@ -84,16 +84,16 @@ static void test_weakening(void **state)
     (void)state;
     Fixture fixture;
     fixture_build(LONG, &fixture);
-    slip(&fixture, 3, 0.1, PRESSURE);
+    slip(&fixture, 3, 0.05, PRESSURE);
     see(&fixture, 2 * LONG);
-    slip(&fixture, 3, 0.1, 1.019 * PRESSURE);
+    slip(&fixture, 3, 0.05, 1.019 * PRESSURE);
     assert_true(borne(&fixture));
-    slip(&fixture, 3, 0.1, 1.021 * PRESSURE);
+    slip(&fixture, 3, 0.05, 1.021 * PRESSURE);
     assert_false(borne(&fixture));
     double pressing = PRESSURE;
     for (int32_t k = 0; k < 100; k++) {   // to 2.7 times as much
         pressing *= 1.01;
-        slip(&fixture, 3, 0.1, pressing);
+        slip(&fixture, 3, 0.05, pressing);
         see(&fixture, 0.1 * LONG);
         assert_false(borne(&fixture) && k > 2);
     }
@@ -107,13 +107,13 @@ static void test_running(void **state)
     (void)state;
     Fixture fixture;
     fixture_build(LONG, &fixture);
-    slip(&fixture, 0, 0.1, PRESSURE);
+    slip(&fixture, 0, 0.05, PRESSURE);
     see(&fixture, 2 * LONG);
     assert_true(borne(&fixture));
     slip(&fixture, 0, 0.9, PRESSURE);
     assert_false(borne(&fixture));
     see(&fixture, 1);
-    slip(&fixture, 0, 0.1, PRESSURE);
+    slip(&fixture, 0, 0.05, PRESSURE);
     assert_false(borne(&fixture));
     see(&fixture, 5 * LONG);
     assert_false(borne(&fixture));
