@@ -78,3 +78,9 @@ WaveSpeeds material_speeds(const Material *material)
     speeds.rayleigh = speeds.shear * sqrt(0.5 * (low + high));
     return speeds;
 }
+
+double material_slip_speed(const Material *material)
+{
+    WaveSpeeds speeds = material_speeds(material);
+    return fmin(speeds.longitudinal, 2 * speeds.shear);
+}

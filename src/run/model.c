@@ -45,7 +45,7 @@ bool model_prepare_steps(Simulation *simulation, Error *err)
     const Scene *scene = &simulation->scene;
     StepSizes sizes = {.slip = friction_slip(simulation),
                        .crossing = simulation->model.length /
-                                   material_speeds(&simulation->material).longitudinal,
+                                   material_slip_speed(&simulation->material),
                        .tolerance = TOLERANCES[scene->time.accuracy]};
     StepControlDef def = step_rule(scene, &sizes);
     def.relax_step = simulation->scales.time;

@@ -144,7 +144,7 @@ static const SceneKey keys[] = {
      .sentence = "Shortest step; 0: from the block's size and wave speeds."},
     {"time.wave_step", KEY_NUMBER, offsetof(Scene, time.wave_step), "1", RANGE_PART, "0.2",
      .sentence = "Longest step while slip is not certified to be stable, in wave crossings of the "
-                 "block, L / c_L."},
+                 "block, L / c_L (L / 2 c_S where that is longer)."},
     {"time.watch", KEY_NUMBER, offsetof(Scene, time.watch), "1", RANGE_NOT_NEGATIVE, "20",
      .sentence = "How long the swings of slow slip beyond l_sc are followed at each position of "
                  "the front, in wave crossings of the block; after that those that stay small are "

@@ -91,13 +91,17 @@ static bool record_step(Simulation *simulation, Error *err)
     if (!isfinite(seen.mu) || !isfinite(seen.max_slip_rate))
         FAIL(err, ERROR_COMPUTE, "at t = %g mu is %g and the largest slip rate %g", seen.t, seen.mu,
              seen.max_slip_rate);
+    static const char *const usual =
+        "allow more if something hits the block (the nodes that are hit lose their energy, less on "
+        "a finer mesh), else lower time.tolerance";
+    static const char *const warned =
+        "no step may close it: the problem is ill-posed, or not resolved, as the run was warned";
     if (!(seen.energy_error <= simulation->scene.time.energy_tolerance))
         FAIL(err, ERROR_COMPUTE,
              "at t = %g the energy ledger does not close: %.3g of the energy turned over is "
-             "missing, time.energy_tolerance allows %g; allow more if something hits the block "
-             "(the nodes that are hit lose their energy, less on a finer mesh), else lower "
-             "time.tolerance",
-             seen.t, seen.energy_error, simulation->scene.time.energy_tolerance);
+             "missing, time.energy_tolerance allows %g; %s",
+             seen.t, seen.energy_error, simulation->scene.time.energy_tolerance,
+             simulation->warnings.count > 0 ? warned : usual);
 cleanup:
     simulation->timing.output += clock_seconds() - started;
     return error_is_clean(err);

@@ -116,7 +116,7 @@ static bool open_path(StabilityPath *path, Error *err)
     for (int32_t j = 0; j < interface->rod_count; j++) simulation->rod.origin[j] += path->U_start;
     simulation->rod.velocity = slip / step;
     step_control_restart(&path->control);
-    double speed = material_speeds(&simulation->material).longitudinal;
+    double speed = material_slip_speed(&simulation->material);
     GrowthDef growth = growth_def(simulation->model.length, speed, interface->contact_count);
     growth.slowest = fmin(growth.slowest, speed / (4 * simulation->model.height));   // a tall one
     path->growth = growth_create(&block, &growth, err);

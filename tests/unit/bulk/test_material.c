@@ -96,6 +96,24 @@ static void test_rayleigh(void **state)
     }
 }
 
+// c_L while that is below 2 c_S: in plane stress for every nu (c_L^2/c_S^2 = 2/(1 - nu)), in plane
+// strain up to nu = 1/3 (2 (1 - nu)/(1 - 2 nu)).
+static void test_slip_speed(void **state)
+{
+    (void)state;
+    for (int strain = 0; strain < 2; strain++) {
+        for (double nu = -0.5; nu < 0.5; nu += 0.04) {
+            Material material = material_default();
+            material.poisson = nu;
+            material.plane_strain = strain;
+            double shear = sqrt(0.5 / (1 + nu));
+            double square = strain ? 2 * (1 - nu) / (1 - 2 * nu) : 2 / (1 - nu);
+            assert_near("speed", material_slip_speed(&material), shear * sqrt(fmin(square, 4)),
+                        1e-12);
+        }
+    }
+}
+
 static void test_default_is_the_paper(void **state)
 {
     (void)state;
@@ -107,9 +125,10 @@ static void test_default_is_the_paper(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_hooke),    cmocka_unit_test(test_plane_strain_is_plane_stress),
-        cmocka_unit_test(test_viscous),  cmocka_unit_test(test_speeds),
-        cmocka_unit_test(test_rayleigh), cmocka_unit_test(test_default_is_the_paper),
+        cmocka_unit_test(test_hooke),      cmocka_unit_test(test_plane_strain_is_plane_stress),
+        cmocka_unit_test(test_viscous),    cmocka_unit_test(test_speeds),
+        cmocka_unit_test(test_rayleigh),   cmocka_unit_test(test_default_is_the_paper),
+        cmocka_unit_test(test_slip_speed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
