@@ -21,8 +21,10 @@ static const double ASIDE = 0.5;   // of a step: Newton may lead so far from its
 static const double BEND = 0.5;   // of v_c, or of its velocity: a node may go so far in a step
 static const double RAY = 1e6;   // of tau at the start: the path does not come back
 enum {
-    STEPS_LEAST = 100,   // and per unknown; some ten times what hard problems were seen to need
-    STEPS_EACH = 200,
+    PATIENCE = 600,   // steps; with mu_S = 1.2 on 40 cells 457 was the longest. Longer paths
+    // (friction 5 on 12 pads: thousands) cost more than smaller steps in their place; when those do
+    // not help either, patience doubles each time, up to so many for each unknown:
+    PATIENCE_MAX = 200,
     CORRECTIONS = 8,   // Newton steps back onto the path
     TRIALS = 60,   // points tried in a step
     STARTS = 200,   // pressures, and statuses of rod nodes, tried at the start
@@ -33,7 +35,7 @@ enum { ALL = -1, NOWHERE = -2 };   // in place of a node
 bool contact_path_create(const Interface *interface, ContactPath *path, Error *err)
 {
     int64_t count = interface->count;
-    *path = (ContactPath){.count = interface->count};
+    *path = (ContactPath){.count = interface->count, .patience = PATIENCE};
     path->free = NEW_ARRAY(int32_t, count, err);
     path->place = NEW_ARRAY(int32_t, count, err);
     path->pivots = NEW_ARRAY(int32_t, count + 1, err);
@@ -479,10 +481,9 @@ static bool start_pressed(Walk *walk)
 static bool walk_path(Walk *walk)
 {
     ContactPath *path = walk->path;
-    int32_t steps_max = STEPS_LEAST + STEPS_EACH * path->count;
     Bound reached = {.node = NOWHERE};
     double highest = RAY * walk->tau;
-    for (int32_t step = 0; step < steps_max && walk->tau < highest; step++) {
+    for (int32_t step = 0; step < path->patience && walk->tau < highest; step++) {
         if (step > 0 && !find_tangent(walk)) return false;
         path->steps++;
         if (!advance(walk, &reached)) return false;
@@ -501,5 +502,8 @@ bool contact_path_follow(ContactPath *path, const ContactProblem *problem,
     Walk walk = {.path = path, .problem = problem, .at = solution};
     if (!(problem->law->mu_static > 0)) return false;
     find_scales(&walk);
-    return start_pressed(&walk) && walk_path(&walk);
+    bool led = start_pressed(&walk) && walk_path(&walk);
+    int32_t most = PATIENCE_MAX * path->count;
+    path->patience = led || path->patience >= most ? PATIENCE : 2 * path->patience;
+    return led;
 }

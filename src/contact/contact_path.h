@@ -29,6 +29,7 @@ typedef struct ContactPath {
     double *velocity_rate, *reaction_rate;   // [count] along the tangent
     double *kept;   // [count] free unknowns at the step's start
     uint8_t *fast;   // [contact_count] slips beyond the kink of the linear law
+    int32_t patience;   // steps after which the next path is given up
     int64_t steps;   // counted: bounds reached, and points between
 } ContactPath;
 
@@ -36,7 +37,7 @@ bool contact_path_create(const Interface *interface, ContactPath *path, Error *e
 void contact_path_destroy(ContactPath *path);
 
 // The solution at the path's end, to some digits, in `solution`; what stands there before does not
-// matter. false: no path, or it was not followed to its end. Allocates nothing.
+// matter. false: no path, or it was too long to be followed to its end. Allocates nothing.
 bool contact_path_follow(ContactPath *path, const ContactProblem *problem,
                          ContactSolution *solution);
 

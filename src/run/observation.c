@@ -3,7 +3,21 @@
 
 #include "base/dense.h"
 
+#include <float.h>
 #include <math.h>
+
+// Velocities of contact are judged against the rod's, and this many times what rounding leaves of a
+// displacement divided by the step: less cannot be told from nothing.
+static const double ROUNDINGS = 1e6;
+
+// The velocity that counts as 1 in the conditions of the last stage.
+static double judged_velocity(const StepControl *control, const ObservationScales *scales)
+{
+    const State *state = &control->now;
+    double rounding = DBL_EPSILON * dense_max_abs(state->displacement, state->dof_count) /
+                      control->scheme.reach;
+    return fmax(scales->slip_velocity, ROUNDINGS * rounding);
+}
 
 static double slip_front(const Interface *interface, const State *state)
 {
@@ -74,7 +88,7 @@ Observation observe(const StepControl *control, const ObservationScales *scales)
                                   .bound = scheme->bound};
         ContactResidual residual = contact_residual(&problem, state->slip_rate, state->reaction,
                                                     scales->load / interface->contact_count,
-                                                    scales->slip_velocity);
+                                                    judged_velocity(control, scales));
         seen.contact_error = contact_residual_max(&residual);
         seen.equation_error = control->outcome.residual / scales->load;
     }

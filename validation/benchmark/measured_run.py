@@ -49,10 +49,12 @@ def late_mean(path):
         return math.nan
     with h5py.File(path) as history:
         time, mu = history["series/time"][:], history["series/mu"][:]
-    late = time >= time[-1] / 2
-    if late.sum() < 2:
+    half = time[-1] / 2
+    if not half > 0:
         return math.nan
-    return float(numpy.trapz(mu[late], time[late]) / numpy.ptp(time[late]))
+    late = time > half   # steps may be long: the half begins within one
+    at, value = [half, *time[late]], [numpy.interp(half, time, mu), *mu[late]]
+    return float(numpy.trapz(value, at) / half)
 
 
 def run(scene, settings, cpu_limit=60, into=None):
