@@ -35,8 +35,8 @@ typedef struct WaveSpeeds {
 // Rayleigh's equation is solved to rounding (Achenbach, Wave Propagation in Elastic Solids, 5.11).
 WaveSpeeds material_speeds(const Material *material);
 
-// Whose crossings time what slip does: c_L, but at most 2 c_S. (c_L grows without bound towards nu =
-// 1/2 in plane strain, and nothing that slips goes with it.)
+// Whose crossings time what slip does: c_L, but at most 2 c_S. (c_L grows without bound towards
+// nu = 1/2 in plane strain, and nothing that slips goes with it.)
 double material_slip_speed(const Material *material);
 
 #endif
