@@ -21,10 +21,7 @@ static const double ASIDE = 0.5;   // of a step: Newton may lead so far from its
 static const double BEND = 0.5;   // of v_c, or of its velocity: a node may go so far in a step
 static const double RAY = 1e6;   // of tau at the start: the path does not come back
 enum {
-    PATIENCE = 600,   // steps; with mu_S = 1.2 on 40 cells 457 was the longest. Longer paths
-    // (friction 5 on 12 pads: thousands) cost more than smaller steps in their place; when those do
-    // not help either, patience doubles each time, up to so many for each unknown:
-    PATIENCE_MAX = 200,
+    STEPS_EACH = 200,   // steps for each unknown; with friction 5 on 12 pads 170 were needed
     CORRECTIONS = 8,   // Newton steps back onto the path
     TRIALS = 60,   // points tried in a step
     STARTS = 200,   // pressures, and statuses of rod nodes, tried at the start
@@ -35,7 +32,7 @@ enum { ALL = -1, NOWHERE = -2 };   // in place of a node
 bool contact_path_create(const Interface *interface, ContactPath *path, Error *err)
 {
     int64_t count = interface->count;
-    *path = (ContactPath){.count = interface->count, .patience = PATIENCE};
+    *path = (ContactPath){.count = interface->count};
     path->free = NEW_ARRAY(int32_t, count, err);
     path->place = NEW_ARRAY(int32_t, count, err);
     path->pivots = NEW_ARRAY(int32_t, count + 1, err);
@@ -483,7 +480,7 @@ static bool walk_path(Walk *walk)
     ContactPath *path = walk->path;
     Bound reached = {.node = NOWHERE};
     double highest = RAY * walk->tau;
-    for (int32_t step = 0; step < path->patience && walk->tau < highest; step++) {
+    for (int32_t step = 0; step < STEPS_EACH * path->count && walk->tau < highest; step++) {
         if (step > 0 && !find_tangent(walk)) return false;
         path->steps++;
         if (!advance(walk, &reached)) return false;
@@ -502,8 +499,5 @@ bool contact_path_follow(ContactPath *path, const ContactProblem *problem,
     Walk walk = {.path = path, .problem = problem, .at = solution};
     if (!(problem->law->mu_static > 0)) return false;
     find_scales(&walk);
-    bool led = start_pressed(&walk) && walk_path(&walk);
-    int32_t most = PATIENCE_MAX * path->count;
-    path->patience = led || path->patience >= most ? PATIENCE : 2 * path->patience;
-    return led;
+    return start_pressed(&walk) && walk_path(&walk);
 }

@@ -29,7 +29,6 @@ typedef struct ContactPath {
     double *velocity_rate, *reaction_rate;   // [count] along the tangent
     double *kept;   // [count] free unknowns at the step's start
     uint8_t *fast;   // [contact_count] slips beyond the kink of the linear law
-    int32_t patience;   // steps after which the next path is given up
     int64_t steps;   // counted: bounds reached, and points between
 } ContactPath;
 
