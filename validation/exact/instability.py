@@ -125,7 +125,8 @@ REAL = {"duration": 3.5, "rank": 4, "disturb": 1e-9, "after": 1.0}
 
 
 def column(study):
-    """Growth rates below, between and above the thresholds, on one mesh with one step."""
+    """Growth rates below, between and above the thresholds, on one mesh with one step. Allowed is what
+    the cells leave, which converges at order 2 (below): more, the closer s is to being born."""
     cases = [(0.2, "growing oscillation", 0.01, 8, 8, 1e-3)]
     if not study.quick:
         cases += [(0.03, "decaying oscillation", 0.01, 8, 8, 1e-3), (0.5, "growing fast", 0.01, 5, 8, 2e-3),

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from harness import Run
+from harness import Run, observed_order
 
 HERE = Path(__file__).resolve().parent
 GROUP = "wave speeds"
@@ -91,14 +91,11 @@ def run(study):
         cells = [40] if study.quick else [20, 40, 80]
         speeds = [surface_speed(study, plane, n) for n in cells]
         errors = [abs(s / exact["c_R"] - 1) for s in speeds]
+        order = {} if study.quick else {
+            "order": "1 expected", "seen": observed_order([1 / n for n in cells], errors), "least": 0.8,
+            "note": "error with 20, 40, 80 cells: " + ", ".join(f"{e:.1e}" for e in errors)}
         study.add(GROUP, f"pulse along a free surface, plane {plane}, {cells[-1]} cells", "c_R",
-                  exact["c_R"], speeds[-1], errors[-1], 2e-2 if study.quick else 1e-2,
-                  note="" if study.quick else "error with 20, 40, 80 cells: "
-                  + ", ".join(f"{e:.1e}" for e in errors))
-        if not study.quick:
-            study.add(GROUP, f"pulse along a free surface, plane {plane}", "error falls with the mesh",
-                      "each smaller than the one before", ", ".join(f"{e:.1e}" for e in errors),
-                      max(errors[1] / errors[0], errors[2] / errors[1]), 1)
+                  exact["c_R"], speeds[-1], errors[-1], 2e-2 if study.quick else 1e-2, **order)
     study.control(GROUP, "wrong-plane", "moduli of plane strain in plane stress and the reverse", planes)
 
 

@@ -13,12 +13,14 @@ REGULAR = {"shape": "triangle", "nx": 20, "nz": 10}
 GRADED = {"shape": "triangle", "nx": 24, "nz": 12, "grade_x": 6, "grade_z": 8, "layout": "alternate"}
 FREE = {"shape": "triangle", "nx": 26, "nz": 8, "layout": "free"}
 PADS = {"shape": "triangle", "n": 4}
+SQUARE = {"shape": "triangle", "length": 0.04, "height": 0.04, "nx": 32, "nz": 32}
 MESHES = {"regular": REGULAR, "graded": GRADED, "unstructured": FREE}
+OTHERS = {"four pads": PADS, "32x32": SQUARE}
 
 # Nothing but rounding tells the two apart: 1e-9 of the largest displacement leaves room for four
 # digits of conditioning, sums and stresses have one more. With contact the statuses must be equal too.
 CASES = [("bonded", "block"), ("traction", "block"), ("uplift", "block"), ("friction", "block"),
-         ("pads", "pads")]
+         ("pads", "pads"), ("ssnv128", "block")]
 TOLERANCE = 1e-9
 
 
@@ -30,7 +32,8 @@ def solve_both(study, case, geo, parameters, order):
     make_mesh(folder / "ours.msh", geo, parameters, order)
     theirs = freefem(FREEFEM / f"{case}.edp", order, folder / "linear.msh", curves,
                      folder / "freefem.txt")
-    ours = Static(study, FREEFEM / f"{case}.yaml", f"static-{case}",
+    scene = FREEFEM / f"{case}.yaml" if case != "ssnv128" else FREEFEM.parent / "exact/ssnv128.yaml"
+    ours = Static(study, scene, f"static-{case}",
                   {"mesh.file": folder / "ours.msh", "mesh.set": "{}"})
     assert len(theirs) == len(ours.position)
     stress = np.loadtxt(folder / "freefem.txt.stress")
@@ -39,7 +42,7 @@ def solve_both(study, case, geo, parameters, order):
 
 
 def compare(study, case, geo, mesh_name, order):
-    parameters = PADS if geo == "pads" else MESHES[mesh_name]
+    parameters = {**MESHES, **OTHERS}[mesh_name]
     ours, theirs, stress, vertices = solve_both(study, case, geo, parameters, order)
     element = "T3" if order == 1 else "T6"
     label = f"{case}, {mesh_name}, {element}"
@@ -60,7 +63,7 @@ def compare(study, case, geo, mesh_name, order):
         sums["rod force"] = (theirs[rod, 4].sum(), ours.results["rod_force"])
     for name, (reference, value) in sums.items():
         study.add(GROUP, label, name, reference, value, relative(value, reference), 10 * TOLERANCE)
-    if case in ("friction", "pads", "uplift"):
+    if case in ("friction", "pads", "uplift", "ssnv128"):
         states = "{open} open, {sticking} stick, {slipping} slip".format(**ours.results)
         theirs_open = int((np.abs(contact[:, 4:6]).max(axis=1) <= 1e-10 * largest).sum())
         study.add(GROUP, label, "open contact nodes", theirs_open, ours.results["open"],
@@ -140,7 +143,7 @@ def run(study):
     if not have_freefem():
         raise RuntimeError("FreeFem++ is not installed: ./amontons validate installs it")
     for case, geo in CASES:
-        names = ["four pads"] if geo == "pads" else list(MESHES)
+        names = {"pads": ["four pads"], "ssnv128": ["32x32"]}.get(case, list(MESHES))
         if study.quick:
             names = names[-1:]
         for name in names:
