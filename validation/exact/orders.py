@@ -45,15 +45,22 @@ def in_space(study):
 
 # --- integrators ----------------------------------------------------------------------------------
 
-# Expected orders: damped, undamped, stick-slip. Viscous forces of `explicit` lag half a step. What is
-# not named here is asked for order 1.
-ORDERS = {"sdirk2": (2, 2, 2), "explicit": (1, 2, 1)}
+# Expected orders: damped, undamped, stick-slip (2 at most: an event falls within a step). Viscous
+# forces of `explicit` lag half a step. What is not named here is asked for order 1.
+ORDERS = {"sdirk2": (2, 2, 2), "sdirk3": (3, 3, 2), "euler": (1, 1, 1), "explicit": (1, 2, 1)}
+# How far the ledger may be off on a column that is loaded at once, at any time (and by its end, with
+# the coarsest steps). Of a first step `euler` loses what it gives to motion, a third of what is known
+# by then, and goes on to damp at order 1; `explicit` knows velocities half a step before displacements.
+LEDGERS = {"explicit": (0.7, 2e-2), "euler": (0.34, 3e-2)}
 EXPLICIT_STEPS = 2000   # the least it takes for a run: one a record
 
 
 def step_sizes(scheme, end, coarsest, count):
-    """Steps halved again and again, as many as the scheme allows."""
-    first = end / EXPLICIT_STEPS if scheme == "explicit" else coarsest
+    """Steps halved again and again, from the longest that show the scheme's order: with `explicit` the
+    longest it takes, an eighth of the others' where the order is 1."""
+    first = coarsest / (8 if ORDERS.get(scheme, (1,))[0] == 1 else 1)
+    if scheme == "explicit":
+        first = end / EXPLICIT_STEPS
     return [first / 2**k for k in range(count)]
 
 
@@ -64,9 +71,9 @@ def slope(steps, errors):
 
 def smooth(study, scheme):
     """The loaded column of 8 cells against the exact motion of the same 8 cells: nothing but steps is
-    left. The load jumps at t = 0 and never after: the motion of the cells is smooth. (`explicit` knows
-    velocities half a step before displacements: of its first steps its ledger knows half.)"""
+    left. The load jumps at t = 0 and never after: the motion of the cells is smooth."""
     curves, (damped, undamped, _) = {}, ORDERS.get(scheme, (1, 1, 1))
+    ever, late = LEDGERS.get(scheme, (2e-2, 2e-2))
     modulus, end = 1 / (1 - 0.34**2), 1.5
     for name, eta, expected in (("damped", 0.1, damped), ("undamped", 0.0, undamped)):
         errors, steps = [], step_sizes(scheme, end, 0.02, 3)
@@ -75,12 +82,12 @@ def smooth(study, scheme):
                 "time.scheme": scheme, "mesh.set": mesh_set("Q4", length=0.25, height=1, nx=1, nz=8),
                 "material.eta1": eta, "material.eta2": eta, "time.until.t": end, "time.step_max": step,
                 "time.step_min": step, "output.fields": "{every_t: 0.25}", "reduction.use": "never"},
-                ledger=0.7 if scheme == "explicit" else 2e-2)
+                ledger=ever)
             frames = [(u[:, 1], -column_exact(points[:, 1], t, modulus, 2 * eta, cells=8))
                       for t, points, u, _ in run.frames()]
             fed = PRESSURE * 0.25 * max(np.abs(u).max() for u, _ in frames)
-            study.check(f"order-{scheme}", "energy ledger at the end", abs(run["energy_error"][-1]) / fed,
-                        2e-2)
+            lost = abs(run["energy_error"][-1])
+            study.check(f"order-{scheme}", "energy ledger at the end", lost / fed, late)
             errors.append(max(relative(*pair) for pair in frames[1:]))
         study.add(GROUP, f"{scheme}, {name} column of 8 cells", "displacement, steps halved twice",
                   "exact in time", ", ".join(f"{e:.1e}" for e in errors), errors[-1], 1e-2,
@@ -96,7 +103,7 @@ def with_events(study, scheme):
     itself: a stop is late or early by part of a step, in which the mass moves by dt^2 at most, so
     order 2 is kept, but with a factor that depends on where in its step each event falls: the slope
     through all errors is taken. The rod's start from rest takes m V^2 where m V^2/2 is stored, a third
-    of what the ledger knows by then; later it must close."""
+    of what the ledger knows by then; later it must close (with `euler` to its order 1)."""
     expected, end = ORDERS.get(scheme, (1, 1, 1))[2], 36.0
     steps, errors = step_sizes(scheme, end, 0.32, 4 if study.quick else 6), []
     for step in steps:
@@ -105,21 +112,22 @@ def with_events(study, scheme):
             "time.energy_tolerance": 1}, ledger=0.34)
         lost, fed = run["energy_error"], np.trapz(run["rod_force"], run["time"]) * stick_slip.SPEED
         study.check(f"stick-slip-{scheme}", "energy ledger after the rod's start",
-                    np.abs(lost[1:] - lost[1]).max() / fed, 1e-3)
+                    np.abs(lost[1:] - lost[1]).max() / fed, 0.45 * step if scheme == "euler" else 1e-3)
         exact, events = stick_slip.slip(run["time"])
         slip = run["slip"].astype(float) @ run["weight"] / run["weight"].sum()
         errors.append(relative(slip, exact))
     study.add(GROUP, f"{scheme}, stick-slip with {events} events", "slip at all times, steps halved "
-              f"{len(steps) - 1} times", "exact", ", ".join(f"{e:.1e}" for e in errors), errors[-1], 1e-3,
-              order=f"{expected} expected", seen=slope(steps, errors), least=expected - 0.25)
+              f"{len(steps) - 1} times", "exact", ", ".join(f"{e:.1e}" for e in errors), errors[-1],
+              1e-2 if expected == 1 else 1e-3, order=f"{expected} expected",
+              seen=slope(steps, errors), least=expected - 0.25)
     return steps, errors
 
 
 def figure_1(study):
-    """Many nodes and events at a time. The first peak of F_T/F_N in a stick-slip run, with all step sizes halved again and again. The
-    peak is where slip runs away: what remains is not a power of the step but the moment at which a
-    step happens to end, so no order is claimed: the steps must matter less than a tenth of the 0.5 %
-    to which mu_M is promised."""
+    """Many nodes and events at a time: the first peak of F_T/F_N, with all step sizes halved again and
+    again. The peak is where slip runs away: what remains is not a power of the step but the moment at
+    which a step happens to end, so no order is claimed: the steps must matter less than a tenth of the
+    0.5 % to which mu_M is promised."""
     steps, peaks = [], []
     for k in range(5):
         run = Run(study, SOURCE / "validation/paper/fig1.yaml", "fig1", {
