@@ -128,7 +128,6 @@ def figure_settings(cells, **more):
 def figure_1(study):
     """l_sc, l_c and mu_M of one sliding, by growth rates and by time stepping."""
     scene = SOURCE / "validation/paper/fig1.yaml"
-    apart = []
     for cells in (20,) if study.quick else (20, 40):
         found = Stability(study, scene, "fig1-growth", figure_settings(cells)).results
         run = Run(study, scene, "fig1", figure_settings(cells))
@@ -141,7 +140,6 @@ def figure_1(study):
             study.add(GROUP, name, quantity, peak[other], found[key], abs(found[key] - peak[other]),
                       1.01 / cells, note="consistency: reference is our time stepping; "
                       "error absolute, one element allowed")
-        apart.append(abs(found["l_c_at_V_over_L"] - peak["l_c_over_L"]))
         early = found["l_sc_certificate_over_L"] - found["l_sc_over_L"]
         study.add(GROUP, name, "l_sc/L: the certificate is lost before anything grows",
                   f"at most {found['l_sc_over_L']:.4f}", found["l_sc_certificate_over_L"],
@@ -150,9 +148,6 @@ def figure_1(study):
         study.add(GROUP, name, "mu_M at V", peak["mu"], found["mu_M"], abs(found["mu_M"] - peak["mu"]),
                   0.28 / cells, note="consistency: reference is our time stepping; error absolute, "
                   "one element's (mu_S - mu_K)/cells allowed")
-    if not study.quick:
-        study.add(GROUP, "Figure 1", "l_c/L at V from `stability` and from time stepping, 20 and 40 cells",
-                  "closer", ", ".join(f"{a:.4f}" for a in apart), apart[1] / apart[0], 1)
 
 
 def controls(study):
