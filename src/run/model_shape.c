@@ -66,28 +66,37 @@ static double free_scale(const Simulation *simulation, double load)
     return load < 0 ? -load : material->young * simulation->model.length;
 }
 
-// Pressure and tractions onto the bulk's load; F_N, their resultant towards the plane, becomes the
-// force that others are measured with.
+// Pressure and tractions onto the bulk's load, first per unit of load_reference(): so what the
+// cache keeps of them has the same bits whichever pressure asked first. F_N, their resultant
+// towards the plane, becomes the force that others are measured with.
 static bool add_loads(Simulation *simulation, Error *err)
 {
     const Scene *scene = &simulation->scene;
     Bulk *bulk = &simulation->bulk;
     MeshCurve curve;
+    double reference = load_reference(scene), unit = 0;
     if (scene->load.pressure != 0) {
-        double traction[2] = {0, -scene->load.pressure};
+        double traction[2] = {0, -scene->load.pressure / reference};
         TRY(mesh_curve(&simulation->mesh, scene->groups.top, &curve, err));
         bulk_add_traction(&simulation->mesh, &curve, traction, bulk);
     }
     for (int32_t k = 0; k < scene->load.traction_count; k++) {
-        double traction[2] = {scene->load.tractions[k].x, scene->load.tractions[k].z};
-        TRY(mesh_curve(&simulation->mesh, scene->load.tractions[k].group, &curve, err));
+        const SceneTraction *given = &scene->load.tractions[k];
+        double traction[2] = {given->x / reference, given->z / reference};
+        TRY(mesh_curve(&simulation->mesh, given->group, &curve, err));
         bulk_add_traction(&simulation->mesh, &curve, traction, bulk);
     }
-    double load = 0;
-    for (int32_t dof = 1; dof < bulk->dof_count; dof += 2) load -= bulk->load[dof];
+    for (int32_t dof = 1; dof < bulk->dof_count; dof += 2) unit -= bulk->load[dof];
+    simulation->unit_load.size = dense_max_abs(bulk->load, bulk->dof_count);
+    simulation->unit_load.resultant = unit;
+    for (int32_t dof = 0; dof < bulk->dof_count; dof++) bulk->load[dof] *= reference;
+    double load = unit * reference;
     // What is held needs no load, and what flies towards the plane has its momentum.
     bool held = scene->load.support_count > 0 || scene->start.velocity_z < 0;
-    if (!(load > 0) && held) load = free_scale(simulation, load);
+    if (!(load > 0) && held) {
+        load = free_scale(simulation, load);
+        simulation->unit_load.resultant = load / reference;
+    }
     if (!(load > 0))
         FAIL(err, ERROR_INPUT,
              "%s: the loads do not press the block onto the plane (their resultant along -z is %g)",
@@ -207,16 +216,15 @@ cleanup:
 static bool reduce_bulk(Simulation *simulation, const char *key, Error *err)
 {
     const Bulk *bulk = &simulation->bulk;
-    double reference = load_reference(&simulation->scene);
-    double load = dense_max_abs(bulk->load, bulk->dof_count);
+    double load = simulation->unit_load.size * load_reference(&simulation->scene);
     ReductionBlock block = {0};
     Shape shape = {.sizes = {.length = simulation->model.length,
                              .height = simulation->model.height,
                              .area = bulk->area,
                              .elements = simulation->model.elements,
                              .full_dofs = bulk->dof_count,
-                             .load_size = load / reference,
-                             .load_resultant = simulation->scales.load / reference}};
+                             .load_size = simulation->unit_load.size,
+                             .load_resultant = simulation->unit_load.resultant}};
     shape.interface = simulation->interface;
     simulation->interface = (Interface){0};
     TRY(reduction_block_create(&simulation->mesh, bulk, &simulation->material, load, &block, err));

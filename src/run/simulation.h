@@ -22,6 +22,9 @@ struct Simulation {
     Material material;
     FrictionLaw law;
     Bulk bulk;
+    struct {
+        double size, resultant;   // largest nodal load, F_N; both per unit of load_reference()
+    } unit_load;   // of an assembled bulk
     Interface interface;
     char cache_note[CACHE_NOTE_SIZE];   // why a cached basis was not used or kept; empty: nothing
     ReducedBulk reduced;   // count 0: the full mesh is stepped

@@ -118,6 +118,20 @@ class Sweep(unittest.TestCase):
         self.assertEqual(stamps, {p: p.stat().st_mtime_ns for p in stamps})
         self.assertIn("8 computed", self.sweep("--fresh").stdout)
 
+    def test_same_bits_whoever_fills_the_cache(self):
+        """The basis is made by the first point that asks, for all lengths and pressures: it must not show which."""
+        tables = []
+        for order, folder in ((1, "up"), (-1, "down")):
+            lengths, pressures = [1, 1.7][::order], [0.0061, 0.0047, 0.0033][::order]
+            study = self.study(STUDY.replace("[1, 2]", str(lengths)).replace("[0.003, 0.006]", str(pressures)))
+            done = subprocess.run([PROGRAM, "sweep", study, "-o", self.folder / folder, "-j", "1"], cwd=self.folder,
+                                  env={**self.place, "AMONTONS_CACHE": str(self.folder / f"cache-{folder}")},
+                                  capture_output=True, text=True, timeout=200)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            rows = [{k: v for k, v in row.items() if k != "point"} for row in self.without_times(folder)]
+            tables.append(sorted(rows, key=lambda row: row["run"]))
+        self.assertEqual(*tables)
+
     def start(self, study, jobs):
         process = subprocess.Popen([PROGRAM, "sweep", study, "-o", self.folder / "out", "-j", jobs], env=self.place,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE)
