@@ -94,7 +94,7 @@ static bool row_notes(const Sweep *sweep, const SweepTable *table, const RankRow
     if (status != POINT_DONE) add_note(note, point_status_name(status));
     if (status == POINT_DONE && isnan(row->value)) add_note(note, "no value");
     if (table->period[row->point] == 0) add_note(note, "not periodic");
-    if (table->period[row->point] == 2) add_note(note, "falls by turns");
+    if (table->period[row->point] > 1) add_note(note, "falls by turns");
     if (row->as_good) add_note(note, "as good as the first");
     if (report && (json_find_text(report, "results.warnings.0", warning, RUN_WARNING_SIZE) ||
                    json_find_text(report, "warnings.0", warning, RUN_WARNING_SIZE)))
