@@ -247,14 +247,22 @@ static bool is_reducible(const Scene *scene)
            starts_at_interface(scene);
 }
 
-// Dense operators beat sparse ones where the interface is small beside the block. Measured on set
-// A: a reduced step costs about 6 (3 m)^2 multiplications, m interface unknowns; a full one 8 times
-// the factor's entries, about 5 n log2 n of n unknowns.
+// Seconds, by n unknowns of the mesh and m of the interface; of set A to 160 x 160 cells. A stage
+// costs about 10 products with some 3 m x 3 m entries when reduced, and passes over the factor's
+// entries, about 5 n log2 n of them, when not. A basis costs dense products of n x m responses.
+static const double REDUCED_STAGE = 16e-9, FULL_STAGE = 14e-9, REDUCTION = 4e-9;
+static const double STAGES = 3000;   // of a run with some slidings; more, and it pays sooner
+static const double REDUCTION_BYTES = 64, REDUCTION_BYTES_MAX = 4e9;   // each n m; in all
+
+// Building a basis and stepping on it is expected to be done before stepping on the sparse factors
+// would be. From about 200 x 200 cells on it is not.
 static bool reduction_pays(const Simulation *simulation)
 {
     if (simulation->scene.reduction.use == REDUCE_ALWAYS) return true;
     double m = simulation->interface.count, n = simulation->bulk.dof_count;
-    return 6 * 9 * m * m < 8 * 5 * n * log2(n);
+    double reduced = REDUCTION * n * m * m + STAGES * REDUCED_STAGE * m * m;
+    return reduced < STAGES * FULL_STAGE * n * log2(n) &&
+           REDUCTION_BYTES * n * m < REDUCTION_BYTES_MAX;
 }
 
 // The assembled bulk of the full mesh, its loads and its interface; needed to build a basis, to

@@ -66,7 +66,7 @@ def rung_seconds(ended):
 
 
 def upper(points):
-    return points[len(points) // 2 - 1 if len(points) > 3 else 0:]
+    return points[-max(3, (len(points) + 1) // 2):]
 
 
 def exponent_lines(x_name, x, columns, theory):

@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""FreeFEM, stepping the same equations on the same mesh with the same fixed steps, sees the same
+mu(t) through the first rapid slips; and the comparison notices other physics. And the exponents of
+the cost benchmark are those of known powers."""
+import os
+import shutil
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(os.environ["AMONTONS_SOURCE"], "validation", "benchmark")))
+import figure  # noqa: E402
+import growth  # noqa: E402
+import peers  # noqa: E402
+
+STEP, DURATION = 0.2, 140
+FAST = ["rod.velocity=2e-5"]      # twice the paper's: the first slips come within DURATION
+
+
+@unittest.skipUnless(shutil.which("FreeFem++") and shutil.which("gmsh"), "no FreeFEM here")
+class SameEquations(unittest.TestCase):
+    def test_freefem_sees_the_same(self):
+        with tempfile.TemporaryDirectory() as folder:
+            mesh = Path(folder, "block.msh")
+            curves = peers.make_mesh(mesh, 6, 1)
+            ours = peers.amontons("ours", mesh, peers.FIXED + FAST, STEP, DURATION)
+            theirs = {}
+            for mu_static in (0.38, 0.37):
+                peers.PHYSICS.update(speed=2e-5, muS=mu_static)
+                theirs[mu_static] = peers.freefem(mesh, curves, 1, STEP, DURATION)
+        self.assertEqual(len(theirs[0.38].time), round(DURATION / STEP))
+        self.assertGreater(theirs[0.38].mu.max(), 0.25)
+        self.assertLess(theirs[0.38].mu[-1], 0.9 * theirs[0.38].mu.max())   # it has slipped
+        self.assertLess(theirs[0.38].differs(ours, DURATION), 1e-6)
+        self.assertGreater(theirs[0.37].differs(ours, DURATION), 1e-4)
+
+
+class Exponents(unittest.TestCase):
+    def test_fit(self):
+        x = [10, 20, 40, 80]
+        self.assertAlmostEqual(figure.fitted_exponent(x, [7 * v**1.5 for v in x]), 1.5)
+        # Only the upper half counts: the first values are start-up.
+        x += [160, 320, 640]
+        rows = growth.exponent_lines("n", x, {"s": [5, 5, 5, *(v**2 for v in x[3:])]}, {"s": "2"})
+        self.assertEqual(rows, [["s", "n", "2.00", "2"]])
+
+
+if __name__ == "__main__":
+    unittest.main()
