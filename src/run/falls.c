@@ -5,6 +5,7 @@
 #include "run/falls.h"
 
 #include "base/memory.h"
+#include "run/repetition.h"
 
 #include <math.h>
 
@@ -79,21 +80,11 @@ cleanup:
 
 // --- period and branches ------------------------------------------------------------------------
 
-static bool agree(const Falls *falls, const Fall *a, const Fall *b)
+static bool falls_agree(const void *series, int32_t k, int32_t later)
 {
+    const Falls *falls = series;
+    const Fall *a = &falls->list[k], *b = &falls->list[later];
     return a->pads == b->pads && fabs(a->mu - b->mu) <= falls->tolerance * b->mu;
-}
-
-// Falls from the end on that agree with the last one of their place in a period, the first fall of
-// the run left out: how many.
-static int32_t count_agreeing(const Falls *falls, int32_t period)
-{
-    int32_t first = falls->count > 1 ? 1 : 0, last = falls->count - 1, agreeing = period;
-    for (int32_t k = last - period; k >= first; k--) {
-        if (!agree(falls, &falls->list[k], &falls->list[last - (last - k) % period])) break;
-        agreeing++;
-    }
-    return agreeing;
 }
 
 // The branch that fall k belongs to, by its place or by the pads that slid; NULL: no room.
@@ -128,7 +119,7 @@ FallsSummary falls_summarise(const Falls *falls)
 {
     FallsSummary summary = {.low = NAN, .high = NAN, .counted = falls->count - falls->count / 2};
     for (int32_t period = 1; period <= FALL_PERIOD_MAX && summary.period == 0; period++) {
-        int32_t agreeing = count_agreeing(falls, period);
+        int32_t agreeing = repetition_count(falls->count, period, falls_agree, falls);
         if (falls->count <= period || agreeing < 2 * period + 1) continue;
         summary.period = period;
         summary.counted = agreeing - (period > 1 ? agreeing % period : 0);

@@ -7,6 +7,7 @@
 #include "run/peaks.h"
 
 #include "base/memory.h"
+#include "run/repetition.h"
 
 #include <math.h>
 
@@ -79,24 +80,18 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Peaks from the end on that agree with the last one of their phase, the first peak of the run left
-// out: how many, at least `period`. A slow drift does not agree.
-static int32_t count_agreeing(const Peaks *peaks, int32_t period)
+static bool peaks_agree(const void *series, int32_t k, int32_t later)
 {
-    int32_t first = peaks->count > 1 ? 1 : 0, last = peaks->count - 1, agreeing = period;
-    for (int32_t k = last - period; k >= first; k--) {
-        double mu = peaks->list[last - (last - k) % period].mu;
-        if (fabs(peaks->list[k].mu - mu) > peaks->tolerance * mu) break;
-        agreeing++;
-    }
-    return agreeing;
+    const Peaks *peaks = series;
+    double mu = peaks->list[later].mu;
+    return fabs(peaks->list[k].mu - mu) <= peaks->tolerance * mu;
 }
 
 // The shortest period and the peaks in whole rounds of it; without one, all but the start's.
 static void find_period(const Peaks *peaks, PeaksSummary *summary)
 {
     for (int32_t period = 1; period <= LONGEST_PERIOD; period++) {
-        int32_t agreeing = count_agreeing(peaks, period);
+        int32_t agreeing = repetition_count(peaks->count, period, peaks_agree, peaks);
         if (agreeing < REPETITIONS * period) continue;
         summary->period = period;
         summary->counted = agreeing - agreeing % period;
