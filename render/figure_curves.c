@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Lines below, then error bars, then marks; the legend stands in a corner of the frame.
+// Lines below, then error bars, then marks; the legend where the file or legend_place puts it.
 #include "render/figure_curves.h"
 
 #include "base/memory.h"
+#include "render/legend_place.h"
 
 #include <math.h>
 
@@ -11,6 +12,7 @@ static const double THIN_WIDTH = 0.45;   // points
 static const double BAR_WIDTH = 0.5, BAR_CAP = 1.4;   // points: error bars, half their caps
 static const double RIM = 0.62;   // inside over outside of an open mark
 static const double LEGEND_SAMPLE = 14, LEGEND_GAP = 3, LEGEND_MARGIN = 4;   // points
+static const double LEGEND_CLEARANCE = 2;   // points: words to data
 static const double LEGEND_PITCH = 1.5;   // line to line, over the size of the words
 static const double RIGHT_MARGIN = 6;   // points: half a number may stand there
 static const double INSET_SHARE = 0.75;   // marks and lines of an inset over the main ones
@@ -82,58 +84,75 @@ static void bars_draw(const Page *page, const Axes *axes, const PlotSeries *seri
     Stroke stroke = {.color = COLORS[series->color], .width = BAR_WIDTH * page->point};
     bool lying = axes->y.names != NULL;
     double cap_x = lying ? 0 : BAR_CAP * page->point, cap_y = lying ? BAR_CAP * page->point : 0;
-    if (!series->low || !series->high) return;
     for (int32_t k = 0; k < series->count; ++k) {
-        Point low = axes_place(axes, lying ? series->low[k] : series->x[k],
-                               lying ? series->y[k] : series->low[k]);
-        Point high = axes_place(axes, lying ? series->high[k] : series->x[k],
-                                lying ? series->y[k] : series->high[k]);
-        if (!isfinite(low.x + low.y + high.x + high.y)) continue;
-        shape_segment(page->canvas, &stroke, low, high);
-        shape_segment(page->canvas, &stroke, (Point){low.x - cap_x, low.y - cap_y},
-                      (Point){low.x + cap_x, low.y + cap_y});
-        shape_segment(page->canvas, &stroke, (Point){high.x - cap_x, high.y - cap_y},
-                      (Point){high.x + cap_x, high.y + cap_y});
+        Point end[2];
+        if (!plot_bar_ends(axes, series, k, end)) continue;
+        shape_segment(page->canvas, &stroke, end[0], end[1]);
+        for (int32_t side = 0; side < 2; ++side)
+            shape_segment(page->canvas, &stroke, (Point){end[side].x - cap_x, end[side].y - cap_y},
+                          (Point){end[side].x + cap_x, end[side].y + cap_y});
     }
 }
 
-// Only series with a label, in their order, in the corner the file names; a sample of line and
-// mark, then the words.
-static void legend_draw(const Page *page, const Axes *axes, const PlotPanel *panel, double share)
+// What the labelled series take; height 0: there is no legend.
+static LegendSize legend_measure(const Page *page, const Axes *axes, const PlotPanel *panel,
+                                 double share)
 {
-    TextStyle style = {.size = axes->number_size * page->point, .color = INK, .up = 0.5};
-    double pitch = LEGEND_PITCH * style.size, margin = LEGEND_MARGIN * page->point, widest = 0;
-    double sample = LEGEND_SAMPLE * page->point, gap = LEGEND_GAP * page->point;
-    int32_t lines = 0;
+    double font = axes->number_size * page->point, widest = 0;
+    LegendSize size = {.margin = LEGEND_MARGIN * page->point,
+                       .clearance = LEGEND_CLEARANCE * page->point,
+                       .mark = MARKER_RADIUS * share * page->point};
+    if (panel->legend == CORNER_NONE) return size;
     for (int32_t k = 0; k < panel->series_count; ++k) {
         if (!panel->series[k].label[0]) continue;
-        widest = fmax(widest, text_width(page->text, style.size, panel->series[k].label));
-        lines++;
+        widest = fmax(widest, text_width(page->text, font, panel->series[k].label));
+        size.height += LEGEND_PITCH * font;
     }
-    if (lines == 0 || panel->legend == CORNER_NONE) return;
-    bool right = panel->legend == CORNER_UPPER_RIGHT || panel->legend == CORNER_LOWER_RIGHT;
-    bool upper = panel->legend == CORNER_UPPER_RIGHT || panel->legend == CORNER_UPPER_LEFT;
-    double left = right ? axes->box.right - margin - widest - gap - sample
-                        : axes->box.left + margin;
-    double y = upper ? axes->box.top + margin + pitch / 2
-                     : axes->box.bottom - margin - (lines - 0.5) * pitch;
+    size.width = widest + (LEGEND_SAMPLE + LEGEND_GAP) * page->point;
+    return size;
+}
+
+// Finds the legend's place: the file's, or where it hides nothing; an outer one narrows the frame.
+// taken: part of the frame that something else covers, NULL: none. A box without height: no legend.
+static Box legend_settle(const Page *page, const PlotPanel *panel, double share, const Box *taken,
+                         Axes *axes)
+{
+    LegendSize size = legend_measure(page, axes, panel, share);
+    PlotCorner corner = panel->legend;
+    if (!(size.height > 0)) return (Box){0};
+    if (corner == CORNER_AUTO) corner = legend_choose(panel, axes, &size, taken);
+    if (corner == CORNER_OUTSIDE)
+        axes->box.right = round(axes->box.right - size.width - size.margin);
+    return legend_box(axes, &size, corner);
+}
+
+// Only series with a label, in their order: a sample of line and mark, then the words.
+static void legend_draw(const Page *page, const Axes *axes, const PlotPanel *panel, const Box *box,
+                        double share)
+{
+    TextStyle style = {.size = axes->number_size * page->point, .color = INK, .up = 0.5};
+    double sample = LEGEND_SAMPLE * page->point, gap = LEGEND_GAP * page->point;
+    double pitch = LEGEND_PITCH * style.size, y = box->top + pitch / 2;
+    if (!(box->bottom > box->top)) return;
     for (int32_t k = 0; k < panel->series_count; ++k) {
         const PlotSeries *series = &panel->series[k];
         if (!series->label[0]) continue;
         Stroke stroke = line_stroke(page, series, share);
         if (series->line != LINE_NONE)
-            shape_segment(page->canvas, &stroke, (Point){left, y}, (Point){left + sample, y});
-        marker_draw(page, series, (Point){left + sample / 2, y}, share);
-        text_draw(page->text, &style, (Point){left + sample + gap, y}, series->label);
+            shape_segment(page->canvas, &stroke, (Point){box->left, y},
+                          (Point){box->left + sample, y});
+        marker_draw(page, series, (Point){box->left + sample / 2, y}, share);
+        text_draw(page->text, &style, (Point){box->left + sample + gap, y}, series->label);
         y += pitch;
     }
 }
 
 // Lines and bars are cut off at the frame; a mark on the frame is drawn whole, one beyond it not at
-// all.
-static bool panel_draw(const Page *page, const Axes *axes, const PlotPanel *panel, double share,
-                       Error *err)
+// all. taken: as in legend_settle; *axes is narrowed by an outer legend.
+static bool panel_draw(const Page *page, const PlotPanel *panel, double share, const Box *taken,
+                       Axes *axes, Error *err)
 {
+    Box legend = legend_settle(page, panel, share, taken, axes);
     canvas_clip(page->canvas, &axes->box);
     for (int32_t k = 0; k < panel->series_count; ++k)
         TRY(line_draw(page, axes, &panel->series[k], share, err));
@@ -148,7 +167,7 @@ static bool panel_draw(const Page *page, const Axes *axes, const PlotPanel *pane
             if (inside) marker_draw(page, series, at, share);
         }
     }
-    legend_draw(page, axes, panel, share);
+    legend_draw(page, axes, panel, &legend, share);
     axes_draw(page, axes);
 cleanup:
     return error_is_clean(err);
@@ -188,12 +207,13 @@ bool figure_curves(const Page *page, const Plot *plot, Error *err)
     axes.box.bottom = round(canvas_height(page->canvas) - axes_bottom_margin(&axes) * point);
     axes.box.left = round(axes_left_margin(page, &axes) * point);
     axes.box.right = round(canvas_width(page->canvas) - RIGHT_MARGIN * point);
-    TRY(panel_draw(page, &axes, &plot->main, 1, err));
+    Box place = inset_place(plot, &axes.box);
+    TRY(panel_draw(page, &plot->main, 1, plot->has_inset ? &place : NULL, &axes, err));
     if (plot->has_inset) {
         Axes inset = inset_axes(page, plot, &axes.box);
-        Box place = inset_place(plot, &axes.box);
+        place = inset_place(plot, &axes.box);   // an outer legend may have moved it
         shape_fill(page->canvas, PAPER, &place);
-        TRY(panel_draw(page, &inset, &plot->inset, INSET_SHARE, err));
+        TRY(panel_draw(page, &plot->inset, INSET_SHARE, NULL, &inset, err));
     }
 cleanup:
     return error_is_clean(err);

@@ -16,8 +16,8 @@ static const double HEIGHT_STANDARD = 0.75;
 
 static const char *const MARKERS[] = {"none", "circle", "square", "triangle", "down", NULL};
 static const char *const LINES[] = {"none", "solid", "thin", "dashed", NULL};
-static const char *const CORNERS[] = {"none",       "upper-right", "upper-left",
-                                      "lower-left", "lower-right", NULL};
+static const char *const CORNERS[] = {"auto",       "none",        "upper-right", "upper-left",
+                                      "lower-left", "lower-right", "outside",     NULL};
 static const char *const SCALES[] = {"linear", "log", NULL};
 
 typedef struct PlotReader {
@@ -245,7 +245,7 @@ static void fit_axis(const PlotPanel *panel, bool is_x, Axis *axis)
 static bool read_panel(const PlotReader *reader, YamlNode map, PlotPanel *panel)
 {
     YamlNode list = child(reader, map, "series");
-    int32_t corner = CORNER_UPPER_RIGHT;
+    int32_t corner = CORNER_AUTO;
     if (!read_axis(reader, map, "x", "label scale range ", &panel->x) ||
         !read_axis(reader, map, "y", "label scale range names ", &panel->y) ||
         !read_choice(reader, map, "legend", CORNERS, &corner))
@@ -313,6 +313,16 @@ bool plot_file_read(const char *path, Plot *plot, Error *err)
 cleanup:
     yaml_destroy(reader.file);
     return error_is_clean(err);
+}
+
+bool plot_bar_ends(const Axes *axes, const PlotSeries *series, int32_t k, Point end[2])
+{
+    bool lying = axes->y.names != NULL;
+    if (!series->low || !series->high) return false;
+    double low = series->low[k], high = series->high[k];
+    end[0] = lying ? axes_place(axes, low, series->y[k]) : axes_place(axes, series->x[k], low);
+    end[1] = lying ? axes_place(axes, high, series->y[k]) : axes_place(axes, series->x[k], high);
+    return isfinite(end[0].x + end[0].y + end[1].x + end[1].y);
 }
 
 static void panel_destroy(PlotPanel *panel)

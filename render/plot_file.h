@@ -6,7 +6,8 @@
 //     height: 0.75                            # over the width; default 0.75
 //     x: {label: "~{P}_{ext}", scale: log, range: [1e-3, 1e-1]}   # linear; the data's
 //     y: {label: "~{\u03bc}_{M}"}          # or {names: [a, b]}: these stand at y = 1, 2, ...
-//     legend: upper-right                     # or upper-left, lower-left, lower-right, none
+//     legend: auto                            # where it hides nothing; or upper-right, upper-left,
+//                                             # lower-left, lower-right, outside, none
 //     series:
 //       - label: "~{L} = 1"                   # none: not in the legend
 //         x: [0.001, 0.01]
@@ -36,11 +37,13 @@ typedef enum PlotMarker {
 typedef enum PlotLine { LINE_NONE, LINE_SOLID, LINE_THIN, LINE_DASHED } PlotLine;
 
 typedef enum PlotCorner {
+    CORNER_AUTO,   // render/legend_place.h chooses
     CORNER_NONE,
     CORNER_UPPER_RIGHT,
     CORNER_UPPER_LEFT,
     CORNER_LOWER_LEFT,
     CORNER_LOWER_RIGHT,
+    CORNER_OUTSIDE,   // right of the frame, which makes room
 } PlotCorner;
 
 typedef struct PlotSeries {
@@ -74,5 +77,9 @@ typedef struct Plot {
 // ERROR_INPUT gives file:line:column, the key and what is allowed.
 bool plot_file_read(const char *path, Plot *plot, Error *err);
 void plot_destroy(Plot *plot);   // zeroed is fine
+
+// Where the error bar of point k begins and ends on the picture: upright, or lying where the y axis
+// has names. false: it has none, or one that the axes cannot show.
+bool plot_bar_ends(const Axes *axes, const PlotSeries *series, int32_t k, Point end[2]);
 
 #endif

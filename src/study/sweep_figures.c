@@ -16,7 +16,6 @@
 
 enum { LABEL_SIZE = 90, NAME_SIZE = 60, ROWS_MAX = 60, CURVES_MAX = 15, COLORS = 7 };
 
-static const double LEGEND_LINE = 0.09;   // of the data's range, above it: a curve's name
 static const double ROW_HEIGHT = 0.05, HEIGHT_LEFT = 0.17;   // of the width: a row; axis and name
 
 // --- words --------------------------------------------------------------------------------------
@@ -132,14 +131,12 @@ static void write_numbers(JsonWriter *json, const char *key, const double *value
     json_end(json);
 }
 
-// range: [low, high], or NULL to fit the data.
-static void write_axis(Figure *figure, const char *name, const char *label, bool is_log,
-                       const double *range)
+// Its ends fit the data.
+static void write_axis(Figure *figure, const char *name, const char *label, bool is_log)
 {
     json_begin_object(figure->json, name);
     json_text(figure->json, "label", label);
     json_text(figure->json, "scale", is_log ? "log" : "linear");
-    if (range) write_numbers(figure->json, "range", range, 2);
     json_end(figure->json);
 }
 
@@ -251,9 +248,8 @@ bool figure_of_ranking(const Sweep *sweep, const SweepTable *table, const Rankin
     for (int32_t k = 0; k < shown; k++) open += !(table->period[ranking->rows[k].point] > 0);
     record_label(&sweep->study.records[sweep->study.rank.record], label);
     json_number(figure.json, "height", fmax(0.3, HEIGHT_LEFT + ROW_HEIGHT * shown));
-    write_axis(&figure, "x", label, false, NULL);
+    write_axis(&figure, "x", label, false);
     TRY(write_names(&figure, ranking, shown, err));
-    json_text(figure.json, "legend", sweep->study.rank.lowest ? "upper-right" : "lower-right");
     json_begin_list(figure.json, "series");
     write_baseline(&figure, table, ranking, shown);
     write_marks(&figure, table, ranking, shown, true);
@@ -379,25 +375,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Ends of the y axis with room above the data for a legend of `lines`; false: nothing to show.
-static bool range_of_y(const Study *study, const SweepTable *table, int32_t lines, double range[2])
-{
-    const double *values = axis_values(study, table, study->plot.y);
-    bool is_log = study->plot.log_y, has_bars = y_is_mu_M(study);
-    double low = INFINITY, high = -INFINITY;
-    for (int32_t k = 0; k < study->point_count; k++) {
-        if (!isfinite(values[k]) || (is_log && values[k] <= 0)) continue;
-        low = fmin(low, has_bars ? fmin(values[k], table->low[k]) : values[k]);
-        high = fmax(high, has_bars ? fmax(values[k], table->high[k]) : values[k]);
-    }
-    if (!(high > low)) return false;
-    double margin = 0.05, above = margin + LEGEND_LINE * lines;
-    double extent = is_log ? log(high / low) : high - low;
-    range[0] = is_log ? low * exp(-margin * extent) : low - margin * extent;
-    range[1] = is_log ? high * exp(above * extent) : high + above * extent;
-    return true;
-}
-
 // ERROR_INPUT: the axis has words, which have no place on it.
 static bool check_axis(const Study *study, const SweepTable *table, StudyAxisData axis, Error *err)
 {
@@ -408,20 +385,17 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The x axis fits its data; the y axis leaves room for the legend.
-static void write_axes(Figure *figure, const SweepTable *table, int32_t curves)
+static void write_axes(Figure *figure)
 {
     const Study *study = &figure->sweep->study;
     const StudyPlot *plot = &study->plot;
     char x[LABEL_SIZE], y[LABEL_SIZE];
-    double range[2];
-    bool has_range = range_of_y(study, table, plot->series >= 0 ? curves : 0, range);
     if (plot->x.is_record) record_label(&study->records[plot->x.index], x);
     if (!plot->x.is_record) key_label(study->columns[plot->x.index], figure->scene, x);
     if (plot->y.is_record) record_label(&study->records[plot->y.index], y);
     if (!plot->y.is_record) key_label(study->columns[plot->y.index], figure->scene, y);
-    write_axis(figure, "x", x, plot->log_x, NULL);
-    write_axis(figure, "y", y, plot->log_y, has_range ? range : NULL);
+    write_axis(figure, "x", x, plot->log_x);
+    write_axis(figure, "y", y, plot->log_y);
 }
 
 // A curve for each value of `series`, in the study's order, whose colours go round after seven.
@@ -438,7 +412,7 @@ bool figure_of_plot(const Sweep *sweep, const SweepTable *table, Error *err)
     TRY(check_axis(study, table, study->plot.y, err));
     TRY(find_curves(study, table, values, &curves, err));
     TRY(begin_figure(&figure, err));
-    write_axes(&figure, table, curves);
+    write_axes(&figure);
     json_begin_list(figure.json, "series");
     for (int32_t k = 0; k < curves; k++) {
         char label[LABEL_SIZE] = "";

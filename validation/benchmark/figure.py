@@ -10,22 +10,15 @@ from measured_run import PROGRAM
 MARKERS = ("circle", "square", "triangle", "down")
 
 
-def draw(path, title, x_label, y_label, curves, legend="upper-left"):
-    """PATH.yaml and PATH.png; curves: name -> (x, y), both above 0. An upper legend stands above
-    them."""
-    series, y_all = [], [v for _, y in curves.values() for v in y]
-    low, high = numpy.log(min(y_all)) - 0.5, numpy.log(max(y_all)) + 0.5
-    if legend.startswith("upper"):
-        share = 0.05 + 0.066 * len(curves)     # of the frame's height
-        high += (high - low) * share / (1 - share)
+def draw(path, title, x_label, y_label, curves):
+    """PATH.yaml and PATH.png; curves: name -> (x, y), both above 0."""
+    series = []
     for number, (name, (x, y)) in enumerate(curves.items()):
         series.append({"label": name, "x": [float(v) for v in x], "y": [float(v) for v in y],
                        "color": 1 + number % 7, "marker": MARKERS[number % len(MARKERS)],
                        "filled": number < 4, "line": "thin"})
     plot = {"title": title, "x": {"label": x_label, "scale": "log"},
-            "y": {"label": y_label, "scale": "log",
-                  "range": [float(numpy.exp(low)), float(numpy.exp(high))]},
-            "legend": legend, "series": series}
+            "y": {"label": y_label, "scale": "log"}, "series": series}
     file = path.with_suffix(".yaml")
     file.write_text(json.dumps(plot, indent=1, ensure_ascii=False) + "\n")
     subprocess.run([str(PROGRAM), "render", str(file)], check=True, stdout=subprocess.DEVNULL)

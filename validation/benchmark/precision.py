@@ -245,12 +245,11 @@ def figures(space, time, folder):
     places = lambda f: f["nodes"]
     for error, name in (("mu_M", "mu"), ("slip", "slip")):
         draw(folder / f"precision-{name}", f"Error of {error} against work, P = 0.006",
-             "processor time, s", f"relative error of {error}", space.curves(seconds, error),
-             "upper-right")
+             "processor time, s", f"relative error of {error}", space.curves(seconds, error))
     draw(folder / "precision-smooth", "Error of mu before anything slips fast",
-         "contact nodes", "relative error", space.curves(places, "smooth"), "lower-left")
+         "contact nodes", "relative error", space.curves(places, "smooth"))
     draw(folder / "precision-time", "Error of the slip map against steps, Q4 40x40", "steps",
-         "relative error, same mesh", time.curves(steps, "slip"), "upper-right")
+         "relative error, same mesh", time.curves(steps, "slip"))
 
 
 def main():

@@ -134,10 +134,10 @@ def study_count(study, name, points, plain, pressures, title):
     study.table(f"Number of pads, equal contact length 0.6 L ({title}); none: the block without gaps",
                 ["P", "n", "mu to trust", "mu_M", "first whole pad", "period",
                  "falls (pads that slide)", "l_c/L"], rows)
-    low, high = (0.2, 0.44) if name == "count" else (0.4, 1.3)
+    low, high = (0.2, 0.4) if name == "count" else (0.4, 1.3)
     study.plot(name, title=f"mu against the number of pads, {title}", height=0.8,
                x={"label": "pads ~{n}", "range": [0.4, 12.6]}, y={"label": MU, "range": [low, high]},
-               legend="upper-right" if name == "count" else "upper-left", series=content)
+               series=content)
 
 
 # --- which pad goes, and why ----------------------------------------------------------------------
@@ -178,7 +178,7 @@ def study_load(study, a, b):
                         "marker": "circle" if name == "A" else "square", "line": "thin"})
     study.plot("load", title="Weakening over what the trailing pad bears alone", height=0.7,
                x={"label": "pads ~{n}", "range": [0.4, 12.6]},
-               y={"label": "weakening / borne", "scale": "log"}, legend="upper-right",
+               y={"label": "weakening / borne", "scale": "log"},
                series=content + [level(1, [0.6, 12.4], 0)])
 
 
@@ -219,7 +219,7 @@ def study_drag(study, grooves):
                  "weakening / borne", "mu, stability"], rows)
     study.plot("drag", title="Drag of the trailing pad against height of pads, depth of grooves", height=0.7,
                x={"label": "height of pads, depth of grooves / ~{L}_{0}", "range": [0, 0.19]},
-               y={"label": "drag of the trailing pad"}, legend="upper-right", series=content)
+               y={"label": "drag of the trailing pad"}, series=content)
 
 
 def study_loads(study, points):
@@ -262,7 +262,7 @@ def study_transfer(study):
                     "y": [float(mu[k]) for k in kept], "marker": "none", "line": "dashed"})
     study.plot("transfer", title="Shear over load of each pad from sliding to sliding", height=0.7,
                x={"label": "~{U} / (~{P} ~{L} / ~{E})"}, y={"label": "shear / load", "range": [0, 0.65]},
-               legend="upper-left", series=content)
+               series=content)
 
 
 # --- height, gap, share, grooves ------------------------------------------------------------------
@@ -303,7 +303,7 @@ def study_shapes(study, points, plain):
                             "filled": P < 0.005})
     study.plot("shape", title="mu to trust over that of the block without gaps", height=0.85,
                x={"label": "height of pads, depth of grooves / ~{L}_{0}", "range": [0, 0.16]},
-               y={"label": f"{MU} / {MU} without gaps", "range": [0.5, 1.1]}, legend="lower-left",
+               y={"label": f"{MU} / {MU} without gaps", "range": [0.5, 1.1]},
                series=content + [level(1, [0, 0.155], 0)])
 
 

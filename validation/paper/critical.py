@@ -86,7 +86,7 @@ def figure(rows, dynamic, name):
          "color": 3, "marker": "circle"}]
     return {"title": f"critical length against pressure, set {name}", "height": 0.85,
             "x": {"label": "~{P}_{ext} ~{L}", "scale": "log"}, "y": {"label": "~{l} / ~{L}", "scale": "log", "range": [0.01, 1.3]},
-            "legend": "lower-left", "series": series}
+            "series": series}
 
 
 def figure_growth(place, name, k):
@@ -102,4 +102,4 @@ def figure_growth(place, name, k):
                "color": 2},
               {"x": [0, 1], "y": [0, 0], "line": "thin"}]
     return {"title": f"growth rate against front position, set {name}", "x": {"label": "~{l} / ~{L}", "range": [0, 1]},
-            "y": {"label": "largest Re ~{λ}  (~{E}/η_{1})", "range": [-8, 40]}, "legend": "upper-left", "series": series}
+            "y": {"label": "largest Re ~{λ}  (~{E}/η_{1})", "range": [-8, 40]}, "series": series}

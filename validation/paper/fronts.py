@@ -94,7 +94,7 @@ def figure_paths(cases):
         series.append({"label": f"~{{{name[0]}}}_{name[2:]}", "x": [0, 0.8 * c["rayleigh"] / c[key]], "y": [0.2, 1], "line": line,
                        "color": 0})
     return {"title": "where the fronts of rapid precursors are", "x": {"label": "~{c}_{R} ~{t} / ~{L}, since it set out"},
-            "y": {"label": "~{x} / ~{L}", "range": [0, 1.02]}, "legend": "lower-right", "series": series}
+            "y": {"label": "~{x} / ~{L}", "range": [0, 1.02]}, "series": series}
 
 
 def figure_speeds(cases):
@@ -112,7 +112,7 @@ def figure_speeds(cases):
     for name, key, line in (("L", "longitudinal", "dashed"), ("S", "shear", "solid"), ("R", "rayleigh", "thin")):
         series.append({"label": f"~{{c}}_{{{name}}}", "x": [0, 1], "y": [c[key], c[key]], "line": line, "color": 0})
     return {"title": "how fast the fronts of rapid precursors run", "height": 0.85, "x": {"label": "~{x} / ~{L}", "range": [0, 1]},
-            "y": {"label": "front speed  (√(E/ρ))", "scale": "log", "range": [0.1, 100]}, "legend": "upper-right", "series": series}
+            "y": {"label": "front speed  (√(E/ρ))", "scale": "log", "range": [0.1, 100]}, "series": series}
 
 
 def events_of(row):

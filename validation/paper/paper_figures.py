@@ -43,7 +43,7 @@ def figure_2(place, name, found, finer, material, filled):
     place.draw(name, {
         "title": f"mu_M against pressure, set {material.name}",
         "x": {"label": P_LABEL, "scale": "log"}, "y": {"label": MU_LABEL, "range": [0, top]},
-        "legend": "lower-left", "series": curves_of_pressure(found, finer, material, filled)})
+        "series": curves_of_pressure(found, finer, material, filled)})
 
 
 def figure_3a(place, found):
@@ -62,7 +62,7 @@ def figure_3a(place, found):
     place.draw("fig3a", {
         "title": "mu_M against the critical length", "height": 0.85,
         "x": {"label": "~{l}_{c} / ~{L}", "range": [0, 1.02]}, "y": {"label": MU_LABEL, "range": [0, 1.5]},
-        "legend": "upper-left", "series": series,
+        "series": series,
         "inset": {"place": [0.29, 0.015, 0.68, 0.38], "legend": "none",
                   "x": {"label": P_LABEL, "scale": "log", "range": [8e-4, 0.13]},
                   "y": {"label": "~{l}_{c} / ~{L}", "scale": "log", "range": [0.008, 1.5]}, "series": inset}})
@@ -95,9 +95,9 @@ def figures_3bc(place, history):
         c.append({"x": [0, 1], "y": [level, level], "line": "dashed", "color": GREY})
     across = {"label": "~{x} / ~{L}", "range": [0, 1]}
     place.draw("fig3b", {"title": "pressure at the interface", "x": across,
-                         "y": {"label": "~{p} / ~{P}_{ext}", "range": [0, 3]}, "legend": "upper-left", "series": b})
+                         "y": {"label": "~{p} / ~{P}_{ext}", "range": [0, 3]}, "series": b})
     place.draw("fig3c", {"title": "shear stress over pressure at the interface", "x": across,
-                         "y": {"label": "~{τ} / ~{p}", "range": [0, 0.65]}, "legend": "upper-right", "series": c})
+                         "y": {"label": "~{τ} / ~{p}", "range": [0, 0.65]}, "series": c})
     return rows
 
 
@@ -115,7 +115,7 @@ def figure_velocity(place, rows):
     place.draw("velocity-a", {
         "title": "largest slip rate of precursors against the rod's velocity",
         "x": {"label": "~{V}", "scale": "log"}, "y": {"label": "largest slip rate", "scale": "log"},
-        "legend": "lower-right", "series": series})
+        "series": series})
 
 
 def figure_adiabatic(place, rows):

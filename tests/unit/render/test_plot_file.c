@@ -64,6 +64,7 @@ static void holds_what_the_file_says(void **state)
     // The ends of y: the bars' ends and a twentieth more; of an inset with one value: around it.
     assert_true(fabs(plot->main.y.low - (0.5 - 0.05 * 3.5)) < 1e-12);
     assert_true(fabs(plot->main.y.high - (4 + 0.05 * 3.5)) < 1e-12);
+    assert_int_equal(plot->inset.legend, CORNER_AUTO);   // where the file names none
     assert_true(plot->has_inset && plot->inset.y.low < 5 && plot->inset.y.high > 5);
     plot_destroy(plot);
     memory_free(plot);
@@ -109,6 +110,7 @@ static void says_what_is_wrong(void **state)
         {"series: []\ninset: {series: []}\n", "an inset needs its `place`"},
         {"series: []\ninset: {place: [0.5, 0, 0.4, 1], series: []}\n", "place: found a list"},
         {"[1]\n", "plot: found a list"},
+        {"legend: left\nseries: []\n", "legend: found `left`; allowed: auto, none, upper-right"},
         {"y: {names: 3}\nseries: []\n", "names: found `3`; allowed: a list"},
         {"x: {names: [a]}\nseries: []\n", "x: unknown key `names`"},
     };
