@@ -12,7 +12,12 @@ static const double DECADE_LOW = -2;   // quasi-static slip is about V or a tent
 static const double DECADE_HIGH_MIN = 1;   // at least this range is shown
 static const double DECADE_HIGH_MAX = 8;
 static const double MARK_WIDTH = 9;   // points: room for the name l_c
-static const double ZOOM_BAR = 1.8;   // points: height of the bar that marks the zoom
+static const double ZOOM_GAP = 0.8;   // points: frame to the bar that marks the zoom
+static const double ZOOM_BAR = 1.8;   // points: height of that bar
+static const double ZOOM_DESCENT = 2;   // points: bar to the foot of its name
+static const double ZOOM_ABOVE = 11;   // points above the frame that bar and name take
+static const double EXPONENT_WIDTH = 4;   // of the numbers' size: a power of ten at the left
+static const char ZOOM_NAME[] = "contact density map";
 static const Color STICK = {0.84f, 0.85f, 0.87f, 1};
 
 // Where the scale ends: the half decade above all slip.
@@ -55,21 +60,28 @@ static void critical_length_draw(const Page *page, const MapPage *map, double le
 }
 
 // A bar above the frame, in the colour of the contact-density map's frame: what that one enlarges.
-static void zoom_draw(const Page *page, const ResultView *view, const Axes *axes)
+// Its name stands above its middle, as far as the frame reaches.
+static void zoom_draw(const Page *page, const Zoom *zoom, const Axes *axes)
 {
-    Zoom zoom = zoom_choose(view);
-    double foot = axes->box.top - 0.8 * page->point;
-    if (!zoom.found) return;
-    Point from = axes_place(axes, zoom.U_low, 0), to = axes_place(axes, zoom.U_high, 0);
+    double foot = axes->box.top - ZOOM_GAP * page->point;
+    TextStyle style = {.size = SMALL_SIZE * page->point, .color = ZOOM_DENSITY};
+    Point from = axes_place(axes, zoom->U_low, 0), to = axes_place(axes, zoom->U_high, 0);
     Box bar = {from.x, foot - ZOOM_BAR * page->point, fmax(to.x, from.x + page->point), foot};
+    double width = text_width(page->text, style.size, ZOOM_NAME);
+    double first = axes->box.left + EXPONENT_WIDTH * axes->number_size * page->point;
+    double left = fmin((bar.left + bar.right - width) / 2, axes->box.right - width);
+    Point place = {fmax(left, first), bar.top - ZOOM_DESCENT * page->point};
     shape_fill(page->canvas, ZOOM_DENSITY, &bar);
+    text_draw(page->text, &style, place, ZOOM_NAME);
 }
 
 bool figure_slip_map(const Page *page, ResultView *view, Error *err)
 {
     double low = 0, high = 0, length = view->number[NUMBER_L_C];
     double V = fabs(view->number[NUMBER_ROD_VELOCITY]);
-    MapPage map = {.bar = {.low = DECADE_LOW,
+    Zoom zoom = zoom_choose(view);
+    MapPage map = {.above = zoom.found ? ZOOM_ABOVE : 0,
+                   .bar = {.low = DECADE_LOW,
                            .powers = true,
                            .label = "slip rate / ~{V}",
                            .neutral = "stick",
@@ -83,7 +95,7 @@ bool figure_slip_map(const Page *page, ResultView *view, Error *err)
     TRY(map_page_fill(view, NULL, &map, err));
     grid_to_levels(&map.grid, &map.bar, V);
     map_page_draw_field(page, view, &map);
-    zoom_draw(page, view, &map.axes);
+    if (zoom.found) zoom_draw(page, &zoom, &map.axes);
     if (isfinite(length)) critical_length_draw(page, &map, length);
     map_page_draw_frame(page, view, &map);
 cleanup:

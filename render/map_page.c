@@ -56,7 +56,7 @@ void map_page_layout(const Page *page, const ResultView *view, double U_low, dou
     axes->y = figure_length_axis(view, "x", x_low, x_high);
     axes->number_size = NUMBER_SIZE;
     axes->color = INK;
-    axes->box.top = round(axes_top_margin(axes) * point);
+    axes->box.top = round(fmax(axes_top_margin(axes), map->above) * point);
     axes->box.bottom = round(canvas_height(page->canvas) - axes_bottom_margin(axes) * point);
     axes->box.left = round(axes_left_margin(page, axes) * point);
     map->pads_width = pad_marks_width(page, view);

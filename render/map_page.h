@@ -12,11 +12,12 @@ typedef struct MapPage {
     Axes axes;
     PixelGrid grid;   // fills the frame; its columns are some pixels wide; owned
     Colorbar bar;
+    double above;   // points above the frame kept for marks; more are kept where the axes need them
     double mark_width;   // points between pads' names and bar kept for a mark's name
     double pads_width;   // points between frame and mark: the pads' names
 } MapPage;
 
-// Places the frame for U from low to high and all x; map->bar and map->mark_width are given.
+// Places the frame for U from low to high and all x; map->bar, above and mark_width are given.
 void map_page_layout(const Page *page, const ResultView *view, double U_low, double U_high,
                      MapPage *map);
 

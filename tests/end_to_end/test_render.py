@@ -366,6 +366,24 @@ class Variants(unittest.TestCase):
         row, _ = wide.pixel(0.5, 0.25)
         self.assertFalse(is_color(plain[row, int(wide.right) + 3:int(wide.right) + 25], gray).any())
 
+    def test_what_the_density_map_shows_is_marked_and_named(self):
+        """Above the slip map a bar over the U of the contact-density map, and its name in the same
+        blue: words, not a second bar, and whole."""
+        fixture.make(self.folder)
+        self.draw("slip-map")
+        picture = read_picture(self.folder, "slip-map")
+        frame = Frame(picture)
+        blue = is_color(picture[:int(frame.top)], BLUE)
+        bar = np.flatnonzero(blue[int(frame.top) - 9])
+        end = frame.left + fixture.SLIDES[-1] / fixture.U_END * (frame.right - frame.left)
+        self.assertTrue(bar[0] < end < bar[-1] + 2, (bar, end))
+        self.assertTrue(np.diff(bar).max() == 1)
+        words = blue[:int(frame.top) - 24]
+        rows, columns = np.flatnonzero(words.any(axis=1)), np.flatnonzero(words.any(axis=0))
+        self.assertGreater(len(groups(words[rows].any(axis=0))), 10, "letters")
+        self.assertGreater(rows[0], 3)
+        self.assertTrue(frame.left < columns[0] and columns[-1] <= frame.right + 1)
+
     def test_si_units(self):
         """Lengths get a handy unit: the same picture but for its numbers and names."""
         fixture.make(self.folder, units="si", length=0.1)
