@@ -8,10 +8,11 @@
 #include <math.h>
 
 // Local error of u in one step, relative to the slip that the drop of friction can drive,
-// (mu_S - mu_K) p H / E. Set A, 40x40: 1e-2 moves mu_M by 8e-4 of itself, 1e-3 by 5e-4, the slip
-// map up to the first sliding by 5e-3 and 2.6e-3 (validation/benchmark).
+// (mu_S - mu_K) p H / E. On 40 cells, set A, they cost 560, 630, 880 steps and move the slip map up
+// to the first sliding by 5e-3, 2.5e-3, 1e-4, less than the mesh does; mu_M by 1e-3 at most, which
+// is the scatter between cycles (validation/benchmark).
 static const double TOLERANCES[] = {
-    [ACCURACY_DRAFT] = 1e-2, [ACCURACY_STANDARD] = 1e-3, [ACCURACY_FINE] = 1e-4};
+    [ACCURACY_DRAFT] = 2e-2, [ACCURACY_STANDARD] = 5e-3, [ACCURACY_FINE] = 5e-4};
 
 // The slip that the drop of friction drives: (mu_S - mu_K) p H / E, with p the mean pressure.
 static double friction_slip(const Simulation *simulation)

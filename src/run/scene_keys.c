@@ -132,13 +132,13 @@ static const SceneKey keys[] = {
                  "takes far longer.",
      .choices = scheme_choices},
     {"time.accuracy", KEY_CHOICE, offsetof(Scene, time.accuracy), "1", RANGE_ANY, "standard",
-     .sentence = "Error allowed to steps (1e-2, 1e-3, 1e-4) and to the reduction where their own "
+     .sentence = "Error allowed to steps (2e-2, 5e-3, 5e-4) and to the reduction where their own "
                  "keys do not say. `draft` has mu_M within 3 % on 40 cells along the contact, "
                  "`standard` within 1 % on 80; `fine` is for references.",
      .choices = accuracy_choices},
     {"time.tolerance", KEY_NUMBER, offsetof(Scene, time.tolerance), "1", RANGE_PART_OR_ZERO, "0",
-     .sentence = "Estimated relative error allowed to a step (sdirk2's true error on smooth motion "
-                 "is 6.8 times its estimate); 0: by time.accuracy."},
+     .sentence = "Local error allowed to the displacements in one step, over the slip that the "
+                 "drop of friction drives, (mu_S - mu_K) P H / E; 0: by time.accuracy."},
     {"time.step_max", KEY_NUMBER, offsetof(Scene, time.step_max), "time", RANGE_NOT_NEGATIVE, "0",
      .sentence = "Longest step; 0: from the block's size and wave speeds."},
     {"time.step_min", KEY_NUMBER, offsetof(Scene, time.step_min), "time", RANGE_NOT_NEGATIVE, "0",

@@ -18,10 +18,8 @@
 
 typedef struct StepControlDef {
     TableauKind scheme;
-    double tolerance;   // of the local error of u in one step as the scheme estimates it, length.
-        // Where motion is smooth the error of SDIRK2 is 4 + 2 sqrt 2 = 6.83 times that: of dt^3
-        // times the third derivative of u it is 1/6 - gamma^2 (3 - 2 gamma) = -0.0404; the estimate
-        // sees -0.0059, the quadrature (-0.0101) and what stage 1 lacks (0.0042)
+    double tolerance;   // of the local error of u in one step, length. The estimate is that error
+        // to leading order where motion is smooth (stepping/tableau)
     double step_max;   // longest, time
     double relax_step;   // while relaxing steps may be so long, also where step_max is less, time
     double step_min;   // below it the run stops with an error, time

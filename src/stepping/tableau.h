@@ -23,8 +23,8 @@ typedef struct Tableau {
     double gamma;
     double a[TABLEAU_STAGES_MAX][TABLEAU_STAGES_MAX];   // lower triangle; the last row is b
     double c[TABLEAU_STAGES_MAX];
-    // dt (error[0] v_n + error[1] v_1 + ...) estimates the local error of u, of order + 1: what the
-    // quadrature through v_n and all stages, exact for polynomials of degree `stages`, adds to b's.
+    // dt (error[0] v_n + error[1] v_1 + ...) is the local error of u, exact step less ours, to
+    // leading order dt^(order + 1) where motion is smooth and friction falls linearly.
     double error[TABLEAU_STAGES_MAX + 1];
 } Tableau;
 

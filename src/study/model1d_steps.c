@@ -14,7 +14,7 @@
 // ten times finer than a block's (run/model), as the whole line stops within one step. The energy
 // ledger closes to 5e-5 then (set A, L = 4, P = 0.01).
 static const double TOLERANCES[] = {
-    [ACCURACY_DRAFT] = 1e-3, [ACCURACY_STANDARD] = 1e-4, [ACCURACY_FINE] = 1e-5};
+    [ACCURACY_DRAFT] = 5e-3, [ACCURACY_STANDARD] = 5e-4, [ACCURACY_FINE] = 5e-5};
 
 // (mu_S - mu_K) P H/E, length.
 static double friction_slip(const Model1d *model)

@@ -91,7 +91,7 @@ class BothPaths(Runs):
         return reduced, full
 
     def test_quads(self):
-        self.compare("Q4", ["reduction.tolerance=1e-3", "time.tolerance=3e-4"], 1e-3)
+        self.compare("Q4", ["reduction.tolerance=1e-3", "time.tolerance=2e-3"], 1e-3)
 
     def test_triangles_of_order_two(self):
         # At the pressure of PLAIN its second peak stands between two branches (validation/paper).
@@ -128,7 +128,7 @@ class Tricked(Runs):
 
     def test_leading_precursor_is_not_swallowed(self):
         mu, events, _, _ = self.first_peak(0.006, 0.0066, "time.step_max=0.2",
-                                           "time.tolerance=1e-4")
+                                           "time.tolerance=7e-4")
         leading, = [event for event in events if event["kind"].startswith("leading")]
         tricked, seen, run, report = self.first_peak(0.006, 0.0066, *self.TRICK)
         found, = [event for event in seen if event["kind"].startswith("leading")]
@@ -144,10 +144,10 @@ class Tricked(Runs):
         self.assertTrue(not late or late[0] > 1.1 * leading["U_start"], late)
 
     def test_accuracy_alone_does_not_see_it(self):
-        """With the usual tolerance, too, every step converges and friction comes out too high."""
-        mu, _, _, _ = self.first_peak(0.004, 0.005, "time.step_max=0.2", "time.tolerance=1e-4")
-        blind, _, _, report = self.first_peak(0.004, 0.005, "time.certificate=false",
-                                           "time.step_max=64")
+        """With ordinary tolerances, too, every step converges and friction comes out too high."""
+        mu, _, _, _ = self.first_peak(0.004, 0.005, "time.step_max=0.2", "time.tolerance=7e-4")
+        blind, _, _, report = self.first_peak(0.004, 0.005, "time.accuracy=draft",
+                                           "time.certificate=false", "time.step_max=64")
         self.assertGreater(blind, 1.01 * mu)
         self.assertLess(report["errors"]["energy"], 1e-3)
 

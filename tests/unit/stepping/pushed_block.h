@@ -28,7 +28,7 @@ static inline RigDef pushed_def(int32_t nx)
 
 static inline StepControlDef pushed_steps(void)
 {
-    return (StepControlDef){.tolerance = 4e-7,
+    return (StepControlDef){.tolerance = 2.7e-6,
                             .step_max = 8,
                             .step_min = 1e-9,
                             .wave_step = 0.1,

@@ -59,8 +59,8 @@ static void check_rules(double wave_step, double tolerance)
 static void test_rules(void **state)
 {
     (void)state;
-    check_rules(0.1, 4e-7);
-    check_rules(8, 4e-5);
+    check_rules(0.1, 2.7e-6);
+    check_rules(8, 2.7e-4);
 }
 
 // The largest F_T/F_N in the second half of the rod's way, when sliding has become periodic.
@@ -87,9 +87,9 @@ static double peak_force(bool use_certificate, double tolerance)
 static void test_certificate_prevents_the_wrong_answer(void **state)
 {
     (void)state;
-    double right = peak_force(true, 4e-7), loose = peak_force(true, 4e-6);
+    double right = peak_force(true, 2.7e-6), loose = peak_force(true, 2.7e-5);
     assert_near("loose", loose, right, 2e-3 * right);
-    assert_true(peak_force(false, 4e-6) > 1.05 * right);
+    assert_true(peak_force(false, 2.7e-5) > 1.05 * right);
 }
 
 // A finer tolerance means smaller errors and more steps.
@@ -98,7 +98,7 @@ static void test_tolerance(void **state)
     (void)state;
     RigDef def = pushed_def(10);
     int64_t before = 0;
-    for (double tolerance = 4e-6; tolerance > 4e-9; tolerance *= 0.1) {
+    for (double tolerance = 2.7e-5; tolerance > 2.7e-8; tolerance *= 0.1) {
         StepControlDef steps = pushed_steps();
         steps.tolerance = tolerance;
         PushedBlock run;
@@ -178,7 +178,7 @@ static void test_energy_balance(void **state)
     int64_t accepted[2];
     for (int strict = 0; strict < 2; strict++) {
         StepControlDef steps = pushed_steps();
-        steps.tolerance = 4e-4;
+        steps.tolerance = 2.7e-3;
         steps.energy_tolerance = strict ? 1e-4 : 0;
         PushedBlock run;
         pushed_build(&def, &steps, &run);
