@@ -73,8 +73,12 @@ typedef struct RunSummary {
     double mu_low, mu_high;        // smallest and largest peak, the first left out
     int32_t period;                // peaks repeat after so many slidings; 0: they do not
     double mu_M, mu_M_spread;   // of the periodic peaks; NaN: no peak seen
-    double mu_trusted;   // of the periodic falls of the force, all sliding or not, the lowest; NaN
-    int32_t falls, fall_period;   // counted for it; after how many they repeat, 0: they do not
+    double mu_trusted;   // of falls of the force, all sliding or not: the lowest that repeats, or
+        // where none does the lowest decile; NaN: no fall
+    double mu_falls;   // their mean
+    double mu_trusted_error, mu_falls_error;   // one standard error; NaN: one fall
+    int32_t falls, fall_period;   // counted for them; after how many they repeat, 0: they do not
+    bool falls_enough;   // they repeat, or the mean of 30 and more is known to 2 %
     int32_t peaks, peaks_counted;   // seen, and belonging to the periodic regime
     int32_t quasi_static, bounded, leading;   // events by kind
     double critical_length;   // l_c / L seen in the dynamics; NaN: none

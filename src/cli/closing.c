@@ -15,14 +15,22 @@ static void print_falls(const RunSummary *summary)
 {
     const double same = 0.01;
     if (isnan(summary->mu_trusted) || summary->mu_trusted > (1 - same) * summary->mu_M) return;
-    printf("  to trust        %.4f: here the force falls by 5 %% or more, though not all slides;\n",
-           summary->mu_trusted);
-    if (summary->fall_period > 0)
-        printf("                  the lowest of %d falls that repeat after %d\n", summary->falls,
-               summary->fall_period);
-    else
-        printf("                  the lowest of the last %d falls, which do not repeat\n",
-               summary->falls);
+    if (summary->fall_period > 0) {
+        printf(
+            "  to trust        %.4f: here the force falls by 5 %% or more, though not all slides;\n"
+            "                  the lowest of %d falls that repeat after %d\n",
+            summary->mu_trusted, summary->falls, summary->fall_period);
+        return;
+    }
+    printf("  to trust        %.4f +- %.4f: at less the force falls by 5 %% or more once in ten "
+           "falls;\n"
+           "                  these do not repeat: the mean of %d is %.4f +- %.4f\n",
+           summary->mu_trusted, summary->mu_trusted_error, summary->falls, summary->mu_falls,
+           summary->mu_falls_error);
+    if (!summary->falls_enough)
+        printf("                  too few falls (30, their mean within 2 %%, are enough): give a "
+               "later "
+               "time.until\n");
 }
 
 // Each number with what bounds it: how many peaks it comes from, by how much they differ, whether

@@ -49,7 +49,9 @@ static void read_options(int argc, char **argv, StabilityWords *words)
          "state in which the scene's run ends, with a rod or without",
          0},
         {"slidings", OPTION_SLIDINGS, "N", 0,
-         "With --from sliding: after the N-th one, computed by time stepping (default: 2)", 0},
+         "With --from sliding: after the N-th one (or the N-th fall of the force by 5 %, where the "
+         "block does not slide whole), computed by time stepping (default: 2)",
+         0},
         {"whole", OPTION_WHOLE, NULL, 0, "Follow the front to the end of the block, beyond l_c", 0},
         {0}};
     static const struct argp argp = {
@@ -137,6 +139,8 @@ static void print_answers(const StabilitySummary *summary)
     point_table_answer("l_c/L at V", summary->l_c_rod,
                        "slip at V grows to v_c within half an oscillation");
     point_table_answer("l_c/L (scan)", summary->l_c_scan, "as l_c, with the pressure held fixed");
+    point_table_answer("mu at l_sc", summary->mu_sc,
+                       "swings begin: at V the block may slide from here on");
     point_table_answer("mu_M, V -> 0", summary->mu_c, "mu at l_c");
     point_table_answer("mu_M at V", summary->mu_rod, "mu at l_c at V");
     printf("  (the front goes from node to node: %.4f L between two)\n", summary->element);

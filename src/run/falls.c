@@ -6,12 +6,13 @@
 
 #include "base/memory.h"
 #include "run/repetition.h"
+#include "run/sample.h"
 
 #include <math.h>
 
-enum { FIRST_ROOM = 16 };
+enum { FIRST_ROOM = 16, REPEATING_PART = 3 };
 
-static const double LEAST_DROP = 0.05;
+static const double LEAST_DROP = 0.05, MEAN_ERROR = 0.02;
 static const Fall NOTHING_SEEN = {.mu = -INFINITY, .mu_after = INFINITY};
 
 bool falls_create(const Events *events, const Pads *pads, double tolerance, Falls *falls,
@@ -115,28 +116,61 @@ static void sort_branches(FallsSummary *summary)
     }
 }
 
-FallsSummary falls_summarise(const Falls *falls)
+// Adds the counted falls to their branches, with the range of them all.
+static void fill_branches(const Falls *falls, FallsSummary *summary)
 {
-    FallsSummary summary = {.low = NAN, .high = NAN, .counted = falls->count - falls->count / 2};
-    for (int32_t period = 1; period <= FALL_PERIOD_MAX && summary.period == 0; period++) {
-        int32_t agreeing = repetition_count(falls->count, period, falls_agree, falls);
-        if (falls->count <= period || agreeing < 2 * period + 1) continue;
-        summary.period = period;
-        summary.counted = agreeing - (period > 1 ? agreeing % period : 0);
-    }
-    for (int32_t k = falls->count - 1; k >= falls->count - summary.counted; k--) {
+    for (int32_t k = falls->count - 1; k >= falls->count - summary->counted; k--) {
         double mu = falls->list[k].mu;
-        summary.low = fmin(summary.low, mu);   // fmin of NaN and a number is the number
-        summary.high = fmax(summary.high, mu);
-        FallBranch *branch = branch_of(falls, &summary, k);
+        summary->low = fmin(summary->low, mu);   // fmin of NaN and a number is the number
+        summary->high = fmax(summary->high, mu);
+        FallBranch *branch = branch_of(falls, summary, k);
         if (!branch) continue;
         branch->mu = (branch->mu * branch->count + mu) / (branch->count + 1);
         branch->count++;
         branch->low = fmin(branch->low, mu);
         branch->high = fmax(branch->high, mu);
     }
-    sort_branches(&summary);
+    sort_branches(summary);
+}
+
+static double fall_mu(const void *series, int32_t k)
+{
+    return ((const Falls *)series)->list[k].mu;
+}
+
+// What repeats must have come back twice and be a third of the run: of many falls without a period
+// some few agree by chance. Without a period the first quarter is left to the start.
+FallsSummary falls_summarise(const Falls *falls)
+{
+    FallsSummary summary = {
+        .low = NAN, .high = NAN, .trusted_error = NAN, .counted = falls->count - falls->count / 4};
+    for (int32_t period = 1; period <= FALL_PERIOD_MAX && summary.period == 0; period++) {
+        int32_t agreeing = repetition_count(falls->count, period, falls_agree, falls);
+        if (falls->count <= period || agreeing < 2 * period + 1) continue;
+        if (REPEATING_PART * agreeing < falls->count) continue;
+        summary.period = period;
+        summary.counted = agreeing - (period > 1 ? agreeing % period : 0);
+    }
+    fill_branches(falls, &summary);
+    SampleSummary sample =
+        sample_summarise(falls, fall_mu, falls->count - summary.counted, summary.counted);
+    summary.mean = sample.mean;
+    summary.mean_error = sample.mean_error;
+    summary.trusted = summary.low;
+    if (summary.period > 0) {
+        summary.trusted_error = (summary.branches[0].high - summary.branches[0].low) / 2;
+    } else if (falls->count > 0) {
+        summary.trusted = sample.decile;
+        summary.trusted_error = sample.decile_error;
+    }
+    summary.enough = summary.period > 0 || (summary.counted >= FALLS_ENOUGH &&
+                                            sample.mean_error <= MEAN_ERROR * sample.mean);
     return summary;
+}
+
+bool falls_are_settled(const Falls *falls)
+{
+    return falls->count > 2 && falls_summarise(falls).enough;
 }
 
 // --- run.json -----------------------------------------------------------------------------------
@@ -160,11 +194,15 @@ static void write_branches(const FallsSummary *summary, JsonWriter *json)
 void falls_write_json(const Falls *falls, JsonWriter *json)
 {
     FallsSummary summary = falls_summarise(falls);
-    json_number(json, "mu_trusted", summary.low);
+    json_number(json, "mu_trusted", summary.trusted);
+    json_number(json, "mu_trusted_error", summary.trusted_error);
     json_begin_object(json, "falls");
     json_number(json, "least_drop", falls->least);
     json_integer(json, "period", summary.period);
     json_integer(json, "counted", summary.counted);
+    json_boolean(json, "enough", summary.enough);
+    json_number(json, "mean", summary.mean);
+    json_number(json, "mean_error", summary.mean_error);
     json_number(json, "mu_low", summary.low);
     json_number(json, "mu_high", summary.high);
     write_branches(&summary, json);

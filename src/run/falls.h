@@ -5,15 +5,17 @@
 // and there need not be an event at all in which every node slips. What falls by less (a short pad
 // that slides alone while its neighbours take over its load) is listed by run/pads only.
 //
-// Once the start is forgotten falls repeat with a period of one or more. Each place in the period
-// is a branch; the lowest fall is the one to trust. Fed after run/events and run/pads; written by
-// run/report.
+// Once the start is forgotten falls repeat with a period of one or more, or they never do. Each
+// place in the period is a branch; the lowest is the one to trust. Without a period the lowest of a
+// sample would sink with every fall waited for: what is trusted then is the lowest decile, and the
+// errors of it and of the mean say whether there are enough. Fed after run/events and run/pads;
+// written by run/report.
 #ifndef AMONTONS_RUN_FALLS_H
 #define AMONTONS_RUN_FALLS_H
 
 #include "run/pads.h"
 
-enum { FALL_PERIOD_MAX = 8 };
+enum { FALL_PERIOD_MAX = 8, FALLS_ENOUGH = 30 };
 
 typedef struct Fall {
     double U, mu;   // the largest mu since the fall before, and where; length, 1
@@ -43,8 +45,12 @@ enum { FALL_BRANCHES_MAX = 16 };
 
 typedef struct FallsSummary {
     int32_t period;   // in falls; 0: they do not repeat within FALL_PERIOD_MAX
-    int32_t counted;   // the last falls, which repeat; without a period the later half
-    double low, high;   // smallest and largest mu of them; NaN: no fall. Trust `low`.
+    int32_t counted;   // the last falls, which repeat; without a period the last three quarters
+    double low, high;   // smallest and largest mu of them; NaN: no fall
+    double mean, mean_error;   // of mu over them, and its standard error
+    double trusted;   // `low` with a period, the lowest decile without; NaN: no fall
+    double trusted_error;   // half the lowest branch's range, or the decile's standard error
+    bool enough;   // they repeat, or are FALLS_ENOUGH with a mean within 2 %
     int32_t branch_count;
     FallBranch branches[FALL_BRANCHES_MAX];   // ascending mu
 } FallsSummary;
@@ -54,6 +60,7 @@ bool falls_create(const Events *events, const Pads *pads, double tolerance, Fall
 void falls_destroy(Falls *falls);
 bool falls_record(void *self, const Observation *seen, Error *err);   // a Recorder
 FallsSummary falls_summarise(const Falls *falls);
+bool falls_are_settled(const Falls *falls);   // more of them would tell nothing new: `enough`
 void falls_write_json(const Falls *falls, JsonWriter *json);   // results.mu_trusted, .falls
 
 #endif

@@ -149,11 +149,12 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Falls repeat, and with them the peaks of the whole block, where it has any.
+// Falls repeat, and with them the peaks of the whole block, where it has any; or they do not, and
+// enough of them are known.
 static bool is_periodic(Simulation *simulation)
 {
     if (simulation->falls.count == 0) return peaks_summarise(&simulation->peaks).period > 0;
-    return falls_summarise(&simulation->falls).period > 0;
+    return falls_are_settled(&simulation->falls);
 }
 
 bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *finished, Error *err)

@@ -68,20 +68,28 @@ cleanup:
     return true;
 }
 
+// Whole slidings, or falls of the force where these are more: many pads seldom slide all at once.
+static int32_t count_slidings(const Simulation *simulation)
+{
+    int32_t whole = simulation->events.kinds[EVENT_LEADING], falls = simulation->falls.count;
+    return whole > falls ? whole : falls;
+}
+
 // Time stepping until the block has come to rest after the wanted number of slidings.
 static bool run_slidings(StabilityPath *path, Error *err)
 {
     Simulation *simulation = path->simulation;
     const Events *events = &simulation->events;
     bool finished = false;
-    while (events->kinds[EVENT_LEADING] < path->options->slidings || events->rapid >= 0) {
+    while (count_slidings(simulation) < path->options->slidings || events->rapid >= 0) {
         if (stop_wanted(path, err)) goto cleanup;
         if (finished)
             FAIL(err, ERROR_INPUT,
-                 "%s: only %d of %d slidings ended before the scene's end at U = %g: give a later "
-                 "time.until, or start the path earlier (--from start, --slidings)",
-                 simulation->scene.path, events->kinds[EVENT_LEADING], path->options->slidings,
-                 simulation->seen.U);
+                 "%s: only %d of %d slidings, or falls of the force by 5 %%, ended before the "
+                 "scene's end at U = %g: give a later one (--set time.until.U=%g), or start the "
+                 "path earlier (--from start, fewer --slidings)",
+                 simulation->scene.path, count_slidings(simulation), path->options->slidings,
+                 simulation->seen.U, 4 * simulation->seen.U);
         TRY(amontons_simulation_step(simulation, NULL, &finished, err));
     }
 cleanup:
@@ -301,7 +309,9 @@ static double frequency_square(const StabilityPath *path, int32_t k)
     return fmax(fall * (point->front - point[-1].front) - square, 0);
 }
 
-// Where the margin is lost first: l, U and mu there (the point's own where the margin jumps).
+// Where the margin is lost first: l, U and mu there. Where the margin jumps, the set of slipping
+// nodes that has lost it slips ever since its last node began to: since the point before, whose U
+// and mu are taken (its own are those at which one more node is about to slip: in set B 4 % more).
 static StabilityPoint first_loss(const StabilityPath *path, Margin margin)
 {
     StabilityPoint lost = {.front = NAN, .U = NAN, .mu = NAN, .rate_im = NAN};
@@ -310,8 +320,13 @@ static StabilityPoint first_loss(const StabilityPath *path, Margin margin)
         double after = margin(path, k), before = k > 0 ? margin(path, k - 1) : 0;
         if (!(after >= 0)) continue;
         lost = path->points[k];
-        if (k == 0 || !isfinite(before) || before >= 0 || !is_next(path, k)) break;
+        if (k == 0) break;
         const StabilityPoint *last = &path->points[k - 1];
+        if (!isfinite(before) || before >= 0 || !is_next(path, k)) {
+            lost.U = last->U;
+            lost.mu = last->mu;
+            break;
+        }
         double part = isfinite(after) ? before / (before - after) : 1;
         lost.front = last->front + part * (lost.front - last->front);
         lost.U = last->U + part * (lost.U - last->U);
@@ -321,11 +336,19 @@ static StabilityPoint first_loss(const StabilityPath *path, Margin margin)
     return lost;
 }
 
-// The same, or the end of the block: there it slides, whether or not anything grows.
+// The same, or the end of the block: there it slides, whether or not anything grows, at the largest
+// mu of the path (that of the end itself is what is left while it slides).
 static StabilityPoint first_sliding(const StabilityPath *path, Margin margin)
 {
     StabilityPoint lost = first_loss(path, margin);
-    return isnan(lost.front) && path->at_end ? path->points[path->count - 1] : lost;
+    if (!isnan(lost.front) || !path->at_end) return lost;
+    lost = path->points[path->count - 1];
+    for (int32_t k = 0; k < path->count - 1; k++) {
+        if (path->points[k].mu < lost.mu) continue;
+        lost.mu = path->points[k].mu;
+        lost.U = path->points[k].U;
+    }
+    return lost;
 }
 
 // l_sc, l_c and mu there. At the scene's V slip cannot run away later than for V -> 0.
@@ -343,6 +366,7 @@ static void summarise(const StabilityPath *path, StabilitySummary *summary)
                            .l_c_scan = first_loss(path, overload).front / length,
                            .l_c = slides.front / length,
                            .l_c_rod = rod.front / length,
+                           .mu_sc = swings.mu,
                            .mu_c = slides.mu,
                            .mu_rod = rod.mu,
                            .U_c = slides.U,

@@ -5,6 +5,7 @@
 
 #include "base/text.h"
 #include "run/scene_keys.h"
+#include "study/study_records.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -92,7 +92,7 @@ typedef struct SweepTable {
     double *status;   // [point_count] a PointStatus
     double *period;   // [point_count] of peaks or, ranked by them, of falls; 0: none
     double *low, *high;   // [point_count] bounds of mu_M: of its own peaks where they are
-        // periodic, of all peaks but the first where not
+        // periodic, of all peaks but the first where not; ranked by mu_trusted: bounds of that
     WordList *words;   // [column_count]
 } SweepTable;
 
@@ -102,7 +102,7 @@ void table_destroy(SweepTable *table);   // zeroed is fine
 // --- sweep_rank: ranking.csv
 typedef struct RankRow {
     int32_t point;
-    double value, low, high;   // what it is ranked by; bounds where that is mu_M, else NaN
+    double value, low, high;   // what it is ranked by; bounds of mu_M or mu_trusted, else NaN
     double gain;   // over the baseline, 1; NaN: there is none
     bool as_good;   // its bounds meet those of the best
 } RankRow;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A study's points in the order of one result. A gain is value / baseline - 1. Two points whose
-// bounds of mu_M overlap are not told apart by these runs: such a point is marked as good as the
-// best.
+// bounds of mu_M (of mu_trusted, ranked by that) overlap are not told apart by these runs: such a
+// point is marked as good as the best.
 #include "study/sweep.h"
 
 #include "base/memory.h"
@@ -19,6 +19,11 @@ enum { CELL_SIZE = 80, NOTE_SIZE = 120, CELLS_MAX = STUDY_COLUMNS_MAX + 6 };
 static bool is_mu_M(const Study *study)
 {
     return strcmp(study->records[study->rank.record].path, "results.mu_M") == 0;
+}
+
+static bool is_mu_trusted(const Study *study)
+{
+    return strcmp(study->records[study->rank.record].path, "results.mu_trusted") == 0;
 }
 
 // Rows without a value stand last, equal ones in the study's order; falling values.
@@ -53,7 +58,7 @@ bool ranking_make(const Sweep *sweep, const SweepTable *table, Ranking *ranking,
             (RankRow){.point = k, .value = sign * values[k], .low = NAN, .high = NAN};
         if (isnan(values[k])) continue;
         ranking->ranked++;
-        if (!is_mu_M(study)) continue;
+        if (!is_mu_M(study) && !is_mu_trusted(study)) continue;
         ranking->rows[k].low = table->low[k];
         ranking->rows[k].high = table->high[k];
     }
@@ -89,11 +94,15 @@ static bool row_notes(const Sweep *sweep, const SweepTable *table, const RankRow
 {
     PointStatus status = sweep->points[row->point].status;
     char *report = status == POINT_DONE ? point_report(sweep, row->point, err) : NULL;
+    double enough = 1;
     *note = *warning = 0;
     TRY(error_is_clean(err));
     if (status != POINT_DONE) add_note(note, point_status_name(status));
     if (status == POINT_DONE && isnan(row->value)) add_note(note, "no value");
     if (table->period[row->point] == 0) add_note(note, "not periodic");
+    if (report && is_mu_trusted(&sweep->study) &&
+        json_find_number(report, "results.falls.enough", &enough) && enough == 0)
+        add_note(note, "too few falls");
     if (table->period[row->point] > 1) add_note(note, "falls by turns");
     if (row->as_good) add_note(note, "as good as the first");
     if (report && (json_find_text(report, "results.warnings.0", warning, RUN_WARNING_SIZE) ||

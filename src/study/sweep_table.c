@@ -82,9 +82,8 @@ static bool ranks_by_falls(const Study *study)
            strcmp(study->records[study->rank.record].path, "results.mu_trusted") == 0;
 }
 
-// report: of a finished point. What mu_M may be: the range of the peaks that count where they
-// repeat, else of all peaks but the first.
-static void note_bounds(const Study *study, SweepTable *table, int32_t point, const char *report)
+// What mu_M may be: the range of the peaks that count where they repeat, else of all but the first.
+static void note_peaks(SweepTable *table, int32_t point, const char *report)
 {
     double mu = NAN, spread = NAN;
     json_find_number(report, "results.period", &table->period[point]);
@@ -93,14 +92,23 @@ static void note_bounds(const Study *study, SweepTable *table, int32_t point, co
     if (table->period[point] > 0) {   // two peaks at least
         table->low[point] = mu - spread / 2;
         table->high[point] = mu + spread / 2;
-    } else {
-        json_find_number(report, "results.mu_peaks_low", &table->low[point]);
-        json_find_number(report, "results.mu_peaks_high", &table->high[point]);
-        if (table->low[point] == table->high[point])   // one peak bounds nothing
-            table->low[point] = table->high[point] = NAN;
+        return;
     }
-    if (ranks_by_falls(study))
-        json_find_number(report, "results.falls.period", &table->period[point]);
+    json_find_number(report, "results.mu_peaks_low", &table->low[point]);
+    json_find_number(report, "results.mu_peaks_high", &table->high[point]);
+    if (table->low[point] == table->high[point])   // one peak bounds nothing
+        table->low[point] = table->high[point] = NAN;
+}
+
+// What mu to trust may be: two standard errors to either side.
+static void note_falls(SweepTable *table, int32_t point, const char *report)
+{
+    double mu = NAN, error = NAN;
+    json_find_number(report, "results.falls.period", &table->period[point]);
+    json_find_number(report, "results.mu_trusted", &mu);
+    json_find_number(report, "results.mu_trusted_error", &error);
+    table->low[point] = mu - 2 * error;
+    table->high[point] = mu + 2 * error;
 }
 
 // A failed point keeps its keys and its message, and has no results.
@@ -118,7 +126,7 @@ static bool write_row(TableWriter *writer, int32_t point, Scene *scene, Error *e
     write_records(writer, point, at->status == POINT_DONE ? report : NULL);
     writer->table->period[point] = writer->table->low[point] = writer->table->high[point] = NAN;
     if (at->status == POINT_DONE && report)
-        note_bounds(&sweep->study, writer->table, point, report);
+        (ranks_by_falls(&sweep->study) ? note_falls : note_peaks)(writer->table, point, report);
     csv_text(writer->csv, point_status_name(at->status));
     *writer->cell = 0;
     if (at->status == POINT_FAILED && report)

@@ -142,25 +142,49 @@ static void test_branches(void **state)
     fixture_destroy(&fixture);
 }
 
-// No period: branches by the number of pads that slid, over the later half; the list grows.
+// No period: branches by the number of pads that slid, over the last three quarters.
 static void test_without_period(void **state)
 {
     (void)state;
     Fixture fixture;
     fixture_build(&fixture);
-    for (int32_t k = 0; k < 20; k++) fall(&fixture, 0.1, 0.05, LEFT);
-    for (int32_t k = 0; k < 20; k++)
+    for (int32_t k = 0; k < 10; k++) fall(&fixture, 0.1, 0.05, LEFT);
+    for (int32_t k = 0; k < 30; k++)
         fall(&fixture, 0.3 + 0.01 * ((7 * k * k) % 20), 0.1, k % 3 ? ACROSS : LEFT);
     FallsSummary found = falls_summarise(&fixture.falls);
     assert_int_equal(fixture.falls.count, 40);
-    assert_true(found.period == 0 && found.counted == 20 && found.branch_count == 2);
+    assert_true(found.period == 0 && found.counted == 30 && found.branch_count == 2);
     assert_near("low", found.low, 0.3, 1e-12);
-    assert_int_equal(found.branches[0].count + found.branches[1].count, 20);
+    assert_int_equal(found.branches[0].count + found.branches[1].count, 30);
     int32_t left = found.branches[0].pads == 1 ? 0 : 1;
-    assert_int_equal(found.branches[left].count, 7);
+    assert_int_equal(found.branches[left].count, 10);
     double sum = 0;
-    for (int32_t k = 0; k < 20; k += 3) sum += 0.3 + 0.01 * ((7 * k * k) % 20);
-    assert_near("mean", found.branches[left].mu, sum / 7, 1e-12);
+    for (int32_t k = 0; k < 30; k += 3) sum += 0.3 + 0.01 * ((7 * k * k) % 20);
+    assert_near("mean", found.branches[left].mu, sum / 10, 1e-12);
+    // By numpy: mean, std(ddof=1), quantile(0.1) of these 30, and five blocks of six.
+    assert_near("of all", found.mean, 0.375, 1e-9);
+    assert_near("its error", found.mean_error, 0.00818956442781, 1e-9);
+    assert_near("to trust", found.trusted, 0.327, 1e-9);
+    assert_near("its error", found.trusted_error, 0.015, 1e-9);
+    assert_false(found.enough);   // 30 of them, but the mean is known to 2.2 % only
+    assert_false(falls_are_settled(&fixture.falls));
+    for (int32_t k = 30; k < 80; k++)
+        fall(&fixture, 0.3 + 0.01 * ((7 * k * k) % 20), 0.1, k % 3 ? ACROSS : LEFT);
+    assert_true(falls_summarise(&fixture.falls).enough && falls_are_settled(&fixture.falls));
+    fixture_destroy(&fixture);
+}
+
+// Three falls of forty agree by chance; to repeat they must be a third of the run.
+static void test_chance_is_no_period(void **state)
+{
+    (void)state;
+    Fixture fixture;
+    fixture_build(&fixture);
+    for (int32_t k = 0; k < 7; k++) fall(&fixture, 0.3 + 0.02 * k * k, 0.1, ACROSS);
+    for (int32_t k = 0; k < 3; k++) fall(&fixture, 0.7, 0.1, ACROSS);
+    assert_int_equal(falls_summarise(&fixture.falls).period, 0);   // 3 of 10
+    fall(&fixture, 0.7, 0.1, ACROSS);
+    assert_int_equal(falls_summarise(&fixture.falls).period, 1);   // 4 of 11
     fixture_destroy(&fixture);
 }
 
@@ -195,9 +219,13 @@ static void test_memory_faults(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_which_count),    cmocka_unit_test(test_within_an_event),
-        cmocka_unit_test(test_alike),          cmocka_unit_test(test_branches),
-        cmocka_unit_test(test_without_period), cmocka_unit_test(test_memory_faults),
+        cmocka_unit_test(test_which_count),
+        cmocka_unit_test(test_within_an_event),
+        cmocka_unit_test(test_alike),
+        cmocka_unit_test(test_branches),
+        cmocka_unit_test(test_without_period),
+        cmocka_unit_test(test_memory_faults),
+        cmocka_unit_test(test_chance_is_no_period),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
