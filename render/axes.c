@@ -45,12 +45,15 @@ static double number_width(const Page *page, const Axes *axes, const Ticks *tick
 }
 
 // Ticks are chosen for the numbers shown, that is, in the unit of the axis. A logarithmic axis so
-// short that it has no two powers of ten gets plain numbers at their logarithmic places.
+// short that it has no two powers of ten gets 1, 2 and 5 times them; one too short for that gets
+// plain numbers at their logarithmic places.
 static Ticks axis_ticks(const Axis *axis, int32_t wanted)
 {
-    Ticks powers = {0};
-    if (axis->is_log) powers = ticks_choose_log(axis->low, axis->high, wanted);
-    if (powers.count >= TICKS_MIN) return powers;
+    Ticks log_ticks = {0};
+    if (axis->is_log) log_ticks = ticks_choose_log(axis->low, axis->high, wanted);
+    if (axis->is_log && log_ticks.count < TICKS_MIN)
+        log_ticks = ticks_choose_thirds(axis->low * axis->factor, axis->high * axis->factor);
+    if (log_ticks.count >= TICKS_MIN) return log_ticks;
     return ticks_choose(axis->low * axis->factor, axis->high * axis->factor, wanted);
 }
 
@@ -136,8 +139,7 @@ static void tick_mark(const Page *page, const Axes *axes, Point foot, bool below
 static double minor_value(const Ticks *ticks, int32_t k)
 {
     if (!ticks->is_log) return ((double)ticks->first + (double)k / ticks->minor) * ticks->step;
-    double power = floor((double)k / ticks->minor);
-    return (1 + k - power * ticks->minor) * pow(10, ((double)ticks->first + power) * ticks->step);
+    return ticks_minor_log(ticks, k);
 }
 
 // Minor ticks lie between the ticks and beyond them to both ends of the axis.

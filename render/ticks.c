@@ -55,15 +55,57 @@ Ticks ticks_choose_log(double low, double high, int32_t wanted)
     return ticks;
 }
 
+// 1, 2 and 5 times the powers of ten, counted from 1: the value at k thirds of a decade.
+static double third_value(int64_t k)
+{
+    static const double MANTISSA[] = {1, 2, 5};
+    int64_t power = k >= 0 ? k / 3 : -((2 - k) / 3);
+    return MANTISSA[k - 3 * power] * pow(10, (double)power);
+}
+
+Ticks ticks_choose_thirds(double low, double high)
+{
+    Ticks ticks = {.is_log = true, .thirds = true, .minor = 9};
+    if (!(low > 0) || !(high > low) || !isfinite(high)) return ticks;
+    ticks.first = 3 * (int64_t)floor(log10(low));
+    while (third_value(ticks.first) < low * (1 - END_SLACK)) ++ticks.first;
+    while (third_value(ticks.first + ticks.count) <= high * (1 + END_SLACK)) ++ticks.count;
+    return ticks;
+}
+
+double ticks_minor_log(const Ticks *ticks, int32_t k)
+{
+    double first = ticks->thirds ? floor(log10(third_value(ticks->first)) + END_SLACK)
+                                 : (double)ticks->first * ticks->step;
+    double power = floor((double)k / ticks->minor);
+    return (1 + k - power * ticks->minor) *
+           pow(10, first + power * (ticks->thirds ? 1 : ticks->step));
+}
+
 double tick_value(const Ticks *ticks, int32_t k)
 {
+    if (ticks->thirds) return third_value(ticks->first + k);
     if (ticks->is_log) return pow(10, (double)(ticks->first + k) * ticks->step);
     return (double)(ticks->first + k) * ticks->step;
+}
+
+// A number that stands for itself, or with its own power of ten where it would be long.
+static void label_alone(double value, char label[TICK_LABEL_SIZE])
+{
+    int32_t power = (int32_t)floor(log10(value) + END_SLACK);
+    if (power >= EXPONENT_LOW && power <= EXPONENT_HIGH)
+        snprintf(label, TICK_LABEL_SIZE, "%.*f", power < 0 ? -power : 0, value);
+    else
+        snprintf(label, TICK_LABEL_SIZE, "%.0f\u00d710^{%d}", value / pow(10, power), power);
 }
 
 // The sign is written by hand: 0 must not become "-0", and a minus sign is not a hyphen.
 void tick_label(const Ticks *ticks, int32_t k, char label[TICK_LABEL_SIZE])
 {
+    if (ticks->thirds) {
+        label_alone(tick_value(ticks, k), label);
+        return;
+    }
     if (ticks->is_log) {
         snprintf(label, TICK_LABEL_SIZE, "10^{%.0f}", (double)(ticks->first + k) * ticks->step);
         return;

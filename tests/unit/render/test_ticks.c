@@ -70,6 +70,36 @@ static void logarithmic_ticks_are_powers_of_ten(void **state)
     assert_true(tick_value(&(Ticks){.is_log = true, .first = -3, .step = 1}, 1) == 1e-2);
 }
 
+static void assert_thirds(double low, double high, const char *expected)
+{
+    char all[400] = "", label[TICK_LABEL_SIZE];
+    Ticks ticks = ticks_choose_thirds(low, high);
+    for (int32_t k = 0; k < ticks.count; ++k) {
+        tick_label(&ticks, k, label);
+        strcat(strcat(all, label), " ");
+    }
+    assert_string_equal(all, expected);
+}
+
+static void short_logarithmic_axes_have_one_two_five(void **state)
+{
+    (void)state;
+    assert_thirds(0.15, 4.8, "0.2 0.5 1 2 ");
+    assert_thirds(0.2, 5, "0.2 0.5 1 2 5 ");
+    assert_thirds(12, 60, "20 50 ");
+    assert_thirds(1.5e-5, 2.5e-4, "2\u00d710^{-5} 5\u00d710^{-5} 1\u00d710^{-4} 2\u00d710^{-4} ");
+    assert_thirds(3, 4, "");
+    assert_thirds(0, 4, "");
+    Ticks ticks = ticks_choose_thirds(0.15, 4.8);
+    assert_float_equal(tick_value(&ticks, 3), 2, 1e-12);
+    const double beyond[] = {0.09, 0.1, 0.2};   // about the first tick's power of ten, 0.1
+    for (int32_t k = -1; k <= 1; ++k)
+        assert_float_equal(ticks_minor_log(&ticks, k), beyond[k + 1], 1e-12);
+    assert_float_equal(ticks_minor_log(&ticks, 10), 2, 1e-12);
+    ticks = ticks_choose_log(1e-6, 1e6, 7);   // every second power: no minor ticks but these
+    assert_float_equal(ticks_minor_log(&ticks, 2), 1e-2, 1e-14);
+}
+
 // Whatever the range: inside it, in equal steps of 1, 2 or 5, and neither too few nor too many.
 static void any_range_gets_ticks(void **state)
 {
@@ -108,6 +138,7 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(labels_are_handy_numbers),
                                        cmocka_unit_test(small_and_large_numbers_have_a_power),
                                        cmocka_unit_test(logarithmic_ticks_are_powers_of_ten),
+                                       cmocka_unit_test(short_logarithmic_axes_have_one_two_five),
                                        cmocka_unit_test(any_range_gets_ticks),
                                        cmocka_unit_test(no_range_no_ticks)};
     return cmocka_run_group_tests(tests, NULL, NULL);
