@@ -171,19 +171,43 @@ static void share_results(Sweep *sweep)
     }
 }
 
-bool sweep_is_stopped(const Sweep *sweep)
+bool sweep_check_stop(const Sweep *sweep, Error *err)
 {
     const volatile sig_atomic_t *stop = sweep->options->stop;
-    return stop && *stop;
+    if (stop && *stop)
+        FAIL(err, ERROR_INTERRUPT, "interrupted; the same command goes on where this one stopped");
+cleanup:
+    return error_is_clean(err);
+}
+
+bool sweep_is_waiting(const Sweep *sweep, int32_t point)
+{
+    return sweep->points[point].status == POINT_PENDING && sweep->points[point].same_as == point;
 }
 
 // Called as points end, in whatever order that is; the table keeps the study's.
-void sweep_take(Sweep *sweep, int32_t k, double seconds, const char *report)
+bool sweep_take_ended(Sweep *sweep, int32_t point, double seconds, bool *left, Error *err)
 {
-    sweep->points[k].status = point_status(report);
-    sweep->points[k].seconds = seconds;
+    char *report = point_report(sweep, point, err);
+    TRY(error_is_clean(err));
+    *left = point_status(report) != POINT_PENDING;
+    if (!*left) goto cleanup;
+    if (isnan(seconds) && !json_find_number(report, "timing_s.total", &seconds)) seconds = 0;
+    sweep->points[point].status = point_status(report);
+    sweep->points[point].seconds = seconds;
     sweep->computed++;
-    tell(sweep, k, report);
+    tell(sweep, point, report);
+cleanup:
+    memory_free(report);
+    return error_is_clean(err);
+}
+
+bool sweep_take_lost(Sweep *sweep, int32_t point, double seconds, const char *failure,
+                     const char *message, Error *err)
+{
+    bool left = false;
+    return point_write_failure(sweep, point, failure, message, err) &&
+           sweep_take_ended(sweep, point, seconds, &left, err);
 }
 
 // The ranked table and the figures that the study asks for; those of a sweep that was stopped are

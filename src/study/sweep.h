@@ -68,9 +68,16 @@ bool pool_run(Sweep *sweep, Error *err);
 bool slurm_run(Sweep *sweep, Error *err);
 // Cancels what an earlier sweep in this folder, itself killed, left to Slurm.
 bool slurm_end_leftovers(Sweep *sweep, Error *err);
-bool sweep_is_stopped(const Sweep *sweep);   // by options->stop
-// A point has ended after `seconds` and left `report`: counted, and the caller told.
-void sweep_take(Sweep *sweep, int32_t point, double seconds, const char *report);
+// ERROR_INTERRUPT once options->stop is set.
+bool sweep_check_stop(const Sweep *sweep, Error *err);
+bool sweep_is_waiting(const Sweep *sweep, int32_t point);   // to be computed, by itself
+// What computed `point` is gone: the report that it left is counted and the caller told. seconds:
+// it took; NaN: as the report says. *left: whether there is a report.
+bool sweep_take_ended(Sweep *sweep, int32_t point, double seconds, bool *left, Error *err);
+// The same of one that left none: first the report of its failure is written, `failure` in a word
+// or two, `message` in full.
+bool sweep_take_lost(Sweep *sweep, int32_t point, double seconds, const char *failure,
+                     const char *message, Error *err);
 
 // --- sweep_element: one point for Slurm; element e computes points[e] ([count])
 bool elements_write(const Sweep *sweep, const char *path, const int32_t *points, int32_t count,

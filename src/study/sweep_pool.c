@@ -75,31 +75,27 @@ cleanup:
     return error_is_clean(err);
 }
 
-// What the child left, or else why it left nothing.
+// Takes what the child left, or else why it left nothing. ending: as waitpid has it.
 static bool note_result(Pool *pool, Worker *worker, int ending, Error *err)
 {
-    Sweep *sweep = pool->sweep;
-    char *report = point_report(sweep, worker->point, err), message[ERROR_MESSAGE_SIZE];
-    TRY(error_is_clean(err));
-    if (point_status(report) == POINT_PENDING) {
-        const char *failure = "not begun";
+    const char *failure = "crashed";
+    char message[ERROR_MESSAGE_SIZE];
+    double seconds = clock_seconds() - worker->started;
+    bool left = false;
+    TRY(sweep_take_ended(pool->sweep, worker->point, seconds, &left, err));
+    if (left) goto cleanup;
+    if (WIFSIGNALED(ending)) {
+        snprintf(message, sizeof message, "the process ended by signal %d (%s)", WTERMSIG(ending),
+                 strsignal(WTERMSIG(ending)));
+    } else if (*worker->message) {
+        failure = "not begun";
         snprintf(message, sizeof message, "%s", worker->message);
-        if (WIFSIGNALED(ending)) {
-            failure = "crashed";
-            snprintf(message, sizeof message, "the process ended by signal %d (%s)",
-                     WTERMSIG(ending), strsignal(WTERMSIG(ending)));
-        } else if (!*message) {
-            failure = "crashed";
-            snprintf(message, sizeof message, "the process ended with status %d, without a word",
-                     WEXITSTATUS(ending));
-        }
-        TRY(point_write_failure(sweep, worker->point, failure, message, err));
-        memory_free(report);
-        TRY((report = point_report(sweep, worker->point, err)));
+    } else {
+        snprintf(message, sizeof message, "the process ended with status %d, without a word",
+                 WEXITSTATUS(ending));
     }
-    sweep_take(sweep, worker->point, clock_seconds() - worker->started, report);
+    TRY(sweep_take_lost(pool->sweep, worker->point, seconds, failure, message, err));
 cleanup:
-    memory_free(report);
     return error_is_clean(err);
 }
 
@@ -133,9 +129,7 @@ static bool fill_workers(Pool *pool, Error *err)
     Sweep *sweep = pool->sweep;
     for (int32_t k = 0; k < pool->size; k++) {
         if (pool->workers[k].process) continue;
-        while (pool->next < sweep->study.point_count &&
-               (sweep->points[pool->next].status != POINT_PENDING ||
-                sweep->points[pool->next].same_as < pool->next))
+        while (pool->next < sweep->study.point_count && !sweep_is_waiting(sweep, pool->next))
             pool->next++;
         if (pool->next == sweep->study.point_count) break;
         TRY(start_worker(pool, &pool->workers[k], pool->next, err));
@@ -166,16 +160,15 @@ cleanup:
 // A point that was written before the signal came is finished like any other.
 static void end_workers(Pool *pool)
 {
-    Error ignored = {0};   // the caller tells why the pool ends
     for (int32_t k = 0; k < pool->size; k++) {
+        Error ignored = {0};   // the caller tells why the pool ends
         Worker *worker = &pool->workers[k];
+        bool left = false;
         if (!worker->process) continue;
         kill(worker->process, SIGTERM);
         reap(worker);
-        char *report = point_report(pool->sweep, worker->point, &ignored);
-        if (point_status(report) != POINT_PENDING)
-            sweep_take(pool->sweep, worker->point, clock_seconds() - worker->started, report);
-        memory_free(report);
+        sweep_take_ended(pool->sweep, worker->point, clock_seconds() - worker->started, &left,
+                         &ignored);
     }
 }
 
@@ -189,10 +182,7 @@ bool pool_run(Sweep *sweep, Error *err)
     TRY((pool.workers = NEW_ARRAY(Worker, pool.size, err)));
     TRY((pool.polled = NEW_ARRAY(struct pollfd, pool.size, err)));
     do {
-        if (sweep_is_stopped(sweep))
-            FAIL(err, ERROR_INTERRUPT,
-                 "interrupted; the same command goes on where this one "
-                 "stopped");
+        TRY(sweep_check_stop(sweep, err));
         TRY(fill_workers(&pool, err));
         TRY(hear_workers(&pool, &running, err));
     } while (running > 0);

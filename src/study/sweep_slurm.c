@@ -9,7 +9,6 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/program.h"
-#include "io/json_reader.h"
 #include "io/text_file.h"
 
 #include <errno.h>
@@ -322,8 +321,9 @@ static int last_signal(SlurmRun *run, int32_t k)
     return at && sscanf(at, "ExitCode=%d:%d", &code, &number) == 2 ? number : 0;
 }
 
-// Element `k` is gone and left no run.json. One cancelled before it began is no longer listed.
-static bool record_failure(SlurmRun *run, int32_t k, Error *err)
+// Element `k` is gone and left no run.json: its failure is taken. One cancelled before it began is
+// no longer listed.
+static bool take_lost(SlurmRun *run, int32_t k, Error *err)
 {
     const Element *element = &run->elements[k];
     char message[ERROR_MESSAGE_SIZE], state[STATE_SIZE + REASON_SIZE + 40], words[1100];
@@ -345,35 +345,28 @@ static bool record_failure(SlurmRun *run, int32_t k, Error *err)
         snprintf(message, sizeof message,
                  "the Slurm job left the queue without a result, last seen as %s%s", state,
                  waited ? ": cancelled before it began" : words);
-    return point_write_failure(run->sweep, element->point, cancelled ? "cancelled" : "crashed",
-                               message, err);
+    return sweep_take_lost(run->sweep, element->point, NAN, cancelled ? "cancelled" : "crashed",
+                           message, err);
 }
 
 // Takes the result of element `k`, which is gone, once its run.json can be seen or need not be
 // waited for.
 static bool take_element(SlurmRun *run, int32_t k, Error *err)
 {
-    Sweep *sweep = run->sweep;
     Element *element = &run->elements[k];
-    double seconds = 0;
-    char *report = point_report(sweep, element->point, err);
-    TRY(error_is_clean(err));
-    if (point_status(report) == POINT_PENDING) {
+    bool left = false;
+    TRY(sweep_take_ended(run->sweep, element->point, NAN, &left, err));
+    if (!left) {
         // Unless Slurm ended it, it wrote one.
         bool comes = !element->ended || strcmp(element->state, "COMPLETED") == 0 ||
                      strcmp(element->reason, "NonZeroExitCode") == 0;
         if (element->gone_since == 0) element->gone_since = clock_seconds();
         if (comes && clock_seconds() - element->gone_since < REPORT_PAUSE) goto cleanup;
-        TRY(record_failure(run, k, err));
-        memory_free(report);
-        TRY((report = point_report(sweep, element->point, err)));
+        TRY(take_lost(run, k, err));
     }
-    json_find_number(report, "timing_s.total", &seconds);
     element->taken = true;
     run->left--;
-    sweep_take(sweep, element->point, seconds, report);
 cleanup:
-    memory_free(report);
     return error_is_clean(err);
 }
 
@@ -390,9 +383,7 @@ static bool wait_for_all(SlurmRun *run, Error *err)
         }
         double until = clock_seconds() + LOOK_PAUSE;
         while (run->left > 0 && clock_seconds() < until) {
-            if (sweep_is_stopped(run->sweep))
-                FAIL(err, ERROR_INTERRUPT,
-                     "interrupted; the same command goes on where this one stopped");
+            TRY(sweep_check_stop(run->sweep, err));
             nap(STOP_PAUSE);
         }
     }
@@ -403,16 +394,11 @@ cleanup:
 // A point that was written before the elements were cancelled is finished like any other.
 static void take_finished(SlurmRun *run)
 {
-    Error ignored = {0};   // the caller tells why the sweep ends
     for (int32_t k = 0; k < run->count; k++) {
-        Element *element = &run->elements[k];
-        double seconds = 0;
-        if (element->taken) continue;
-        char *report = point_report(run->sweep, element->point, &ignored);
-        if (report) json_find_number(report, "timing_s.total", &seconds);
-        if (point_status(report) != POINT_PENDING)
-            sweep_take(run->sweep, element->point, seconds, report);
-        memory_free(report);
+        Error ignored = {0};   // the caller tells why the sweep ends
+        bool left = false;
+        if (!run->elements[k].taken)
+            sweep_take_ended(run->sweep, run->elements[k].point, NAN, &left, &ignored);
     }
 }
 
@@ -479,8 +465,7 @@ static bool list_elements(SlurmRun *run, Error *err)
     const Sweep *sweep = run->sweep;
     TRY((run->elements = NEW_ARRAY(Element, sweep->study.point_count, err)));
     for (int32_t k = 0; k < sweep->study.point_count; k++)
-        if (sweep->points[k].status == POINT_PENDING && sweep->points[k].same_as == k)
-            run->elements[run->count++].point = k;
+        if (sweep_is_waiting(sweep, k)) run->elements[run->count++].point = k;
     run->left = run->count;
 cleanup:
     return error_is_clean(err);

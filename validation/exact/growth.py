@@ -6,7 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from exact.instability import (MU, V, V_C, column_settings, critical_exact, exact_root, subcritical_exact)
+from exact.instability import (MU, V, V_C, column_settings, controls, critical_exact, exact_root,
+                               subcritical_exact)
 from harness import SOURCE, Chart, Run, observed_order, settings
 
 HERE = Path(__file__).resolve().parent
@@ -150,11 +151,6 @@ def figure_1(study):
                   "one element's (mu_S - mu_K)/cells allowed")
 
 
-def controls(study):
-    study.control(GROUP, "half-slip-rate", "friction weakens with half the slip rate", rigid_block)
-    study.control(GROUP, "shear-viscosity", "eta1 in place of eta1/2 in shear", column)
-
-
 def run(study):
     rigid_block(study)
     column(study)
@@ -162,4 +158,4 @@ def run(study):
         column_order(study)
         thresholds(study)
     figure_1(study)
-    controls(study)
+    controls(study, GROUP, rigid_block, column)

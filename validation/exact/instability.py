@@ -245,9 +245,10 @@ def warnings_of(study):
     return " ".join(run.report.get("warnings", []))
 
 
-def controls(study):
-    study.control(GROUP, "half-slip-rate", "friction weakens with half the slip rate", rigid_block)
-    study.control(GROUP, "shear-viscosity", "eta1 in place of eta1/2 in shear", column)
+def controls(study, group, rigid_block, column):
+    """The two mistakes that `group` must catch, each by the check that it would spoil."""
+    study.control(group, "half-slip-rate", "friction weakens with half the slip rate", rigid_block)
+    study.control(group, "shear-viscosity", "eta1 in place of eta1/2 in shear", column)
 
 
 def run(study):
@@ -258,4 +259,4 @@ def run(study):
         step_convergence(study)
         thresholds(study)
     ill_posed(study)
-    controls(study)
+    controls(study, GROUP, rigid_block, column)
