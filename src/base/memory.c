@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ALIGNMENT = 64 };
+enum { ALIGNMENT = 64, FIRST_ROOM = 16 };
 
 static atomic_llong allocation_count;
 static atomic_llong live_count;
@@ -64,6 +64,20 @@ void *memory_resize(void *array, int64_t old_count, int64_t new_count, size_t si
     if (array && kept > 0) memcpy(longer, array, (size_t)kept * size);
     memory_free(array);
     return longer;
+}
+
+void *memory_grow(void *list, int32_t count, int32_t *room, size_t size, Error *err)
+{
+    int64_t more = *room > 0 ? 2 * (int64_t)*room : FIRST_ROOM;
+    if (list && count < *room) return list;
+    if (more > INT32_MAX) more = INT32_MAX;
+    if (more == *room)
+        FAIL(err, ERROR_MEMORY, "a list of more than %d items is not possible", *room);
+    void *longer = memory_resize(list, *room, more, size, err);
+    if (longer) *room = (int32_t)more;
+    return longer;
+cleanup:
+    return NULL;
 }
 
 char *memory_text(const char *text, Error *err)

@@ -26,6 +26,11 @@ void *memory_bytes(int64_t size, Error *err);
 // NULL, the error set, and `array` untouched.
 void *memory_resize(void *array, int64_t old_count, int64_t new_count, size_t size, Error *err);
 
+// Room for one more in a list that grows: `list` with room for *room > count items, twice as much
+// where it was full (*room 0, list NULL: a first few). Room doubles, so most calls allocate nothing.
+// On failure NULL, the error set, `list` and *room as they were.
+void *memory_grow(void *list, int32_t count, int32_t *room, size_t size, Error *err);
+
 char *memory_text(const char *text, Error *err);   // an owned copy
 void memory_free(void *array);   // NULL is fine
 MemoryCounters memory_counters(void);

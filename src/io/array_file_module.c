@@ -275,14 +275,10 @@ static SeriesWriter *find_series(const Hdf5File *file, const char *name)
 
 static bool grow_series_list(Hdf5File *file, Error *err)
 {
-    if (file->series_count < file->series_capacity) return true;
-    SeriesWriter *longer = memory_resize(file->series, file->series_capacity,
-                                         2 * (int64_t)file->series_capacity, sizeof(SeriesWriter),
-                                         err);
-    if (!longer) return false;
-    file->series = longer;
-    file->series_capacity *= 2;
-    return true;
+    SeriesWriter *series = memory_grow(file->series, file->series_count, &file->series_capacity,
+                                       sizeof(SeriesWriter), err);
+    if (series) file->series = series;
+    return series != NULL;
 }
 
 // The unit and the description are attributes of the dataset itself: who opens the file with h5py

@@ -15,14 +15,10 @@ bool yaml_add_node(YamlDocument *document, YamlKind kind, int32_t position, int3
         yaml_error_at(document, position, err, "more than 20000 values: this is no scene");
         goto cleanup;
     }
-    if (document->node_count == document->node_capacity) {
-        int32_t capacity = document->node_capacity ? 2 * document->node_capacity : 64;
-        YamlItem *longer = memory_resize(document->nodes, document->node_capacity, capacity,
-                                         sizeof(YamlItem), err);
-        TRY(longer);
-        document->nodes = longer;
-        document->node_capacity = capacity;
-    }
+    YamlItem *nodes = memory_grow(document->nodes, document->node_count, &document->node_capacity,
+                                  sizeof(YamlItem), err);
+    TRY(nodes);
+    document->nodes = nodes;
     *index = document->node_count++;
     document->nodes[*index] = (YamlItem){.kind = kind,
                                          .position = position,

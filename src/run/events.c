@@ -46,18 +46,13 @@ void events_destroy(Events *events)
     *events = (Events){0};
 }
 
-// A new event of `kind`, whose place in the list is *index. Room doubles: no allocation in most
-// steps. ERROR_MEMORY leaves the list as it was.
+// A new event of `kind`, whose place in the list is *index. ERROR_MEMORY leaves the list as it was.
 static bool start_event(Events *events, EventKind kind, const Observation *seen, int32_t *index,
                         Error *err)
 {
-    if (events->count == events->room) {
-        Event *longer = memory_resize(events->list, events->room, 2 * (int64_t)events->room,
-                                      sizeof(Event), err);
-        if (!longer) goto cleanup;
-        events->list = longer;
-        events->room *= 2;
-    }
+    Event *list = memory_grow(events->list, events->count, &events->room, sizeof(Event), err);
+    if (!list) return false;
+    events->list = list;
     *index = events->count++;
     events->kinds[kind]++;
     events->list[*index] = (Event){.kind = kind,
@@ -67,8 +62,7 @@ static bool start_event(Events *events, EventKind kind, const Observation *seen,
                                    .reach = seen->front,
                                    .front_speed = NAN};
     for (int32_t k = 0; k < FRONT_STATIONS; k++) events->list[*index].front_times[k] = NAN;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // The event goes on in this step. reach: largest x it has come to so far, length.

@@ -37,17 +37,12 @@ void falls_destroy(Falls *falls)
 
 static bool push_fall(Falls *falls, Error *err)
 {
-    if (falls->count == falls->room) {
-        Fall *longer =
-            memory_resize(falls->list, falls->room, 2 * (int64_t)falls->room, sizeof(Fall), err);
-        if (!longer) goto cleanup;
-        falls->list = longer;
-        falls->room *= 2;
-    }
-    falls->list[falls->count++] = falls->rising;
+    Fall *list = memory_grow(falls->list, falls->count, &falls->room, sizeof(Fall), err);
+    if (!list) return false;
+    falls->list = list;
+    list[falls->count++] = falls->rising;
     falls->rising = NOTHING_SEEN;
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool has_fallen(const Falls *falls)

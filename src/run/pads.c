@@ -143,18 +143,14 @@ static int32_t count_slid(Pads *pads, const Interface *interface)
 
 static bool push_sliding(Pads *pads, int32_t slid, Error *err)
 {
-    if (pads->sliding_count == pads->sliding_room) {
-        PadSliding *longer = memory_resize(pads->slidings, pads->sliding_room,
-                                           2 * (int64_t)pads->sliding_room, sizeof *longer, err);
-        if (!longer) goto cleanup;
-        pads->slidings = longer;
-        pads->sliding_room *= 2;
-    }
+    PadSliding *list = memory_grow(pads->slidings, pads->sliding_count, &pads->sliding_room,
+                                   sizeof(PadSliding), err);
+    if (!list) return false;
+    pads->slidings = list;
     pads->rising.pads = slid;
-    pads->slidings[pads->sliding_count++] = pads->rising;
+    list[pads->sliding_count++] = pads->rising;
     pads->rising = (PadSliding){.mu = -INFINITY};
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 static bool follow_slidings(Pads *pads, const Observation *seen, Error *err)

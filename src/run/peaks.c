@@ -39,16 +39,11 @@ void peaks_destroy(Peaks *peaks)
 // `rising` joins the list. ERROR_MEMORY leaves the list as it was.
 static bool push_peak(Peaks *peaks, Error *err)
 {
-    if (peaks->count == peaks->room) {
-        Peak *longer =
-            memory_resize(peaks->list, peaks->room, 2 * (int64_t)peaks->room, sizeof(Peak), err);
-        if (!longer) goto cleanup;
-        peaks->list = longer;
-        peaks->room *= 2;
-    }
-    peaks->list[peaks->count++] = peaks->rising;
-cleanup:
-    return error_is_clean(err);
+    Peak *list = memory_grow(peaks->list, peaks->count, &peaks->room, sizeof(Peak), err);
+    if (!list) return false;
+    peaks->list = list;
+    list[peaks->count++] = peaks->rising;
+    return true;
 }
 
 // A peak is known when a leading event has crossed; while it slides, and in the step that ends it,

@@ -82,6 +82,40 @@ static void test_resize(void **state)
     assert_int_equal(memory_counters().live, live);
 }
 
+// A list fills up by ones: what stands in it stays, new room is zeroed, allocations are few.
+static void test_grow(void **state)
+{
+    (void)state;
+    Error err = {0};
+    MemoryCounters before = memory_counters();
+    int32_t *list = NULL, room = 0;
+    for (int32_t count = 0; count < 1000; count++) {
+        int32_t *longer = memory_grow(list, count, &room, sizeof(int32_t), &err);
+        assert_non_null(longer);
+        assert_true(room > count && longer[count] == 0);
+        list = longer;
+        list[count] = 3 * count + 1;
+    }
+    for (int32_t k = 0; k < 1000; k++) assert_int_equal(list[k], 3 * k + 1);
+    assert_true(memory_counters().allocations - before.allocations <= 10);   // doubled each time
+    assert_int_equal(memory_counters().live, before.live + 1);
+
+    memory_fail_after(0);
+    int32_t full = room;
+    assert_ptr_equal(memory_grow(list, room - 1, &room, sizeof(int32_t), &err), list);
+    assert_null(memory_grow(list, room, &room, sizeof(int32_t), &err));
+    memory_fail_after(-1);
+    assert_int_equal(err.code, ERROR_MEMORY);
+    assert_int_equal(room, full);
+    assert_int_equal(list[999], 2998);
+    room = INT32_MAX;   // as full as a list can be: refused, nothing touched
+    err = (Error){0};
+    assert_null(memory_grow(list, room, &room, sizeof(int32_t), &err));
+    assert_int_equal(err.code, ERROR_MEMORY);
+    memory_free(list);
+    assert_int_equal(memory_counters().live, before.live);
+}
+
 static void test_faults(void **state)
 {
     (void)state;
@@ -129,6 +163,7 @@ int main(void)
         cmocka_unit_test(test_impossible_sizes),
         cmocka_unit_test(test_counters),
         cmocka_unit_test(test_resize),
+        cmocka_unit_test(test_grow),
         cmocka_unit_test(test_faults),
         cmocka_unit_test(test_bytes),
     };
