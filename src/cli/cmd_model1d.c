@@ -75,15 +75,9 @@ static int check_words(const Model1dWords *words, Model1dOptions *options)
         if (*words->alpha == 0 || *end || !(options->alpha > 0 && options->alpha <= 10))
             return report_misuse("--alpha %s: a number above 0 up to 10 is allowed", words->alpha);
     }
-    if (words->points) {
-        long count = strtol(words->points, &end, 10);
-        if (*words->points == 0 || *end || count < 3 || count > 2000)
-            return report_misuse("--points %s: a whole number from 3 to 2000 is allowed",
-                                 words->points);
-        if (words->theory_only) return report_misuse("--points has no meaning with --theory");
-        options->nodes = (int32_t)count;
-    }
-    return 0;
+    if (!words->points) return 0;
+    if (words->theory_only) return report_misuse("--points has no meaning with --theory");
+    return option_count("--points", words->points, 3, 2000, &options->nodes);
 }
 
 // A Model1dCallback; `l seen` and `mu seen` are empty where nothing was simulated.

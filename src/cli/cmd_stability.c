@@ -6,7 +6,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { OPTION_FROM = OPTION_OWN, OPTION_SLIDINGS, OPTION_WHOLE };
@@ -85,15 +84,9 @@ static int check_options(const StabilityWords *words, StabilityOptions *options)
     if (options->at_end && words->whole)
         return report_misuse("--whole has no meaning with --from end, which follows no path");
     options->slidings = start ? 0 : SLIDINGS_STANDARD;
-    if (words->slidings) {
-        char *end = NULL;
-        long count = strtol(words->slidings, &end, 10);
-        if (*words->slidings == 0 || *end || count < 1 || count > 1000)
-            return report_misuse("--slidings %s: a whole number from 1 to 1000 is allowed",
-                                 words->slidings);
-        options->slidings = (int32_t)count;
-    }
-    return 0;
+    return words->slidings
+               ? option_count("--slidings", words->slidings, 1, 1000, &options->slidings)
+               : 0;
 }
 
 // A StabilityCallback.

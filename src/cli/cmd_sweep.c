@@ -170,14 +170,7 @@ static int check_options(const SweepWords *words, SweepOptions *options)
     if (words->too_many_studies) return report_misuse("sweep takes one study");
     if (words->too_many_overrides) return report_misuse("more than 180 settings by --set");
     if (words->folder && !*words->folder) return report_misuse("-o: the folder has no name");
-    if (words->jobs) {
-        char *end = NULL;
-        long count = strtol(words->jobs, &end, 10);
-        if (!*words->jobs || *end || count < 1 || count > 1024)
-            return report_misuse("-j %s: a whole number from 1 to 1024 is allowed", words->jobs);
-        options->jobs = (int32_t)count;
-    }
-    return 0;
+    return words->jobs ? option_count("-j", words->jobs, 1, 1024, &options->jobs) : 0;
 }
 
 // A line a point; on a terminal a last line that says how far everything is.

@@ -23,6 +23,9 @@ void options_parse(const struct argp *argp, int argc, char **argv, const char *n
 // "fig1-result".
 void default_folder(const char *file, const char *ending, char *folder, size_t size);
 
+// The value `word` of an option called `name`, a whole number from low to high. Status 0 or 2.
+int option_count(const char *name, const char *word, int32_t low, int32_t high, int32_t *count);
+
 // Prints "amontons: error: ..." and gives the exit status that belongs to it.
 int report_error(const Error *err);
 void report_warnings(const RunWarnings *warnings);   // "amontons: warning: ...", a line each

@@ -4,6 +4,7 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 // argp leaves the program by itself where an option is unknown, with the status set here.
@@ -20,6 +21,17 @@ void default_folder(const char *file, const char *ending, char *folder, size_t s
     const char *dot = strrchr(name, '.');
     size_t length = dot && dot != name ? (size_t)(dot - name) : strlen(name);
     snprintf(folder, size, "%.*s%s", (int)(length < 200 ? length : 200), name, ending);
+}
+
+int option_count(const char *name, const char *word, int32_t low, int32_t high, int32_t *count)
+{
+    char *end = NULL;
+    long value = strtol(word, &end, 10);
+    if (!*word || *end || value < low || value > high)
+        return report_misuse("%s %s: a whole number from %d to %d is allowed", name, word, low,
+                             high);
+    *count = (int32_t)value;
+    return 0;
 }
 
 // Standard output is flushed first, here and below: in a file that takes both, lines stand in the
