@@ -27,8 +27,8 @@ void *memory_bytes(int64_t size, Error *err);
 void *memory_resize(void *array, int64_t old_count, int64_t new_count, size_t size, Error *err);
 
 // Room for one more in a list that grows: `list` with room for *room > count items, twice as much
-// where it was full (*room 0, list NULL: a first few). Room doubles, so most calls allocate nothing.
-// On failure NULL, the error set, `list` and *room as they were.
+// where it was full (*room 0, list NULL: a first few), so that most calls allocate nothing.
+// On failure NULL, the error set, `list` and *room untouched.
 void *memory_grow(void *list, int32_t count, int32_t *room, size_t size, Error *err);
 
 char *memory_text(const char *text, Error *err);   // an owned copy

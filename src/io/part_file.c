@@ -4,12 +4,13 @@
 // its .part share.
 #include "io/part_file.h"
 
+#include "io/file_lock.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 bool part_file_name(const char *path, char *part)
@@ -20,16 +21,8 @@ bool part_file_name(const char *path, char *part)
     return true;
 }
 
-// Whether the name still leads to the file behind `descriptor`: another writer may have renamed
-// the one we opened between our open and our lock.
-static bool name_leads_to(const char *name, int descriptor)
-{
-    struct stat named, opened;
-    return stat(name, &named) == 0 && fstat(descriptor, &opened) == 0 &&
-           named.st_dev == opened.st_dev && named.st_ino == opened.st_ino;
-}
-
-// Opens, locks, and looks whether what was locked is still what the name leads to; else again.
+// Opens, locks, and looks whether what was locked is still what the name leads to (another writer
+// may have renamed it meanwhile); else again.
 bool part_file_create(PartFile *file, const char *path, Error *err)
 {
     // Not emptied when opened (O_TRUNC): only the holder of the lock may do that.
@@ -49,7 +42,7 @@ bool part_file_create(PartFile *file, const char *path, Error *err)
             FAIL(err, ERROR_FILE, "cannot write %s: another process is writing %s", path,
                  file->part);
         }
-        if (!name_leads_to(file->part, file->descriptor)) part_file_leave(file);
+        if (!file_is_named(file->part, file->descriptor)) part_file_leave(file);
     }
     if (ftruncate(file->descriptor, 0) != 0) {
         int cause = errno;

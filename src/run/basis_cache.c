@@ -13,6 +13,10 @@ const char BASIS_FORMAT[] = "basis 4 " AMONTONS_VERSION;
 
 enum { COUNTS = 4 };
 
+// s: the largest basis that run/model_shape asks for takes a minute of a core to itself; twice the
+// work, done by both, is better than waiting for a process that was stopped.
+static const double WAIT_MAX = 300;
+
 // A square matrix within the file's bytes, which `reduced` then owns.
 static bool borrow(const CacheFile *file, const char *name, int64_t count, double **array)
 {
@@ -85,6 +89,13 @@ cleanup:
     cache_file_destroy(&file);
     if (!*found || !error_is_clean(err)) reduction_destroy(reduced);
     return error_is_clean(err);
+}
+
+bool basis_cache_lock(const char *name, FileLock *lock)
+{
+    char path[CACHE_PATH_SIZE];
+    *lock = (FileLock){0};
+    return name[0] && cache_file_path(name, "lock", path) && file_lock_take(lock, path, WAIT_MAX);
 }
 
 // Processes that write it at once write the same bytes: io/part_file lets one of them through.

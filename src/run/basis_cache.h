@@ -5,11 +5,13 @@
 //
 //     CACHE/<name>.basis     sizes, reduced M, C, K and load, what it is off
 //     CACHE/<name>.modes     u = modes [u_b; q], read only where fields of the bulk are asked for
+//     CACHE/<name>.lock      there while a process builds the basis: others wait and read it
 #ifndef AMONTONS_RUN_BASIS_CACHE_H
 #define AMONTONS_RUN_BASIS_CACHE_H
 
 #include "bulk/reduction.h"
 #include "bulk/reduction_block.h"
+#include "io/file_lock.h"
 #include "run/shape_cache.h"
 
 // Stands in every key. A basis that comes out otherwise than before, or arrays with a new meaning,
@@ -20,6 +22,11 @@ extern const char BASIS_FORMAT[];
 // `note` then says why. with_modes: the modes must be there too. name: empty for none.
 bool basis_cache_load(const char *name, bool with_modes, ReducedBulk *reduced, bool *found,
                       char note[CACHE_NOTE_SIZE], Error *err);
+
+// Waits while another process builds the basis, some minutes at the most. true: nobody else will
+// until file_lock_release; look once more whether it is there now. false: no lock is to be had, go
+// on without. name: empty for none.
+bool basis_cache_lock(const char *name, FileLock *lock);
 
 // false: it could not be stored, `note` says why. Never an error.
 bool basis_cache_store(const char *name, const ReducedBulk *reduced, char note[CACHE_NOTE_SIZE]);

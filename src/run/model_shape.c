@@ -185,7 +185,7 @@ static bool list_rotation(const Simulation *simulation, const ReductionBlock *bl
 }
 
 // The basis of `block`, from the cache or built and kept there; where it is kept, its name goes
-// into the shape.
+// into the shape. Of processes that need it at once one builds it and the others wait.
 static bool obtain_basis(Simulation *simulation, const ReductionBlock *block, Shape *shape,
                          Error *err)
 {
@@ -194,6 +194,9 @@ static bool obtain_basis(Simulation *simulation, const ReductionBlock *block, Sh
     ReductionDef def = {.tolerance = reduction_tolerance(scene),
                         .scales = {.stiffness = 1, .damping = 1, .mass = 1, .load = 1}};
     bool *found = &simulation->model.from_cache;
+    bool with_modes = scene->output.fields;
+    char *note = simulation->cache_note;
+    FileLock lock = {0};
     if (scene->reduction.cache) {
         Hash hash = hash_start();
         hash_text(&hash, BASIS_FORMAT);
@@ -201,14 +204,16 @@ static bool obtain_basis(Simulation *simulation, const ReductionBlock *block, Sh
         reduction_block_hash(block, &simulation->mesh, interface->dofs, interface->count, &hash);
         hash_write(&hash, shape->basis);
     }
-    TRY(basis_cache_load(shape->basis, scene->output.fields, &simulation->reduced, found,
-                         simulation->cache_note, err));
+    TRY(basis_cache_load(shape->basis, with_modes, &simulation->reduced, found, note, err));
+    if (*found) goto cleanup;
+    if (basis_cache_lock(shape->basis, &lock))
+        TRY(basis_cache_load(shape->basis, with_modes, &simulation->reduced, found, note, err));
     if (*found) goto cleanup;
     TRY(reduction_build(&block->bulk, interface->dofs, interface->count, &def, &simulation->reduced,
                         err));
-    if (!basis_cache_store(shape->basis, &simulation->reduced, simulation->cache_note))
-        shape->basis[0] = 0;
+    if (!basis_cache_store(shape->basis, &simulation->reduced, note)) shape->basis[0] = 0;
 cleanup:
+    file_lock_release(&lock);
     return error_is_clean(err);
 }
 

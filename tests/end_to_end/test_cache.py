@@ -292,7 +292,8 @@ class NotTrusted(Cached):
         self.assertEqual(self.files(), [])
 
     def test_side_by_side(self):
-        """Four first runs at once: all go well, one shape is left."""
+        """Four first runs at once: all go well, one builds the basis and the others read it, one
+        shape is left and no lock."""
         environment = dict(os.environ, AMONTONS_CACHE=str(self.cache))
         runs = [subprocess.Popen([BIN / "amontons", "run", SCENE, "-o", self.folder / f"side-{k}",
                                   "--quiet", "--set", *SHORT, *PLAIN], env=environment)
@@ -300,10 +301,13 @@ class NotTrusted(Cached):
         self.assertEqual([run.wait(60) for run in runs], [0] * 4)
         self.assertEqual(self.endings(), [".basis", ".modes", ".shape"])
         self.assertTrue(self.model(*PLAIN)["from_cache"])
+        reports = [json.loads((self.folder / f"side-{k}" / "run.json").read_text())
+                   for k in range(4)]
+        self.assertEqual(sorted(report["model"]["from_cache"] for report in reports),
+                         [False, True, True, True])
         for k in range(1, 4):
             self.assert_same_history(self.folder / "side-0", self.folder / f"side-{k}")
-            report = json.loads((self.folder / f"side-{k}" / "run.json").read_text())
-            self.assertIsNone(report["model"]["cache_note"])
+            self.assertIsNone(reports[k]["model"]["cache_note"])
 
 
 if __name__ == "__main__":

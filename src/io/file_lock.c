@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The holder removes the file before it lets go. Who waited then holds the lock of a file without a
+// name, which guards nothing: it opens the name again.
+#include "io/file_lock.h"
+
+#include "base/clock.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+static const struct timespec PAUSE = {.tv_nsec = 10000000};   // between two tries: 10 ms
+
+bool file_is_named(const char *name, int descriptor)
+{
+    struct stat named, opened;
+    return stat(name, &named) == 0 && fstat(descriptor, &opened) == 0 &&
+           named.st_dev == opened.st_dev && named.st_ino == opened.st_ino;
+}
+
+// Asked again and again rather than waited for in flock itself, which knows no limit but signals.
+bool file_lock_take(FileLock *lock, const char *path, double seconds)
+{
+    double until = clock_seconds() + seconds;
+    *lock = (FileLock){0};
+    if (snprintf(lock->path, sizeof lock->path, "%s", path) >= (int)sizeof lock->path) return false;
+    for (;;) {
+        lock->descriptor = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        if (lock->descriptor < 0) return false;
+        int cause = flock(lock->descriptor, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
+        lock->held = cause == 0 && file_is_named(path, lock->descriptor);
+        if (lock->held) return true;
+        close(lock->descriptor);
+        if (cause == 0 || cause == EINTR) continue;
+        if (cause != EWOULDBLOCK || clock_seconds() >= until) return false;
+        nanosleep(&PAUSE, NULL);
+    }
+}
+
+void file_lock_release(FileLock *lock)
+{
+    if (!lock->held) return;
+    unlink(lock->path);
+    close(lock->descriptor);
+    lock->held = false;
+}
