@@ -290,6 +290,18 @@ static void fix_rod_kind(const ContactProblem *problem, ContactSolution *solutio
     }
 }
 
+// A node may slip backwards in its status by the tolerance, which beside a rod slow enough is more
+// than rounding: it rests, and friction is what holds it.
+static void stop_reversed(const ContactProblem *problem, ContactSolution *solution)
+{
+    for (int32_t i = 0; i < problem->interface->contact_count; i++) {
+        double *slip_rate = &solution->velocity[interface_tangent(i)];
+        if (status_slips(solution->status[i]) &&
+            *slip_rate * status_direction(solution->status[i]) < 0)
+            *slip_rate = 0;
+    }
+}
+
 // What touches nothing feels nothing, not even rounding.
 static void free_reactions(const ContactProblem *problem, ContactSolution *solution)
 {
@@ -331,6 +343,7 @@ static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
         if (!equations_hold && (reused || !change_all)) continue;
         Violation found = update_statuses(solver, problem, solution, scales, change_all);
         if (found.broken == 0 && equations_hold) {
+            stop_reversed(problem, solution);
             free_reactions(problem, solution);
             return true;
         }

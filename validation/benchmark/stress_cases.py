@@ -113,7 +113,7 @@ def frictions():
 
 def drives():
     cases = [Case("V", f"{speed:g} v_c", [f"rod.velocity={speed * CRITICAL}"],
-                  quick=speed == 1e-8, late=speed == 1)
+                  quick=speed in (1e-12, 1e-8), late=speed == 1)
              for speed in (1e-12, 1e-8, 1e-6, 1e-4, 1e-2, 1)]
     cases += [Case("V", f"{speed:g} v_c, U to 0.5", [f"rod.velocity={speed * CRITICAL}",
                                                      "time.until.U=0.5",
