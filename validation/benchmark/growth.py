@@ -102,8 +102,8 @@ class Series:
         curves = {name: tuple(zip(*[(x, y) for x, y in zip(self.x, values) if y]))
                   for name, values in self.columns.items() if any(values)}
         lines = exponent_lines(self.x_name, self.x, self.columns, self.theory)
-        draw(folder / f"growth-{self.name}", self.title, self.x_name, "cost", curves)
-        return (f"## {self.title}\n\n{markdown_table(self.head, self.rows)}\n\n"
+        draw(folder / f"growth-{self.name}", self.title, self.x_name, "s, MB, steps: as named", curves)
+        return (f"### {self.title}\n\n{markdown_table(self.head, self.rows)}\n\n"
                 + markdown_table(["what", "in", "exponent", "theory"], lines)
                 + f"\n\n![{self.title}](growth-{self.name}.png)\n")
 
@@ -147,7 +147,7 @@ def cells_series(quick):
     return series
 
 
-REDUCED_MAX = 240      # cells; beyond, a cold reduction takes minutes
+REDUCED_MAX = 160      # cells; beyond, a cold reduction takes minutes and auto does not take it
 
 
 def contact_series(quick):
@@ -238,7 +238,7 @@ def sweep_rates(quick):
         best = max(rate for rate, _ in found)
         rows.append([processes, f"{best:.1f}", f"{1e3 * min(used for _, used in found):.0f}"])
     print("sweep:", rows, flush=True)
-    return ("## Sweep points a second\n\n20x20 cells to U = 0.006, the shape cached; the better of "
+    return ("### Sweep points a second\n\n20x20 cells to U = 0.006, the shape cached; the better of "
             "two turns, of wall time.\n\n"
             + markdown_table(["processes", "points a second", "cpu ms a point"], rows) + "\n")
 
@@ -257,7 +257,7 @@ def phase_table(quick):
             rows.append([f"{n}x{n}", "total", f"{total:.3f}", "100",
                          ended.report["steps"]["accepted"], ""])
             print(f"phases: {n}x{n} {total:.3f} s", flush=True)
-    return ("## Where the time goes\n\nCold runs to U = 0.006, processor seconds; relaxing is "
+    return ("### Where the time goes\n\nCold runs to U = 0.006, processor seconds; relaxing is "
             "inside the others.\n\n"
             + markdown_table(["mesh", "phase", "s", "%", "count", "us each"], rows) + "\n")
 
@@ -275,7 +275,7 @@ def main():
                         choices=[*SERIES, *TABLES])
     options = parser.parse_args()
     options.output.mkdir(parents=True, exist_ok=True)
-    parts = [f"# How cost grows\n\nversion {commit()}; set A of the paper, Q4; processor time.\n"]
+    parts = [f"## How cost grows\n\nversion {commit()}; set A of the paper, Q4; processor time.\n"]
     for name in options.only:
         if name in SERIES:
             parts.append(SERIES[name](options.quick).write(options.output))

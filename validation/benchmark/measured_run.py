@@ -87,11 +87,16 @@ def run(scene, settings, cpu_limit=60, into=None):
                     usage.ru_maxrss / 1024, text, report, late, phases)
 
 
+def git(*words):
+    return subprocess.run(["git", "-C", str(ROOT), *words], capture_output=True, text=True)
+
+
 def commit():
-    """Which version was measured."""
-    found = subprocess.run(["git", "-C", str(ROOT), "describe", "--always", "--dirty"],
-                           capture_output=True, text=True)
-    return found.stdout.strip() or "unknown"
+    """Which program was measured: the last commit that changed it, so that keeping a report is no
+    new version."""
+    program = ("--", "src", "render", "meshes")
+    found = git("log", "-1", "--format=%h", *program).stdout.strip() or "unknown"
+    return found + "-dirty" * (git("diff", "--quiet", "HEAD", *program).returncode == 1)
 
 
 def markdown_row(cells):

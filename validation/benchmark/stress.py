@@ -136,9 +136,8 @@ def drift(cpu_limit):
 def write(folder, rows):
     folder.mkdir(parents=True, exist_ok=True)
     wrong = sum("**WRONG**" in line[-1] for line in rows)
-    text = (f"# Stress matrix\n\n`python3 validation/benchmark/stress.py`, version {commit()}: "
-            f"{len(rows)} runs, {wrong} wrong. Errors are the largest over a run, relative; a twin "
-            f"is the same scene at finer steps unless the case says otherwise.\n\n")
+    text = (f"## Stress matrix\n\nVersion {commit()}: {len(rows)} runs, {wrong} wrong. Errors are "
+            f"the largest over a run, relative; a twin is the same scene at finer steps unless the case says otherwise.\n\n")
     (folder / "stress.md").write_text(text + markdown_table(HEAD, rows) + "\n")
     with open(folder / "stress.csv", "w", newline="") as file:
         csv.writer(file).writerows([HEAD, *rows])
