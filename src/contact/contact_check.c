@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// Each condition of contact/contact_problem is turned into a number that is 0 where it holds, and
+// the largest over all nodes is kept. Statuses are not looked at: a solver that assigns them
+// wrongly but meets the conditions is right, one that does not is found out.
 #include "contact/contact_check.h"
 
 #include <math.h>
@@ -6,6 +9,8 @@
 // Below this fraction of the velocity scale a tangential velocity counts as zero.
 static const double STILL = 1e-9;
 
+// approach: how far v is above its bound; force: the reaction, both scaled. Of two numbers that
+// must be >= 0 with a product of 0, the smaller one is what is left when both are positive.
 static void check_unilateral(double approach, double force, ContactResidual *worst)
 {
     worst->penetration = fmax(worst->penetration, -approach);
@@ -13,6 +18,9 @@ static void check_unilateral(double approach, double force, ContactResidual *wor
     worst->gap_force = fmax(worst->gap_force, fmin(approach, force));
 }
 
+// velocity, reaction: [interface->count] in the order of contact/interface. The limit of friction
+// is taken with the pressure that pushes only, so that a node which pulls may bear no shear at all.
+// A soft rod node yields by r_x softness / rod_reach before it counts as penetrating.
 ContactResidual contact_residual(const ContactProblem *problem, const double *velocity,
                                  const double *reaction, double force_scale, double velocity_scale)
 {
@@ -25,6 +33,8 @@ ContactResidual contact_residual(const ContactProblem *problem, const double *ve
         double slip_rate = velocity[t];
         double limit = friction_coefficient(problem->law, fabs(slip_rate)) * fmax(pressing, 0);
         worst.cone = fmax(worst.cone, fabs(shear) - limit);
+        // Where it slips, friction is mu p against the slip; at rest any shear inside the cone will
+        // do.
         if (fabs(slip_rate) > STILL * velocity_scale)
             worst.direction = fmax(worst.direction, fabs(shear + (slip_rate > 0 ? limit : -limit)));
     }
@@ -36,6 +46,7 @@ ContactResidual contact_residual(const ContactProblem *problem, const double *ve
         if (problem->rod_kind == ROD_PUSHES) check_unilateral(approach, force, &worst);
         if (problem->rod_kind == ROD_IS_BONDED)
             worst.penetration = fmax(worst.penetration, fabs(approach));
+        // It touches nothing: whatever force it seems to have is an error.
         if (problem->rod_kind == ROD_AWAY) worst.gap_force = fmax(worst.gap_force, fabs(force));
     }
     return worst;

@@ -8,6 +8,8 @@
 // and on to the bound by secants. The tangent itself solves the same system with (0, 1) on the
 // right, the last row being the tangent before or, after an exchange, the gradient of what the new
 // status lets grow from 0.
+// Tolerances and limits here decide only whether a path is found: what it leads to is solved again
+// by contact/contact_solver, to that one's own tolerance.
 #include "contact/contact_path.h"
 
 #include "base/dense.h"
@@ -29,6 +31,8 @@ enum {
 };
 enum { ALL = -1, NOWHERE = -2 };   // in place of a node
 
+// For any problem on `interface`; the matrix has one row and column more than the interface, for
+// tau.
 bool contact_path_create(const Interface *interface, ContactPath *path, Error *err)
 {
     int64_t count = interface->count;
@@ -156,6 +160,8 @@ static double spring_at(const Walk *walk, int32_t unknown)
     return j >= 0 && walk->at->rod_touches[j] ? rod_stiffness(walk->problem, j) : 0;
 }
 
+// Force per width; 0 on the path. As in contact/contact_solver but with side_friction, which goes
+// on smoothly beyond the kink: an exchange of status, not a jump of slope, leads over it.
 static double equation(const Walk *walk, int32_t unknown)
 {
     const double *reaction = walk->at->reaction;
@@ -169,6 +175,8 @@ static double equation(const Walk *walk, int32_t unknown)
 }
 
 // Factors [J E_tau; last].
+// Size free_count + 1, column after column; `last` is its lowest row [free_count + 1]. false:
+// singular, as at a point where two paths meet.
 static bool factor(Walk *walk, const double *last)
 {
     ContactPath *path = walk->path;
@@ -265,6 +273,7 @@ static Bound nearest_bound(const Walk *walk)
 }
 
 // The least of all conditions at the point, below 0 where one is broken.
+// tau = 0 counts as a condition, too (ALL), so that a step beyond the path's end is cut back to it.
 static double worst_condition(const Walk *walk, Bound *worst)
 {
     const Interface *interface = walk->problem->interface;
@@ -354,6 +363,8 @@ static bool stays_near(const Walk *walk)
 
 // From the step's start by `distance` along the tangent and back onto the path; false: not found,
 // or so far aside that it may be another path.
+// On success velocity, reaction and tau are those of the point; on failure they are of no use, and
+// the next trial starts from `kept` again.
 static bool place_point(Walk *walk, double tau_kept, double distance)
 {
     ContactPath *path = walk->path;
@@ -382,6 +393,8 @@ static bool place_point(Walk *walk, double tau_kept, double distance)
 }
 
 // A step to the first bound, or to a point before it (reached->node NOWHERE).
+// false: no point was found within TRIALS. The length of a first trial is bounded by the scale of
+// velocity beyond tau, as a tangent that meets no bound would lead to infinity.
 static bool advance(Walk *walk, Bound *reached)
 {
     ContactPath *path = walk->path;
@@ -412,6 +425,8 @@ static bool advance(Walk *walk, Bound *reached)
     return false;
 }
 
+// As problem_scales of contact/contact_solver, from g alone: reactions are not known before the
+// start.
 static void find_scales(Walk *walk)
 {
     int32_t count = walk->path->count;
@@ -475,6 +490,8 @@ static bool start_pressed(Walk *walk)
 }
 
 // From a start to tau = 0.
+// false: given up after STEPS_EACH steps for each unknown, where a step was not found, or on a ray
+// that leaves for tau to infinity.
 static bool walk_path(Walk *walk)
 {
     ContactPath *path = walk->path;

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// Order of one solve: guess (the statuses handed in) -> hold what they hold -> Newton step on the
+// rest -> r = S v - g -> check every status -> again. Forces are measured by the largest force of
+// the problem, velocities by that force over the largest diagonal entry of S. All arrays are the
+// solver's own, made once for an interface: nothing is allocated in a solve.
 #include "contact/contact_solver.h"
 
 #include "base/clock.h"
@@ -8,11 +12,14 @@
 #include <math.h>
 #include <string.h>
 
+// The header says what the numbers rest on.
 ContactSolverDef contact_solver_def(void)
 {
     return (ContactSolverDef){.iterations_all = 30, .iterations_one = 200, .tolerance = 1e-12};
 }
 
+// Dense matrices of interface->count squared: for the interface's own size, whatever the mesh.
+// *solver is overwritten; on failure contact_solver_destroy frees what was made.
 bool contact_solver_create(const Interface *interface, ContactSolverDef def, ContactSolver *solver,
                            Error *err)
 {
@@ -52,6 +59,8 @@ typedef struct Scales {
     double force, velocity;
 } Scales;
 
+// From the reaction as it is now as well as from g, for what presses may come through the bounds
+// alone. Never 0.
 static Scales problem_scales(const ContactProblem *problem, const ContactSolution *solution)
 {
     int32_t count = problem->interface->count;
@@ -85,6 +94,8 @@ static void hold_unknowns(const ContactProblem *problem, ContactSolution *soluti
     }
 }
 
+// Into free: tangents of nodes that slip or are open, normals of open ones, rod nodes that are soft
+// or have let go. How many they are; ascending for contact nodes, then the rod.
 static int32_t list_free(const ContactProblem *problem, const ContactSolution *solution,
                          int32_t *free)
 {
@@ -153,6 +164,12 @@ static bool kept_fits(const ContactSolver *solver, const ContactProblem *problem
            memcmp(solver->kept_free, solver->free, (size_t)free_count * sizeof(int32_t)) == 0;
 }
 
+// The derivative of `equation` by the free unknowns, column after column [free_count^2], and its
+// LU:
+//     row of a slipping tangent t:  S_t + s mu S_n + mu'(|v_t|) r_n e_t
+//     any other:                    S_row + spring e_row
+// s^2 = 1 makes the last term of a slipping row free of the direction: d|v_t|/dv_t = s. false: it
+// is singular. Remembers what it was factored for; kept_schur stays NULL while it holds no factors.
 static bool factor_matrix(ContactSolver *solver, const ContactProblem *problem,
                           const ContactSolution *solution, int32_t free_count)
 {
@@ -191,6 +208,8 @@ static bool factor_matrix(ContactSolver *solver, const ContactProblem *problem,
 }
 
 // One Newton step on the free unknowns; *reused: with a matrix of an earlier one.
+// false: the matrix is singular. With a kept matrix the step is one of a chord method: right in
+// direction, linear in convergence, and far cheaper than factoring.
 static bool newton_step(ContactSolver *solver, const ContactProblem *problem,
                         ContactSolution *solution, int32_t free_count, bool *reused)
 {
@@ -226,6 +245,7 @@ static uint8_t judge_contact(const ContactProblem *problem, const ContactSolutio
     return CONTACT_STICK;
 }
 
+// 1 where it should touch. Only a pushing rod can change its mind: 0 violation for the others.
 static uint8_t judge_rod(const ContactProblem *problem, const ContactSolution *solution,
                          Scales scales, int32_t j, double *violation)
 {
@@ -240,6 +260,8 @@ static uint8_t judge_rod(const ContactProblem *problem, const ContactSolution *s
 }
 
 // Checks all statuses; changes all broken ones, or only the worst.
+// *solution's statuses change, its velocities do not: hold_unknowns brings them in line. A
+// violation is in units of the scales, and counts above the solver's tolerance.
 static Violation update_statuses(const ContactSolver *solver, const ContactProblem *problem,
                                  ContactSolution *solution, Scales scales, bool change_all)
 {
@@ -272,6 +294,7 @@ static Violation update_statuses(const ContactSolver *solver, const ContactProbl
     return found;
 }
 
+// Force per width; NaN where a velocity is not finite.
 static double equations_residual(const ContactSolver *solver, const ContactProblem *problem,
                                  const ContactSolution *solution, int32_t free_count)
 {
@@ -316,6 +339,9 @@ static void free_reactions(const ContactProblem *problem, ContactSolution *solut
     }
 }
 
+// true: equations and all statuses hold, reactions of open nodes are 0 to the bit. false: `limit`
+// steps were not enough, a matrix was singular or a number not finite; *solution then has no
+// meaning.
 static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
                            ContactSolution *solution)
 {
@@ -354,6 +380,8 @@ static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
     return false;
 }
 
+// After a path was followed its end is handed to Newton once more, which brings the last digits and
+// has the last word on whether it is solved.
 bool contact_solve(ContactSolver *solver, const ContactProblem *problem, ContactSolution *solution)
 {
     double started = clock_seconds();

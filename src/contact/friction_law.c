@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// The law, its slope and the density it stands for, each a switch over the kinds: a new law adds a
+// kind to the header, a case to the two functions below and its name to run/scene_keys; the solver
+// asks for nothing more, contact/contact_path only whether it has a kink. DESIGN section 3 has the
+// paper's linear law; the slope is what Newton's derivative (contact/contact_solver) and the
+// certificate (W in DESIGN 4.5) need. tests/unit/contact/test_friction_law.c compares slopes with
+// differences of the coefficient.
 #include "contact/friction_law.h"
 
 #include <math.h>
@@ -11,11 +17,13 @@ FrictionLaw friction_law_default(void)
                          .critical_velocity = 3.4e-4};
 }
 
+// mu_S - mu_K, 1: what the law loses from rest to fast slip.
 static double drop(const FrictionLaw *law)
 {
     return law->mu_static - law->mu_kinetic;
 }
 
+// Continuous at v_c, where the linear law has its kink. Coulomb's coefficient is mu_S at any speed.
 double friction_coefficient(const FrictionLaw *law, double speed)
 {
     switch (law->kind) {
@@ -30,6 +38,8 @@ double friction_coefficient(const FrictionLaw *law, double speed)
     return law->mu_static;
 }
 
+// One over a velocity. At v_c itself the linear law gives 0, so that a node exactly there counts as
+// one that weakens no more.
 double friction_slope(const FrictionLaw *law, double speed)
 {
     switch (law->kind) {
@@ -43,11 +53,15 @@ double friction_slope(const FrictionLaw *law, double speed)
     return 0.0;
 }
 
+// Exponential weakening never ends but by underflow: there is no speed from which on a node is
+// safe.
 bool friction_weakens(const FrictionLaw *law, double speed)
 {
     return friction_slope(law, speed) < 0.0;
 }
 
+// Solves mu = mu_K + (mu_S - mu_K) phi for phi: 1 at rest, 0 from v_c on, and for the linear law
+// just the paper's 1 - |v|/v_c.
 double friction_contact_density(const FrictionLaw *law, double speed)
 {
     if (law->kind == FRICTION_COULOMB || drop(law) <= 0) return 1.0;

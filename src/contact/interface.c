@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// Contact nodes come from the mesh's contact curves (bulk/mesh_contact: one a pad), rod nodes from
+// the strip of the face that is named. Weights are lumped: w_i is the integral of node i's shape
+// function along its curve, so that a pressure field p gives the nodal force p_i w_i (DESIGN 3:
+// consistent integration gave a resultant 17 % wrong).
 #include "contact/interface.h"
 
 #include "base/memory.h"
@@ -12,6 +16,8 @@
 // How far outside the strip a rod node may lie, relative to the block's height: rounding only.
 static const double STRIP_TOLERANCE = 1e-9;
 
+// Fills all that belongs to the contact: nodes by ascending x, places, weights, pads and their
+// names. On failure what was made so far stays in *interface, for interface_destroy.
 static bool build_contact(const Mesh *mesh, const InterfaceDef *def, Interface *interface,
                           Error *err)
 {
@@ -47,6 +53,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// A walk over all: done once for each node of the rod's face, when the mesh is read.
 static bool is_contact_node(const Interface *interface, int32_t node)
 {
     for (int32_t i = 0; i < interface->contact_count; i++) {
@@ -56,6 +63,8 @@ static bool is_contact_node(const Interface *interface, int32_t node)
 }
 
 // All nodes of the rod's curve, by ascending z.
+// Insertion sort into rod_z and rod_node, which have room for the whole face: a face of n cells
+// costs n^2/4 moves at the worst, nothing beside meshing.
 static void sort_face(const Mesh *mesh, const MeshCurve *curve, Interface *interface)
 {
     for (int32_t k = 0; k < curve->node_count; k++) {
@@ -78,6 +87,8 @@ typedef struct Face {
 } Face;
 
 // How much of the stretch of node k lies in the strip, 0 to 1.
+// The stretch of a node reaches half way to its neighbours, at the ends of the face to the node
+// itself. Without rod_in_part a node is in or out: 1 or 0.
 static double strip_share(const InterfaceDef *def, Face face, int32_t k)
 {
     const double *z = face.z;
@@ -92,6 +103,8 @@ static double strip_share(const InterfaceDef *def, Face face, int32_t k)
     return covered >= to - from - rounding ? 1 : covered / (to - from);
 }
 
+// Keeps the face's nodes that lie in the strip, in place: first the whole face is listed, then what
+// is outside is dropped. A node of the contact line is left out, as the plane holds it.
 static bool build_rod(const Mesh *mesh, const InterfaceDef *def, Interface *interface, Error *err)
 {
     if (!def->has_rod) return true;
@@ -130,6 +143,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// *interface is overwritten. dofs: unknown 2 node + d of the bulk, d = 0 along x, 1 along z.
 bool interface_build(const Mesh *mesh, const InterfaceDef *def, Interface *interface, Error *err)
 {
     *interface = (Interface){0};

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// Springs for the ends of the strip (the header derives them), the bound of a node in a stage, and
+// the force.
 #include "contact/rod.h"
 
 #include "base/memory.h"
@@ -7,6 +9,8 @@
 
 static const double PI = 3.14159265358979323846;
 
+// origin is 0 here: where the nodes stand when the rod begins to move is set once the block is at
+// rest. false with ERROR_MEMORY: *rod is half built, rod_destroy frees it.
 bool rod_build(const Interface *interface, RodKind kind, double velocity, Rod *rod, Error *err)
 {
     *rod = (Rod){.kind = kind, .velocity = velocity, .count = interface->rod_count};
@@ -22,6 +26,7 @@ void rod_destroy(Rod *rod)
     *rod = (Rod){0};
 }
 
+// 4 ln(1/w) / (pi E*) with w the node's share in (0, 1]; 0, rigid, for a node wholly in the strip.
 void rod_soften(const Interface *interface, double modulus, double viscosity, Rod *rod)
 {
     rod->lag = viscosity / modulus;
@@ -29,6 +34,8 @@ void rod_soften(const Interface *interface, double modulus, double viscosity, Ro
         rod->softness[j] = -4 * log(interface->rod_share[j]) / (PI * modulus);
 }
 
+// Length over time. A rigid node goes to origin + V t within the stage: v = (origin + V t -
+// u*)/reach. At a soft one this is the velocity at which its spring carries nothing.
 double rod_bound(const Rod *rod, int32_t j, double position, double time, double reach)
 {
     double way = rod->origin[j] + rod->velocity * time - position;
@@ -37,6 +44,7 @@ double rod_bound(const Rod *rod, int32_t j, double position, double time, double
     return (way + rod->lag * rod->velocity) / (reach + rod->lag);
 }
 
+// Force per width, positive when the rod pushes along +x.
 double rod_force(const Interface *interface, const double *reaction)
 {
     double force = 0;
