@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // LAPACK's Fortran entry points come with OpenBLAS; they are declared here because Debian's
 // LAPACK headers belong to another package. Character arguments carry hidden lengths.
+//
+// Matrices are column-major without gaps: entry (i, j) of an n x n one is a[j n + i]. Sizes of 0
+// occur (nothing slips, no rod) and are looked after here, as BLAS wants a leading dimension of 1
+// at least. Nothing allocates, so that the loop of steps may call all of it.
 #include "base/dense.h"
 
 #include <cblas.h>
@@ -45,6 +49,8 @@ bool dense_cholesky(double *a, int32_t n)
     return true;
 }
 
+// P A = L U by rows (dgetrf). A pivot of exactly 0 is what LAPACK calls singular; a matrix that is
+// nearly so passes, and its caller sees it in the residual.
 bool dense_lu(double *a, int32_t n, int32_t *pivots)
 {
     int info = 0;
@@ -66,17 +72,20 @@ int dense_lu_sign(const double *lu, int32_t n, const int32_t *pivots)
     return sign;
 }
 
+// b: [n], overwritten with the solution.
 void dense_lu_solve(const double *lu, int32_t n, const int32_t *pivots, double *b)
 {
     int info = 0, one = 1;
     if (n > 0) dgetrs_("N", &n, &one, lu, &n, pivots, b, &n, &info, 1);
 }
 
+// Reads the lower triangle only: half the memory of a general product.
 void dense_symmetric_apply(const double *a, int32_t n, const double *x, double *y)
 {
     if (n > 0) cblas_dsymv(CblasColMajor, CblasLower, n, 1.0, a, n, x, 1, 0.0, y, 1);
 }
 
+// The strictly upper triangle of `lower` is not looked at, here and in the two below.
 void dense_lower_apply(const double *lower, int32_t n, double *x)
 {
     if (n > 0)
@@ -128,6 +137,7 @@ void dense_divide_both_sides(const double *lower, int32_t n, double *a)
                 n, a, n);
 }
 
+// Doubles. dsyev asks for (block size + 2) n at its best speed, dgeev for 4 n at least.
 int64_t dense_eigen_work(int32_t n)
 {
     return 34 * (int64_t)n + 64;   // (block size 32 + 2) n
@@ -169,6 +179,7 @@ void dense_multiply_transposed(DenseView a, DenseView b, double factor, double k
                 a.values, a.rows, b.values, b.rows, keep, c, a.columns);
 }
 
+// Where there is nothing to sum over (a.columns 0) `c` is left as it is, not even scaled.
 void dense_multiply(DenseView a, DenseView b, double factor, double keep, double *c)
 {
     if (a.columns == 0 || b.columns == 0 || a.rows == 0) return;
@@ -194,6 +205,7 @@ void dense_apply_transposed(DenseView a, const double *x, double factor, double 
                 y, 1);
 }
 
+// Summed in the order of BLAS: the same bits on one machine, not on every one.
 double dense_dot(const double *x, const double *y, int32_t n)
 {
     return cblas_ddot(n, x, 1, y, 1);

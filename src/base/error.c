@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
+// Called by FAIL, which adds the place. A message that is too long is cut at its end.
 void error_set(Error *err, ErrorCode code, const char *file, int32_t line, const char *format, ...)
 {
     if (err->code != ERROR_NONE) return;
@@ -44,6 +45,7 @@ bool error_is_clean(const Error *err)
     return err->code == ERROR_NONE;
 }
 
+// From the table of codes in the header; 1 for a number that is no code.
 int error_exit_status(ErrorCode code)
 {
     switch (code) {

@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Speed matters: a cached basis of some megabytes is summed at every start.
+//
+// Not cryptographic: it tells files of the cache apart and finds damage, it does not stop somebody
+// who wants two files to agree. Two 64-bit streams give 128 bits (the first is FNV-1a's
+// multiplication, by words in place of bytes), so that chance collisions need not be thought of.
+// The bytes are taken as they lie in memory: hashes do not travel between byte orders, as cached
+// files do not.
 #include "base/hash.h"
 
 #include <stdio.h>
@@ -7,6 +13,7 @@
 
 static const uint64_t PRIME = 0x100000001b3u, OTHER_PRIME = 0x9e3779b97f4a7c15u;
 
+// FNV-1a's offset basis, and the same turned by half for the other stream.
 Hash hash_start(void)
 {
     return (Hash){.low = 0xcbf29ce484222325u, .high = 0x84222325cbf29ce4u};
@@ -41,6 +48,8 @@ static const unsigned char *hash_blocks(Hash *hash, const unsigned char *at, siz
     return at;
 }
 
+// The size goes in last, so that "ab" + "c" differs from "a" + "bc". Long pieces go through the
+// lanes first, which gives other sums than short ones: a piece must be hashed as a whole to agree.
 void hash_bytes(Hash *hash, const void *bytes, size_t size)
 {
     const unsigned char *at = bytes;
@@ -78,6 +87,7 @@ static uint64_t mix(uint64_t word)
     return word ^ (word >> 33);
 }
 
+// 32 hexadecimal digits; the hash itself is left as it was and may go on.
 void hash_write(const Hash *hash, char text[HASH_TEXT_SIZE])
 {
     unsigned long long first = mix(hash->low + hash->high), second = mix(hash->high ^ first);

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The counters are process-wide and atomic: modules and BLAS threads share them.
+// Every array begins at a multiple of 64 bytes, a cache line and the widest vector, and its size is
+// rounded up to whole lines, so that loops over it may be vectorised to its end. Arrays know
+// nothing of their length: who has one keeps it.
 #include "base/memory.h"
 
 #include <stdatomic.h>
@@ -24,6 +27,7 @@ static bool fault_is_due(void)
 }
 
 // *padded: the bytes that were allocated, whole lines of ALIGNMENT.
+// NULL with ERROR_MEMORY: also where count * size does not fit into size_t.
 static void *allocate(int64_t count, size_t size, size_t *padded, Error *err)
 {
     void *array = NULL;
@@ -42,6 +46,7 @@ cleanup:
     return array;
 }
 
+// Padding is zeroed as well: a tool that looks at uninitialised bytes finds none.
 void *memory_array(int64_t count, size_t size, Error *err)
 {
     size_t padded = 0;
@@ -88,6 +93,7 @@ char *memory_text(const char *text, Error *err)
     return copy;
 }
 
+// Only for what this file gave out: the counter of live arrays is how tests find leaks.
 void memory_free(void *array)
 {
     if (!array) return;
@@ -101,6 +107,7 @@ MemoryCounters memory_counters(void)
                             .live = atomic_load(&live_count)};
 }
 
+// Process-wide: a test that sets it must take it back (-1) also where it fails.
 void memory_fail_after(int64_t allocations)
 {
     atomic_store(&allocations_until_failure, allocations);

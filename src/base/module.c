@@ -27,6 +27,8 @@ cleanup:
     return error_is_clean(err);
 }
 
+// NULL with ERROR_LIBRARY, which has the loader's own words: most often that a library is not
+// installed. The caller casts the result to the function's own type.
 ModuleFunction module_function(const char *name, const char *symbol, Error *err)
 {
     ModuleFunction function = NULL;

@@ -51,6 +51,8 @@ static void take_output(int pipe, char *output, size_t size)
     output[used] = 0;
 }
 
+// ERROR_LIBRARY: it cannot be started, as when it is not installed. A program that runs and fails
+// is no error here: its status says so, 128 + n where signal n ended it.
 bool program_run(const char *const *words, char *output, size_t size, int *status, Error *err)
 {
     int ends[2] = {-1, -1}, ending = 0;

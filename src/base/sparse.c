@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // CHOLMOD (Chen, Davis, Hager, Rajamanickam, ACM TOMS 35, 2008): CAMD keeps the border last,
 // supernodal LL'. The supernodes of the factor are read directly for L_bb.
+//
+// A pattern is analysed once and factored for every rung of the ladder (TOOLCHAIN: 5 ms for the
+// analysis, 25 ms for a factor, 1 ms for a solve at 80 x 80). Workspaces of solves belong to the
+// analysis: factors of one analysis must not be used by two threads.
 #include "base/sparse.h"
 
 #include "base/dense.h"
@@ -50,6 +54,7 @@ int32_t sparse_entry(const SparsePattern *pattern, int32_t row, int32_t column)
     return low;
 }
 
+// By rows, as both triangles are stored: one pass over the values without scattered writes.
 void sparse_apply(const SparsePattern *pattern, const double *values, const double *x, double *y)
 {
     const int32_t *start = pattern->start, *index = pattern->index;
@@ -157,6 +162,7 @@ cleanup:
     return NULL;
 }
 
+// Also of one half built. Factors made from it must be gone.
 void sparse_analysis_destroy(SparseAnalysis *analysis)
 {
     if (!analysis) return;
@@ -195,6 +201,7 @@ static void read_border_factor(const cholmod_factor *factor, int32_t count, doub
 }
 
 // S = L_bb L_bb', brought into the caller's order of the border.
+// square: [border_count^2] work.
 static void compute_schur(SparseFactor *factor, double *square)
 {
     int32_t count = factor->analysis->border_count;
@@ -255,6 +262,7 @@ void sparse_factor_destroy(SparseFactor *factor)
     memory_free(factor);
 }
 
+// Owned by the factor.
 const double *sparse_schur(const SparseFactor *factor)
 {
     return factor->schur;

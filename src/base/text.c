@@ -13,6 +13,7 @@ static int32_t smaller(int32_t a, int32_t b)
     return a < b ? a : b;
 }
 
+// Longer names are compared by their first NAME_MAX_LENGTH letters: rows are on the stack.
 static int32_t name_length(const char *name)
 {
     return (int32_t)strnlen(name, NAME_MAX_LENGTH);
