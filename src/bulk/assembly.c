@@ -4,6 +4,9 @@
 // nodes with a common element; both triangles are stored. M is lumped: a vector.
 //
 //     unknown 2 i: u_x of node i;  2 i + 1: u_z;  row-compressed, columns ascending
+//
+// Entries are found by bisection in a row, which beside computing an element's matrices costs
+// little, and no element is looked at twice.
 #include "bulk/assembly.h"
 
 #include "base/memory.h"
@@ -19,6 +22,7 @@ typedef struct NodeGraph {
     int32_t *neighbour;   // [start[nodes]]
 } NodeGraph;
 
+// For qsort: ascending, without the overflow of a difference.
 static int compare_indices(const void *a, const void *b)
 {
     int32_t left = *(const int32_t *)a, right = *(const int32_t *)b;
@@ -65,6 +69,8 @@ cleanup:
 }
 
 // From nodes to unknowns: each neighbour gives two columns, and both rows of a node are alike.
+// pattern->index is twice as long as the node graph in both directions: 4 entries for a pair of
+// nodes. *pattern is the caller's to free also on failure.
 static bool build_pattern(const Mesh *mesh, SparsePattern *pattern, Error *err)
 {
     NodeGraph graph = {0};
@@ -186,6 +192,7 @@ void curve_add_weights(const Mesh *mesh, const MeshCurve *curve, double *weight)
 }
 
 // f_i = int N_i t ds for a uniform t, exact on straight edges of either order.
+// traction: (x, z), stress, of the outer world on the block. Added to what is there.
 void bulk_add_traction(const Mesh *mesh, const MeshCurve *curve, const double traction[2],
                        Bulk *bulk)
 {

@@ -2,6 +2,11 @@
 // The reduced operator keeps, for each A, the inverse of its interior block and the map
 //
 //     B = A_qq^-1 A_qb,   S = A_bb - A_bq B,   g = rhs_b - B' rhs_q,   v_q = A_qq^-1 rhs_q - B v_b.
+//
+// The full operator leaves all this to base/sparse, which reads S out of CHOLMOD's factor. Both
+// answer to the same four calls, so that nobody above knows which of them is at work (a test
+// compares them). Unknowns of the full system are those of the mesh; of the reduced one the
+// interface's come first, then the interior's coordinates q.
 #include "bulk/interface_operator.h"
 
 #include "base/dense.h"
@@ -19,6 +24,8 @@ struct InterfaceOperator {
     double *half;   // reduced: [interior] A_qq^-1 rhs_q; owned
 };
 
+// The load is copied: what bulk_hold or a traction changes in `bulk` afterwards does not reach it.
+// mass_total counts the mass of one direction, as both have the same.
 bool bulk_operator_create(const Bulk *bulk, const double *position, const int32_t *interface_dofs,
                           int32_t interface_count, BulkOperator *system, Error *err)
 {
@@ -41,6 +48,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// `reduced` must outlive the system. interface_rotation: [interface_count].
 bool bulk_operator_reduce(const ReducedBulk *reduced, const double *interface_rotation,
                           double mass_total, BulkOperator *system, Error *err)
 {
@@ -88,6 +96,7 @@ static void apply_reduced(const ReducedBulk *reduced, BulkTerm term, const doubl
     for (int32_t k = 0; k < reduced->count; k++) y[k] *= factor;
 }
 
+// x, y: [dof_count], distinct.
 void bulk_operator_apply(const BulkOperator *system, BulkTerm term, const double *x, double *y)
 {
     const Bulk *bulk = system->bulk;
@@ -222,6 +231,9 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Memory of a reduced one: m^2 + r^2 + r m doubles, m interface and r interior unknowns; of a full
+// one the sparse factor and 3 m^2. C's own operator, which the certificate asks for, is copied from
+// the reduction and costs no factorisation.
 InterfaceOperator *interface_operator_create(BulkOperator *system, OperatorTerms terms, Error *err)
 {
     int64_t m = system->interface_count;
@@ -259,6 +271,7 @@ const double *interface_operator_schur(const InterfaceOperator *condensed)
 }
 
 // Reduced: keeps A_qq^-1 rhs_q for the expand that follows.
+// The half-solved right-hand side is kept inside, for one at a time.
 bool interface_operator_condense(InterfaceOperator *condensed, const double *rhs, double *g,
                                  Error *err)
 {

@@ -15,6 +15,7 @@
 // is 1e-16 of it; an element of aspect ratio 1e4 still has 2e-5 of it.
 static const double AREA_TOLERANCE = 1e-12;
 
+// The arrays came from io/mesh_file, which knows how to free them.
 void mesh_destroy(Mesh *mesh)
 {
     MeshFile file = {.position = mesh->position,
@@ -62,6 +63,7 @@ static void find_extent(Mesh *mesh)
 // --- checks -------------------------------------------------------------------------------------
 
 // The name of a curve group that holds node i, NULL: none.
+// Only for the words of an error: a walk over everything.
 static const char *group_of_node(const Mesh *mesh, int32_t i)
 {
     for (int32_t g = 0; g < mesh->group_count; g++)
@@ -91,6 +93,7 @@ cleanup:
 }
 
 // A quadrilateral with two corners in one node is a triangle in disguise: its Jacobian is zero.
+// Quadratic in an element's nodes, of which there are 9 at most.
 static bool check_repeats(const Mesh *mesh, Error *err)
 {
     for (int32_t e = 0; e < mesh->element_count; e++)
@@ -249,6 +252,8 @@ cleanup:
 // --- building -----------------------------------------------------------------------------------
 
 // In this order: each check may rely on those before it.
+// `file` is emptied whatever happens; *mesh, half checked, is the caller's to destroy also on
+// failure. ERROR_INPUT names node or element by gmsh's own number.
 bool mesh_build(MeshFile *file, const char *path, Mesh *mesh, Error *err)
 {
     take_over(file, path, mesh);

@@ -36,6 +36,8 @@ void mesh_sort_nodes(const Mesh *mesh, int32_t *nodes, int32_t count)
     if (count > 1) qsort_r(nodes, (size_t)count, sizeof *nodes, compare_places, mesh->position);
 }
 
+// A view into the mesh's group: nothing is owned. ERROR_INPUT lists the curves that there are where
+// `name` is none of them.
 bool mesh_curve(const Mesh *mesh, const char *name, MeshCurve *curve, Error *err)
 {
     MeshFile view = {.group_count = mesh->group_count, .groups = mesh->groups};
@@ -116,6 +118,8 @@ cleanup:
 }
 
 // Each edge of the contact is on one element only and on one contact curve only.
+// An edge on two elements lies inside the block; one that two curves have would be given to both
+// pads.
 static bool check_boundary(const Mesh *mesh, const MeshContact *contact, Error *err)
 {
     MeshEdges table = {0};
@@ -171,6 +175,7 @@ cleanup:
 }
 
 // Two nodes in one place are two sides of a crack, or a mesh whose parts were never glued.
+// Nodes are in order of x by now, so that neighbours are the only ones to compare.
 static bool check_places(const Mesh *mesh, const MeshContact *contact, Error *err)
 {
     double tolerance = PLACE_TOLERANCE * extent(mesh);

@@ -20,6 +20,8 @@ static MeshEdge *find_edge(const MeshEdges *table, int32_t low, int32_t high)
 }
 
 // Puts an edge into the table, or counts one more element on it. `edge` comes with elements = 1.
+// low: the edge's lower end, whose bucket it goes into. ERROR_INPUT: the mesh does not fit together
+// there.
 static bool add_edge(const Mesh *mesh, int32_t element, const MeshEdge *edge, int32_t low,
                      MeshEdges *table, Error *err)
 {
@@ -100,6 +102,7 @@ void mesh_edges_destroy(MeshEdges *table)
     *table = (MeshEdges){0};
 }
 
+// one, other: its two end nodes in either order; NULL: no element has such an edge.
 const MeshEdge *mesh_edges_find(const MeshEdges *table, int32_t one, int32_t other)
 {
     return one < other ? find_edge(table, one, other) : find_edge(table, other, one);

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Strains are taken at the nodes of each element. On a regular mesh the mean over the elements at
 // an inner node is a central difference, one order better than each of them.
+//
+// Stresses are discontinuous between elements; what is written is their plain mean at each node,
+// not weighted by the elements' sizes. Arrays are [3 * nodes]: xx, zz, xz of node 0, of node 1,
+// ...; the strain's third entry is the engineering shear 2 xz, as in bulk/element.
 #include "bulk/recovery.h"
 
 #include "base/memory.h"
@@ -9,6 +13,7 @@
 #include <math.h>
 #include <string.h>
 
+// Kept over a run and filled anew at each time that is written.
 bool nodal_stress_create(const Mesh *mesh, NodalStress *stress, Error *err)
 {
     int64_t count = mesh->node_count;
@@ -66,6 +71,8 @@ static double von_mises(const double stress[3], double out_of_plane)
 
 // Every element gives its own stress to each of its nodes; the mean over the elements is taken
 // last, and von Mises of that mean, not the mean of von Mises.
+// displacement, velocity: [2 * nodes] of the full mesh. stress->total has the viscous part, C's
+// stress at this velocity, stress->elastic has not.
 void nodal_stress_recover(const Mesh *mesh, const Material *material, const double *displacement,
                           const double *velocity, NodalStress *stress)
 {
