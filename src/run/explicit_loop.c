@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// The explicit scheme in the place of step control: central differences on the full mesh
+// (stepping/explicit_reference), of which RECORDS states are looked at. Recorders see the same
+// state as with implicit steps; what only those have (rungs, error control) stands still.
 #include "run/explicit_loop.h"
 
 #include "stepping/stable_step.h"
@@ -8,6 +11,9 @@
 
 static const double RECORDS = 2000;   // a run: some more than the implicit scheme has steps
 
+// Nothing is done for an implicit scheme. The step is the longest stable one
+// (stepping/stable_step), or time.step_max if that is less, shortened so that a whole number of
+// them makes an interval between records.
 bool explicit_loop_prepare(Simulation *simulation, Error *err)
 {
     const Scene *scene = &simulation->scene;
@@ -36,6 +42,8 @@ cleanup:
     return error_is_clean(err);
 }
 
+// One record: explicit_steps steps. The contact conditions of its last step are copied to where
+// run/observation looks for those of an implicit stage.
 bool explicit_loop_advance(Simulation *simulation, Error *err)
 {
     StepControl *control = &simulation->control;

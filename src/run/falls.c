@@ -45,11 +45,14 @@ static bool push_fall(Falls *falls, Error *err)
     return true;
 }
 
+// Relative to the top, at least `least` of it. A run without a rod has mu 0, and no falls.
 static bool has_fallen(const Falls *falls)
 {
     return falls->drop > 0 && falls->drop >= falls->least * falls->top;
 }
 
+// Events first (run/events), pads second: both have looked at this step already. rising->mu stops
+// rising once the force has fallen in this event.
 bool falls_record(void *self, const Observation *seen, Error *err)
 {
     Falls *falls = self;
@@ -76,6 +79,8 @@ cleanup:
 
 // --- period and branches ------------------------------------------------------------------------
 
+// An ItemsAgree (run/repetition): the same number of pads slid, at the same mu within the
+// tolerance.
 static bool falls_agree(const void *series, int32_t k, int32_t later)
 {
     const Falls *falls = series;
@@ -100,6 +105,7 @@ static FallBranch *branch_of(const Falls *falls, FallsSummary *summary, int32_t 
     return &summary->branches[b];
 }
 
+// By mu, the lowest first: that is the one to trust.
 static void sort_branches(FallsSummary *summary)
 {
     for (int32_t a = 1; a < summary->branch_count; a++) {

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// A recorder: at the times that the scene asks for the bulk is recovered, u = V q (DESIGN 4.3), its
+// stresses found and written as .vtu, the interface as .vtp. What does not change in a run (points,
+// cells) is laid out once, in the 64-bit integers and three coordinates that VTK wants; z of the
+// model is VTK's y. VTK itself stays in its module: io/field_file.
 #include "run/fields.h"
 
 #include "base/clock.h"
@@ -23,6 +27,7 @@ static uint8_t vtk_cell_type(ElementKind kind)
     return types[kind];
 }
 
+// VTK's cells: offsets [cells + 1] into connectivity, and a type each. Third coordinates stay 0.
 static bool fill_bulk_grid(Fields *fields, Error *err)
 {
     const Mesh *mesh = fields->mesh;
@@ -68,6 +73,8 @@ static bool fill_line_grid(Fields *fields, const Interface *interface, Error *er
     return true;
 }
 
+// What one state needs, without a folder: for `amontons static`, which calls fields_write_bulk
+// itself. mesh is borrowed; material is the caller's to set.
 bool fields_prepare(const Mesh *mesh, const Interface *interface, Fields *fields, Error *err)
 {
     *fields = (Fields){.mesh = mesh};
@@ -75,6 +82,8 @@ bool fields_prepare(const Mesh *mesh, const Interface *interface, Fields *fields
            fill_line_grid(fields, interface, err);
 }
 
+// folder, mesh and what is in `def` are borrowed. The first record is always due: next_U and next_t
+// lie before everything.
 bool fields_create(const FieldsDef *def, const char *folder, const Mesh *mesh,
                    const Interface *interface, Fields *fields, Error *err)
 {
@@ -114,6 +123,8 @@ void fields_destroy(Fields *fields)
     *fields = (Fields){0};
 }
 
+// state: [2 * nodes] displacement and velocity of the mesh. Three components, the third 0, as VTK
+// has no vectors of two.
 bool fields_write_bulk(Fields *fields, const FieldState *state, const char *path, Error *err)
 {
     const Mesh *mesh = fields->mesh;
@@ -145,6 +156,7 @@ bool fields_write_bulk(Fields *fields, const FieldState *state, const char *path
     return field_file_write_vtu(path, &grid, err);
 }
 
+// From the system's own unknowns, reduced or full.
 static bool write_bulk(Fields *fields, const Observation *seen, const char *name, Error *err)
 {
     char path[PATH_SIZE];
@@ -156,6 +168,7 @@ static bool write_bulk(Fields *fields, const Observation *seen, const char *name
     return fields_write_bulk(fields, &state, path, err);
 }
 
+// The names and their order are those of README's table. line_values: [LINE_ARRAYS][contact_count].
 static bool write_line(Fields *fields, const Observation *seen, const char *name, Error *err)
 {
     const Interface *interface = seen->interface;
@@ -212,6 +225,7 @@ static bool make_room(Fields *fields, Error *err)
     return true;
 }
 
+// Room is there already: a record that fails half way leaves the list as it was.
 static void add_entry(Fields *fields, double time, const char *part, const char *name)
 {
     int32_t k = fields->entry_count++;
@@ -219,6 +233,9 @@ static void add_entry(Fields *fields, double time, const char *part, const char 
     fields->entries[k] = (FieldSeriesEntry){.time = time, .part = part, .file = fields->names[k]};
 }
 
+// Multiples of every_U and every_t, at the first step at or beyond each; a step that passes several
+// is written once. With at_events also steps in which a rapid event begins, crosses the interface
+// or ends.
 static bool is_due(Fields *fields, const Observation *seen)
 {
     bool due = fields->written == 0;
@@ -235,6 +252,7 @@ static bool is_due(Fields *fields, const Observation *seen)
     return due || (fields->def.at_events && happens);
 }
 
+// A run that is killed keeps every time that was written, each file whole (io/part_file).
 bool fields_record(void *self, const Observation *seen, Error *err)
 {
     Fields *fields = self;

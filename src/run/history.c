@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// A recorder: every accepted step becomes a row of each series in history.h5. Which series there
+// are, their names, units and kinds stands in io/result_tables.h; the switches below say where a
+// value comes from. io/array_file gathers rows into chunks and compresses those.
 #include "run/history.h"
 
 #include "base/clock.h"
@@ -9,6 +12,8 @@
 
 static const double FLUSH_EVERY = 2.0;   // s; what a kill -9 may cost
 
+// head: title, units and numbers are set; what belongs to the nodes is added here and points into
+// `history` and `interface`, which must outlive the call. law is borrowed for good.
 bool history_create(const char *folder, ResultHead *head, const Interface *interface,
                     const FrictionLaw *law, History *history, Error *err)
 {
@@ -33,6 +38,7 @@ bool history_create(const char *folder, ResultHead *head, const Interface *inter
     return history->file != NULL;
 }
 
+// A file that was not finished stays as history.h5.part, which render and info can read.
 void history_destroy(History *history)
 {
     memory_free(history->row);
@@ -44,6 +50,7 @@ void history_destroy(History *history)
     *history = (History){0};
 }
 
+// Of the whole block; NaN for a series that is not of that kind.
 static double series_value(const Observation *seen, ResultSeries series)
 {
     switch (series) {
@@ -80,6 +87,9 @@ static double stored_status(const History *history, const State *state, int32_t 
     return friction_weakens(history->law, speed) ? 2 : 3;
 }
 
+// At contact node i. Forces of nodes become stresses by the node's weight (contact/interface): p =
+// r_n / w, and shear positive where the plane drags the block back, tau = -r_t / w. Slip is counted
+// from the first row, so that it is 0 when the rod starts.
 static double node_value(const History *history, const Observation *seen, ResultSeries series,
                          int32_t i)
 {
@@ -102,6 +112,8 @@ static double node_value(const History *history, const Observation *seen, Result
 }
 
 // Sums over the nodes of each pad, into pad_row.
+// pad_row: [pad_count]. Forces are sums of stress times weight; slip is the mean along the pad; the
+// last series, by default, the length of it that slips.
 static void sum_pads(History *history, const Observation *seen, ResultSeries series)
 {
     const Interface *interface = seen->interface;
@@ -127,6 +139,7 @@ static void sum_pads(History *history, const Observation *seen, ResultSeries ser
 }
 
 // One series of one step.
+// `row` has as many entries as the series has columns: 1, the contact nodes or the pads.
 static bool append(History *history, const Observation *seen, ResultSeries series, Error *err)
 {
     const double *row = history->row;
@@ -146,6 +159,7 @@ static bool append(History *history, const Observation *seen, ResultSeries serie
     return array_file_append(history->file, result_series_name(series), row, 1, err);
 }
 
+// The time of a flush is not counted in `seconds`: it is the disk's.
 bool history_record(void *self, const Observation *seen, Error *err)
 {
     History *history = self;
@@ -169,6 +183,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// A table is stored a column at a time: entry `table` of one peak; events likewise below.
 static double peak_column(const Peak *peak, ResultTable table)
 {
     switch (table) {
@@ -208,6 +223,8 @@ static bool is_peak_table(ResultTable table)
     return table == PEAKS_U || table == PEAKS_MU || table == PEAKS_COUNTS;
 }
 
+// Tables of peaks and events, mu_M and l_c where there are any, then the file gets its final name.
+// After a failure the file is no longer `history`'s.
 bool history_finish(History *history, const Peaks *peaks, const Events *events,
                     const PeaksSummary *summary, Error *err)
 {

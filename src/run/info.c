@@ -30,6 +30,8 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Every key with its value after defaults; `-` where a key without a default was left out, which
+// the scene does not need then.
 static bool info_scene(const char *path, const InfoOptions *options, FILE *out, Error *err)
 {
     Scene *scene = NULL;
@@ -57,6 +59,7 @@ static bool ends_with(const char *path, const char *end)
     return length > size && strcmp(path + length - size, end) == 0;
 }
 
+// Problems with the output (a full disk, a closed pipe) are errors too.
 bool amontons_info(const char *path, const InfoOptions *options, FILE *out, Error *err)
 {
     struct stat status;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// `amontons info` on a mesh: read and checked as a run would do it, so that what is wrong with a
+// mesh is found before anything is computed.
 #include "run/info.h"
 
 #include "base/memory.h"
@@ -15,6 +17,7 @@ static const char *dimension_name(int32_t dimension)
     return dimension >= 0 && dimension <= 2 ? names[dimension] : "volume";
 }
 
+// Between its end nodes: the arc of a curved edge is not followed.
 static double edge_length(const Mesh *mesh, const MeshGroup *group, int32_t edge)
 {
     const int32_t *nodes = group->edge_nodes + (int64_t)edge * group->nodes_per_edge;
@@ -23,6 +26,7 @@ static double edge_length(const Mesh *mesh, const MeshGroup *group, int32_t edge
     return hypot(b[0] - a[0], b[1] - a[1]);
 }
 
+// How long the curve is, and its cells.
 static void write_curve(const Mesh *mesh, const MeshGroup *group, FILE *out)
 {
     double length = 0, shortest = INFINITY, longest = 0;
@@ -48,6 +52,7 @@ static void write_groups(const Mesh *mesh, FILE *out)
     }
 }
 
+// The aspect ratio is bulk/mesh_summary's: longest over shortest edge of an element.
 void info_write_mesh(const Mesh *mesh, FILE *out)
 {
     MeshSummary summary = mesh_summarise(mesh);
@@ -100,6 +105,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// strip: the rod's lowest and highest z, length, or NULL. Drawn by the module `render`.
 bool info_draw_mesh(const Mesh *mesh, const double strip[2], const char *picture, Error *err)
 {
     char note[200];

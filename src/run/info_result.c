@@ -32,6 +32,7 @@ static const struct {
     {"errors.moment", "moment error"},
 };
 
+// What is missing in run.json (a failed run has no mu_M) is left out.
 static bool write_run(const char *folder, FILE *out, Error *err)
 {
     char path[PATH_SIZE];
@@ -59,6 +60,7 @@ typedef struct EventTable {
     int32_t count;
 } EventTable;
 
+// All columns of a table must have as many rows: a damaged file is told, not read beyond its end.
 static bool read_events(ArrayFile *file, EventTable *table, Error *err)
 {
     double **const columns[] = {&table->kind, &table->start, &table->stop, &table->reach,
@@ -93,6 +95,8 @@ static void write_events(const EventTable *table, FILE *out)
         fprintf(out, "  ... and %d more\n", table->count - EVENTS_SHOWN_MAX);
 }
 
+// Of history.h5, or of history.h5.part where the run was killed: io/result_file opens whichever is
+// there.
 static bool write_history(const char *folder, FILE *out, Error *err)
 {
     double *rod = NULL, *mu = NULL;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// What a scene asks to be written: recorders are opened before t = 0, pictures drawn from the
+// finished history.
 #include "run/output.h"
 
 #include "base/clock.h"
@@ -18,6 +20,7 @@ static char *join_pad_names(const Interface *interface, Error *err)
     return text;
 }
 
+// mu_M and l_c are NaN in the head: they are known at the end only.
 bool output_open_history(Simulation *simulation, Error *err)
 {
     const Scene *scene = &simulation->scene;
@@ -64,6 +67,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// By the module `render`, loaded here and only here.
 bool output_draw_figures(Simulation *simulation, Error *err)
 {
     const SceneNames *wanted = &simulation->scene.output.figures;

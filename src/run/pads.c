@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// What a pad does is seen from two marks of each contact node: it has stuck since the last sliding,
+// and it has slipped since it stuck. A pad is detached when all of its nodes have; it slips rapidly
+// between the rates at which run/events begins and ends rapid events, so that the same thresholds
+// hold for pads and block.
 #include "run/pads.h"
 
 #include "base/memory.h"
@@ -17,6 +21,8 @@ static const PadCycle NOTHING_YET = {.normal_force = NAN,
 
 enum { FIRST_ROOM = 32 };
 
+// interface is read only here and is not kept; events is borrowed. One contact curve is one pad: a
+// plain block has one.
 bool pads_create(const Interface *interface, const Events *events, Pads *pads, Error *err)
 {
     *pads = (Pads){.events = events,
@@ -57,6 +63,7 @@ void pads_destroy(Pads *pads)
 }
 
 // A node counts from when it has stuck: the tail of a sliding is not the next cycle's slip.
+// An open node counts as one that has let go, as it holds nothing.
 static void mark_nodes(Pads *pads, const Observation *seen)
 {
     for (int32_t i = 0; i < pads->contact_count; i++) {
@@ -74,6 +81,8 @@ typedef struct PadStep {
     int32_t slipped;   // nodes that have in this cycle
 } PadStep;
 
+// Sums over the nodes of pad p, as the step left them. Shear is positive where the plane holds the
+// block back.
 static PadStep look_at_pad(const Pads *pads, const Observation *seen, int32_t p)
 {
     PadStep step = {0};
@@ -91,6 +100,8 @@ static PadStep look_at_pad(const Pads *pads, const Observation *seen, int32_t p)
     return step;
 }
 
+// now: loads where mu was largest so far, and the first U of what happens once. *let_go: one more
+// where the pad has just lost its last sticking node; those of one step share their order.
 static void follow_pad(Pads *pads, const Observation *seen, int32_t p, int32_t *let_go)
 {
     Pad *pad = &pads->list[p];
@@ -117,6 +128,8 @@ static void follow_pad(Pads *pads, const Observation *seen, int32_t p, int32_t *
     pad->slipping = step.slipping;
 }
 
+// All is forgotten but `last`; called in every step of a sliding, so that a cycle begins with its
+// end.
 static void begin_cycle(Pads *pads)
 {
     memset(pads->stuck, 0, (size_t)pads->contact_count);
@@ -141,6 +154,8 @@ static int32_t count_slid(Pads *pads, const Interface *interface)
     return slid;
 }
 
+// `rising`, the largest mu since the sliding before, joins the list with the number of pads that
+// slid. ERROR_MEMORY leaves the list as it was.
 static bool push_sliding(Pads *pads, int32_t slid, Error *err)
 {
     PadSliding *list = memory_grow(pads->slidings, pads->sliding_count, &pads->sliding_room,
@@ -153,6 +168,7 @@ static bool push_sliding(Pads *pads, int32_t slid, Error *err)
     return true;
 }
 
+// Events of one pad or of several, whoever crosses; mu rises only while nothing is rapid.
 static bool follow_slidings(Pads *pads, const Observation *seen, Error *err)
 {
     const Events *events = pads->events;
@@ -168,6 +184,8 @@ cleanup:
     return error_is_clean(err);
 }
 
+// While the block slides as a whole nothing is followed but the step in which it crosses: what pads
+// do then says nothing of how they let go.
 bool pads_record(void *self, const Observation *seen, Error *err)
 {
     Pads *pads = self;

@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// run.json, one object, written when all else is: a folder without it holds no finished result.
+// Keys that DESIGN section 5 names keep their names; more may be added, none may change its
+// meaning. A number that is NaN or infinite is written as null (io/json_writer), and says that
+// there was none. `length` below is the block's: lengths are given over it where the key says
+// over_L.
 #include "run/report.h"
 
 #include "io/json_writer.h"
@@ -7,6 +12,7 @@
 #include <math.h>
 #include <stdio.h>
 
+// The counters of amontons.h, name by name: a benchmark reads them here.
 static void write_steps(JsonWriter *json, const RunCounters *counters)
 {
     json_begin_object(json, "steps");
@@ -26,6 +32,8 @@ static void write_steps(JsonWriter *json, const RunCounters *counters)
     json_end(json);
 }
 
+// Rungs on which a step was accepted, the longest first. ladder: NULL where the run failed before
+// it had one.
 static void write_rungs(JsonWriter *json, const Ladder *ladder)
 {
     json_begin_list(json, "rungs");
@@ -39,6 +47,8 @@ static void write_rungs(JsonWriter *json, const Ladder *ladder)
     json_end(json);
 }
 
+// Wall seconds by stage; outside_loop_cpu is processor time, of all but the loop of steps and
+// relaxing.
 static void write_timing(JsonWriter *json, const RunTiming *timing)
 {
     json_begin_object(json, "timing_s");
@@ -52,6 +62,7 @@ static void write_timing(JsonWriter *json, const RunTiming *timing)
     json_end(json);
 }
 
+// note: why a cached basis was not used or not kept; empty becomes null.
 static void write_model(JsonWriter *json, const RunModel *model, const char *note)
 {
     json_begin_object(json, "model");
@@ -85,6 +96,7 @@ static void write_front(JsonWriter *json, const Event *event, double length)
     json_end(json);
 }
 
+// In order of time, slow ones too; only rapid ones have a front to follow.
 static void write_events(JsonWriter *json, const Events *events, double length)
 {
     json_begin_list(json, "events");
@@ -129,6 +141,8 @@ static void write_branches(const Peaks *peaks, JsonWriter *json)
     json_end(json);
 }
 
+// l_sc and l_c as the dynamics saw them, and from the growth rates beside each peak
+// (l_c_growth_over_L).
 static void write_results(JsonWriter *json, const RunReport *report)
 {
     const PeaksSummary *summary = report->summary;
@@ -178,6 +192,8 @@ static void write_errors(JsonWriter *json, const RunErrors *errors)
     json_end(json);
 }
 
+// report->failure NULL: the run ended as it should. Written beside its name and renamed: never half
+// a report.
 bool report_write(const char *folder, const RunReport *report, Error *err)
 {
     char path[AMONTONS_PATH_SIZE + 16];

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// Makes room for results: the folder is made with all that leads to it, and files of an earlier
+// result are removed by name, those in fields/ and figures/ by their endings; what else lies there
+// stays. run.json goes first, so that a run that is killed from here on leaves no report of the one
+// before.
 #include "run/result_folder.h"
 
 #include <dirent.h>
@@ -21,6 +25,7 @@ static const char *const OWN_FILES[] = {
 static const char *const OWN_FOLDERS[] = {"fields", "figures"};
 static const char *const OWN_ENDINGS[] = {".vtu", ".vtp", ".png", ".part"};
 
+// Like `mkdir -p`, but a file in its place or a folder that cannot be written to is told at once.
 static bool make_folder(const char *folder, Error *err)
 {
     char path[PATH_MAX];
@@ -44,6 +49,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Files in fields/ and figures/: by their ending, as their names are numbered.
 static bool is_own(const char *name)
 {
     const char *dot = strrchr(name, '.');
@@ -77,6 +83,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// ERROR_INPUT: there is a result and `overwrite` is false; nothing was touched then.
 bool result_folder_prepare(const char *folder, bool overwrite, Error *err)
 {
     char path[PATH_SIZE];

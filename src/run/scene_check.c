@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// What keys mean together: each alone was checked when it was set (run/scene_value). The first
+// contradiction is reported, at the line of the value that is wrong, with what would be right.
 #include "run/scene_check.h"
 
 #include "amontons.h"
@@ -6,6 +8,8 @@
 #include <stdarg.h>
 #include <string.h>
 
+// sources: [keys of run/scene_keys] where each key's value stands, in the file or in a --set; no
+// document: not given.
 typedef struct Check {
     const Scene *scene;
     const SceneValue *sources;
@@ -68,6 +72,7 @@ static bool is_needed(const SceneKey *key, const Scene *scene)
     return !key->standard || (key->given_in_si && scene->units == UNITS_SI);
 }
 
+// Keys without a default, and in SI those whose default of 1 would be 1 Pa or 1 kg/m3.
 static bool check_required(const Check *check)
 {
     int32_t count = 0;
@@ -83,6 +88,7 @@ static bool check_required(const Check *check)
     return true;
 }
 
+// A law that strengthens with slip rate would need another certificate: mu_K <= mu_S.
 static bool check_friction(const Check *check)
 {
     const Scene *scene = check->scene;
@@ -102,6 +108,8 @@ static bool check_friction(const Check *check)
     return true;
 }
 
+// Something must press the block down, hold it, or send it down: else there is no contact to look
+// at.
 static bool check_load(const Check *check)
 {
     const Scene *scene = check->scene;
@@ -115,6 +123,7 @@ static bool check_load(const Check *check)
     return true;
 }
 
+// One curve, one meaning.
 static bool check_groups(const Check *check)
 {
     const Scene *scene = check->scene;
@@ -129,6 +138,8 @@ static bool check_groups(const Check *check)
     return true;
 }
 
+// time.until: U needs a rod; a scene that is no static one must say when to stop; step_min is at
+// most step_max.
 static bool check_time(const Check *check)
 {
     const Scene *scene = check->scene;
@@ -166,6 +177,7 @@ const char *amontons_scene_warning(const Scene *scene)
            "problem)";
 }
 
+// true: the scene can be meshed. Whether the mesh has the groups is not known yet.
 bool scene_check(const Scene *scene, const SceneValue *sources, const YamlDocument *file,
                  Error *err)
 {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The "scene" object of run.json. Maps are opened and closed as the key table is gone through.
+// Keys of one map stand together in the table (run/scene_keys), so that a map that was left is
+// never needed again. What is written can be read as a scene, JSON being YAML.
 #include "run/scene_keys.h"
 
 #include <string.h>
@@ -56,6 +58,8 @@ static void write_names(const SceneNames *names, JsonWriter *json, const char *n
     json_end(json);
 }
 
+// name: the last word of the key. An output.fields that is a map never comes here: its keys follow
+// by themselves.
 static void write_value(const SceneKey *key, const Scene *scene, JsonWriter *json, const char *name)
 {
     const void *field = (const char *)scene + key->offset;
@@ -99,6 +103,8 @@ static bool is_absent(const SceneKey *key, const Scene *scene, bool given)
     return (part_of_fields && !scene->output.fields) || (!key->standard && !given);
 }
 
+// Walks the keys with a stack of the maps that are open: those the next key does not share are
+// closed, those it has more are opened.
 void scene_write_json(const Scene *scene, JsonWriter *json, const char *name)
 {
     int32_t count = 0, depth = 0;

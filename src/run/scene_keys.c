@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// The table. A key's place in Scene is an offset, so that one function sets every number and one
+// shows it; choices stand in the order of their enums. A new key needs its line here, a field in
+// run/scene.h, and somebody who reads it; parsing, --set, run.json and the reference follow by
+// themselves.
 #include "run/scene_keys.h"
 
 #include "base/text.h"
@@ -218,6 +222,7 @@ int32_t scene_key_index(const char *name)
     return -1;
 }
 
+// A group is what stands before a dot in some key.
 bool scene_key_is_group(const char *name)
 {
     size_t length = strlen(name);
@@ -232,6 +237,8 @@ static const char *last_word(const char *name)
     return dot ? dot + 1 : name;
 }
 
+// First the right word in another map (`poisson` at the top), then a slip of the keyboard in the
+// whole name, then in its last word.
 const char *scene_key_nearest(const char *name)
 {
     static const char *const groups[] = {"mesh",    "groups",     "material",  "friction",
@@ -249,6 +256,7 @@ const char *scene_key_nearest(const char *name)
     return nearest < 0 ? NULL : names[nearest];
 }
 
+// Never for what is not finite.
 bool scene_range_holds(SceneRange range, double value)
 {
     const Range *within = &ranges[range];
@@ -270,6 +278,7 @@ static void join_choices(const char *const *choices, char *words, int32_t size)
         used += snprintf(words + used, (size_t)(size - used), "%s%s", k ? ", " : "", choices[k]);
 }
 
+// The list of choices is joined behind the words; what does not fit into `size` is cut.
 void scene_key_allowed(const SceneKey *key, char *words, int32_t size)
 {
     static const char *const by_type[] = {

@@ -14,6 +14,7 @@ typedef struct Line {
 
 static void add(Line *line, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+// At most what is left of the buffer; `used` may then be beyond `size`, and nothing more is added.
 static void add(Line *line, const char *format, ...)
 {
     if (line->used >= line->size - 1) return;
@@ -35,6 +36,7 @@ static void add_number(Line *line, double number)
     add(line, "%s", text);
 }
 
+// As YAML reads it back: quotes and backslashes escaped.
 static void add_quoted(Line *line, const char *text)
 {
     add(line, "\"");
@@ -42,6 +44,7 @@ static void add_quoted(Line *line, const char *text)
     add(line, "\"");
 }
 
+// Each as it would stand in the file: `{nx: 80, shape: quad}`.
 static void add_parameters(Line *line, const Scene *scene)
 {
     add(line, "{");
@@ -88,6 +91,7 @@ static void add_names(Line *line, const SceneNames *names)
     add(line, "]");
 }
 
+// words is cut where it does not fit, as `amontons info` shows it.
 void scene_key_value(const SceneKey *key, const Scene *scene, char *words, int32_t size)
 {
     const void *field = (const char *)scene + key->offset;
@@ -127,6 +131,7 @@ void scene_key_value(const SceneKey *key, const Scene *scene, char *words, int32
     }
 }
 
+// The README's table of keys; a test compares the two.
 void scene_write_reference(FILE *out)
 {
     int32_t count = 0;

@@ -22,11 +22,13 @@
 // lie this many times (crossing time + viscous time) back.
 static const double QUIET_TIME = 20;
 
+// A caller who steps by himself may want no files at all (RunOptions.folder NULL).
 static bool writes_results(const Simulation *simulation)
 {
     return simulation->folder[0] != 0;
 }
 
+// A Recorder, the last one: the caller sees a step when everything else has.
 static bool report_step(void *self, const Observation *seen, Error *err)
 {
     (void)err;
@@ -107,6 +109,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// On failure *out still holds what was made: amontons_run reports it, and everyone destroys it.
 bool amontons_simulation_create(const Scene *scene, const RunOptions *options, Simulation **out,
                                 Error *err)
 {
@@ -157,6 +160,8 @@ static bool is_periodic(Simulation *simulation)
     return falls_are_settled(&simulation->falls);
 }
 
+// An explicit `step` is one record of many small ones. *finished: the end of the scene, or the
+// periodic regime where the scene asks for it; looked at only when an event has ended.
 bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *finished, Error *err)
 {
     StepControl *control = &simulation->control;
@@ -246,6 +251,8 @@ void amontons_simulation_destroy(Simulation *simulation)
     memory_free(simulation);
 }
 
+// The loop itself allocates nothing but rungs and output. A failure anywhere is written into
+// run.json with what there was until then.
 bool amontons_run(const Scene *scene, const RunOptions *options, RunSummary *summary, Error *err)
 {
     Simulation *simulation = NULL;

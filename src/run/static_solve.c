@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// `amontons static`: K u = f + G' r with unilateral contact and Coulomb friction by mu_static,
+// where slip is measured from the undeformed block. It is the contact problem of one stage
+// (contact/contact_problem) with displacements in the place of velocities: S of K alone, g
+// condensed from the load, and bounds that are lengths. Reactions are then found anew from element
+// stresses, r = int B' sigma - f, so that the balances printed owe nothing to the solver.
 #include "run/static_solve.h"
 
 #include "base/dense.h"
@@ -10,6 +15,7 @@
 #include <math.h>
 #include <string.h>
 
+// [dofs] and [interface->count] arrays, owned by *solution.
 static bool make_room(const Simulation *simulation, StaticSolution *solution, Error *err)
 {
     int32_t dofs = simulation->bulk.dof_count;
@@ -55,6 +61,7 @@ static void fill_bounds(const Simulation *simulation, double *bound)
 
 // Bounds in [interface_count] `bound` and Coulomb's law in `law`, both borrowed; S and g are the
 // caller's to add.
+// rod_reach 1: at a soft node r_x = (bound - u)/softness, as nothing moves.
 static ContactProblem contact_problem(const Simulation *simulation, FrictionLaw *law, double *bound)
 {
     const Scene *scene = &simulation->scene;
@@ -121,6 +128,10 @@ static void find_reactions(const Simulation *simulation, StaticSolution *solutio
     }
 }
 
+// simulation: mesh, bulk and interface are there; supports are held and the rod is built here. K
+// alone may be singular (a block that only stands): its interface is lifted for the factor, and S
+// lowered again (bulk/interface_operator). ERROR_COMPUTE: no equilibrium, or K is singular in the
+// interior.
 bool static_solve(Simulation *simulation, StaticSolution *solution, Error *err)
 {
     *solution = (StaticSolution){0};
@@ -157,6 +168,8 @@ cleanup:
 
 // --- sums and balances --------------------------------------------------------------------------
 
+// Sums of what the plane does to the block, in its sense: upwards is positive. The rod's resultant
+// height is NaN without a force.
 static void sum_contact(const Simulation *simulation, const StaticSolution *solution,
                         StaticSummary *summary)
 {
@@ -249,6 +262,7 @@ StaticSummary static_summarise(const Simulation *simulation, StaticSolution *sol
     return summary;
 }
 
+// mesh -> bulk -> equilibrium -> sums -> files. folder NULL: nothing is written.
 bool amontons_static(const Scene *scene, const char *folder, bool overwrite, StaticSummary *summary,
                      Error *err)
 {

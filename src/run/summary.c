@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// What a run came to, for amontons.h: counters from the parts that keep them, phases with their
+// times, answers. Nothing is computed here that is not known already.
 #include "run/summary.h"
 
 #include "base/memory.h"
@@ -6,6 +8,8 @@
 #include <math.h>
 #include <stdio.h>
 
+// There are fewer phases than RUN_PHASES_MAX: the list below is fixed. A note that is too long is
+// cut.
 static void add_phase(RunSummary *summary, const char *name, double seconds, int64_t count,
                       const char *note)
 {
@@ -15,6 +19,7 @@ static void add_phase(RunSummary *summary, const char *name, double seconds, int
 }
 
 // Where the time went, in the order of a run, and for what was skipped the reason.
+// `bulk` is what of relaxing and solving no part accounts for: products and substitutions.
 static void list_phases(const Simulation *simulation, RunSummary *summary)
 {
     const RunTiming *timing = &simulation->timing;
@@ -54,6 +59,7 @@ static void list_phases(const Simulation *simulation, RunSummary *summary)
     add_phase(summary, "total", timing->total, control->counters.accepted, "accepted steps");
 }
 
+// Allocations of the loop are counted from when it began; a run that failed before has none.
 RunCounters summary_count(const Simulation *simulation)
 {
     const StepControl *control = &simulation->control;
@@ -78,6 +84,7 @@ RunCounters summary_count(const Simulation *simulation)
                                                  : 0};
 }
 
+// counters, peaks: made by the caller, who writes them into run.json as well.
 void summary_fill(const Simulation *simulation, const RunCounters *counters,
                   const PeaksSummary *peaks, RunSummary *summary)
 {
