@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The border to the module amontons_hdf5.so, which is opened with the first file; everything else
 // is handed on to it.
+// HDF5 costs 6 ms to load, as much as a short run's steps: a run without a history never opens it.
+// The functions of the module come in one table (array_file_module.h), so that one symbol is looked
+// up and a mistake in a signature is the compiler's to find.
 #include "io/array_file.h"
 
 #include "base/memory.h"
@@ -31,6 +34,7 @@ static ArrayFile *whole(ArrayFile *file)
     return NULL;
 }
 
+// Written as `path`.part until it is closed.
 ArrayFile *array_file_create(const char *path, Error *err)
 {
     ArrayFile *file = begin(err);
@@ -55,6 +59,7 @@ bool array_file_close(ArrayFile *file, Error *err)
     return closed;
 }
 
+// The .part file stays, for what may still be read of it.
 void array_file_abandon(ArrayFile *file)
 {
     if (!file) return;

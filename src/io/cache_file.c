@@ -25,6 +25,7 @@ typedef struct ArrayHead {
     int64_t spare;
 } ArrayHead;
 
+// Also false where the path would be too long: such a cache is as good as none.
 bool cache_file_path(const char *key, const char *ending, char path[CACHE_PATH_SIZE])
 {
     char folder[PATH_MAX];
@@ -114,6 +115,8 @@ static bool read_bytes(const char *path, void **bytes, int64_t *size, Error *err
 }
 
 // Fills the table of arrays and checks the sum; why it is not to be trusted, or NULL.
+// file->arrays point into `bytes`. Every length is checked against what is left before it is used:
+// a damaged file can be of any content.
 static const char *parse(const char *key, const char *bytes, int64_t size, CacheFile *file)
 {
     char head[HEAD_SIZE], digest[HASH_TEXT_SIZE];
@@ -174,6 +177,7 @@ void cache_file_destroy(CacheFile *file)
     *file = (CacheFile){0};
 }
 
+// As long as the file is not destroyed.
 const double *cache_file_array(const CacheFile *file, const char *name, int64_t count)
 {
     for (int32_t k = 0; k < file->array_count; k++) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Cells go straight to `path`.part; csv_finish gives it its name.
+//
+// Failures are kept until csv_finish, so that a caller who writes a thousand cells asks once.
 #include "io/csv_writer.h"
 
 #include "base/memory.h"
@@ -16,6 +18,7 @@ struct CsvWriter {
     bool in_row;   // a cell stands on the line already
 };
 
+// NULL with ERROR_FILE where it cannot be written.
 CsvWriter *csv_create(const char *path, Error *err)
 {
     CsvWriter *csv = NEW_ARRAY(CsvWriter, 1, err);
@@ -56,6 +59,7 @@ void csv_text(CsvWriter *csv, const char *text)
     put(csv, "\"", 1);
 }
 
+// The fewest digits that read back as the same number; an empty cell for NaN and infinities.
 void csv_number(CsvWriter *csv, double value)
 {
     char digits[40] = "";

@@ -107,6 +107,7 @@ static void put_escaped(FILE *out, const char *text)
 }
 
 // Parts are numbered in the order in which their names come up; `first` holds an entry of each.
+// first: [entries] room for as many parts.
 static int32_t part_number(const FieldSeriesEntry *entries, int32_t entry, int32_t *first,
                            int32_t *part_count)
 {

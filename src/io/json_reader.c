@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A scanner over the text (RFC 8259): it steps over whole values until it stands at the one wanted.
+//
+// No tree is built: of a run.json of some hundred kilobytes two or three values are wanted. It
+// reads what io/json_writer writes; of wrong JSON it finds nothing, or something, but never reads
+// beyond the text's end.
 #include "io/json_reader.h"
 
 #include <ctype.h>
@@ -15,6 +19,7 @@ static const char *skip_space(const char *at)
 }
 
 // Behind the string that begins at `at`; NULL: there is none.
+// A backslash takes the character behind it along.
 static const char *skip_string(const char *at)
 {
     if (*at != '"') return NULL;
@@ -88,6 +93,7 @@ static const char *enter_child(const char *at, const char *name, size_t length)
     return NULL;
 }
 
+// path: "results.peaks.0.mu", keys and indices with dots between them. NULL: not there.
 static const char *find(const char *text, const char *path)
 {
     const char *at = skip_space(text);

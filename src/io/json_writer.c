@@ -54,6 +54,7 @@ static void append_text(JsonWriter *json, const char *text)
     append_bytes(json, text, (int64_t)strlen(text));
 }
 
+// And the indentation of the level that is open.
 static void append_new_line(JsonWriter *json)
 {
     append_text(json, "\n");
@@ -179,6 +180,7 @@ void json_end(JsonWriter *json)
     append_text(json, level.is_list ? "]" : "}");
 }
 
+// value NULL: null.
 void json_text(JsonWriter *json, const char *key, const char *value)
 {
     begin_item(json, key, true);

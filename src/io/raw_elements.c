@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Picks, sorts and thins the elements of a raw mesh.
+//
+// What a raw mesh has too much of (points, edges, elements of no group, copies) is left out here,
+// and what is of a kind that we do not have is refused by name. Order does not depend on how gmsh
+// delivers: by element tag.
 #include "io/raw_elements.h"
 
 #include "base/memory.h"
@@ -114,6 +118,7 @@ static void sort_elements(RawElements *elements, bool may_repeat)
 }
 
 // "T3, T6, Q4, Q8, Q9", for messages.
+// From the table of kinds itself, so that it cannot be out of date.
 static void list_kinds(char list[KIND_LIST_SIZE])
 {
     int length = 0;
@@ -124,6 +129,8 @@ static void list_kinds(char list[KIND_LIST_SIZE])
 #undef X
 }
 
+// picked: empty before; its elements point into `raw`, which must outlive them. Where the file has
+// physical surfaces only their elements count, else all that are flat.
 bool raw_pick_surface(const MeshRaw *raw, const char *path, RawElements *picked, Error *err)
 {
     bool by_group = has_surface_group(raw), may_repeat = false;
@@ -160,6 +167,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// copies: how often an element came; groups: how often it should have.
 bool raw_check_copies(const char *path, const char *name, const RawElements *elements, Error *err)
 {
     for (int32_t k = 0; k < elements->count; k++)

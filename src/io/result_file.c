@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The tables of the header, expanded once into arrays of rows; everything else loops over those.
+//
+// A name, a unit or a shape stands in io/result_tables.h and nowhere else: the writer, the readers
+// and the README's table are loops over the same rows. Which array has which index is the enum made
+// from the same table.
 #include "io/result_file.h"
 
 #include "base/memory.h"
@@ -73,6 +77,7 @@ bool result_series_is_per_node(ResultSeries series)
     return series_rows[series].columns == COLUMNS_NODES;
 }
 
+// FOLDER/history.h5.
 static bool history_path(const char *folder, char path[PATH_MAX], Error *err)
 {
     int length = snprintf(path, PATH_MAX, "%s/history.h5", folder);
@@ -193,6 +198,8 @@ cleanup:
     return error_is_clean(err);
 }
 
+// *values [rows * width], the caller's to free. A killed run's series may differ by a row in
+// length: who reads several takes the shortest.
 bool result_file_read_series(ArrayFile *file, ResultSeries series, double **values, int64_t *rows,
                              int32_t *width, Error *err)
 {
@@ -205,6 +212,7 @@ bool result_file_read_nodes(ArrayFile *file, ResultNodes nodes, double **values,
     return read_column(file, nodes_rows[nodes].name, values, count, err);
 }
 
+// A run that did not end has no tables: an empty one is given.
 bool result_file_read_table(ArrayFile *file, ResultTable table, double **values, int32_t *count,
                             Error *err)
 {
@@ -269,6 +277,7 @@ static void describe_rows(FILE *out, const ResultRow *rows, int32_t count, const
     }
 }
 
+// Written to README.md by hand once a table changes; a test compares them.
 void result_file_describe(FILE *out)
 {
     fputs("| array | shape | type | unit | what it holds |\n|---|---|---|---|---|\n", out);

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Grows the tree of a YamlDocument from what comes in: scalars, starts and ends of lists and maps.
+//
+// The builder keeps a stack of what is open and, for each open map, the key that waits for its
+// value. Limits (nodes, depth) are far above any scene's and keep a hostile file from taking all
+// memory.
 #include "io/yaml_tree.h"
 
 #include "base/memory.h"
@@ -31,6 +35,7 @@ cleanup:
 }
 
 // All scalars stand in one buffer, zero-terminated, and are named by their offsets.
+// *offset: where it stands in document->texts, whose address may change with the next call.
 static bool add_text(YamlDocument *document, const char *text, size_t length, int32_t *offset,
                      Error *err)
 {
@@ -97,6 +102,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// As YAML 1.2's core schema has it, without its `Null` and `NULL`.
 static bool is_null(const char *text, size_t length)
 {
     return length == 0 || (length == 1 && text[0] == '~') ||
@@ -149,6 +155,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Events come in pairs: libfyaml reports an end without a beginning before it gets here.
 void yaml_build_close(YamlBuilder *builder)
 {
     builder->depth--;

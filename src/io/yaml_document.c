@@ -12,11 +12,14 @@
 
 // --- access -------------------------------------------------------------------------------------
 
+// Nodes are indices, valid as long as the document.
 YamlKind yaml_kind(const YamlDocument *document, YamlNode node)
 {
     return document->nodes[node].kind;
 }
 
+// Zero-terminated, owned by the document; "" where the node is no scalar, so that callers may
+// compare it unasked.
 const char *yaml_text(const YamlDocument *document, YamlNode node)
 {
     const YamlItem *item = &document->nodes[node];
@@ -131,6 +134,8 @@ void yaml_error_at(const YamlDocument *document, int32_t position, Error *err, c
               place.column, message, excerpt);
 }
 
+// The error's own file and line are this file's: what a user needs is the place in his text, which
+// the message has.
 void yaml_error(const YamlDocument *document, YamlNode node, Error *err, const char *format, ...)
 {
     char message[ERROR_MESSAGE_SIZE / 2];
@@ -141,6 +146,7 @@ void yaml_error(const YamlDocument *document, YamlNode node, Error *err, const c
     yaml_error_at(document, document->nodes[node].position, err, message);
 }
 
+// At the key rather than at its value: for keys that are not known, or stand where they must not.
 void yaml_key_error(const YamlDocument *document, YamlNode node, Error *err, const char *format,
                     ...)
 {
@@ -155,6 +161,7 @@ void yaml_key_error(const YamlDocument *document, YamlNode node, Error *err, con
     yaml_error_at(document, position, err, message);
 }
 
+// For messages: "found `abc`", "found a list of 3".
 void yaml_describe(const YamlDocument *document, YamlNode node, char *words, int32_t size)
 {
     const YamlItem *item = &document->nodes[node];

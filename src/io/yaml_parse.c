@@ -11,6 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
+// Byte from the text's start, -1: libfyaml does not say.
 static int32_t token_position(struct fy_token *token)
 {
     const struct fy_mark *mark = token ? fy_token_start_mark(token) : NULL;
@@ -43,6 +44,7 @@ static bool refuse(const YamlBuilder *builder, struct fy_token *token, const cha
 }
 
 // An anchor can stand at a scalar, a list or a map; each is refused before anything is built of it.
+// Which event may stand where is libfyaml's to check; what of it a scene may use is decided here.
 static bool take_event(YamlBuilder *builder, const struct fy_event *event, Error *err)
 {
     static const char no_anchors[] = "anchors and aliases (& and *) are not allowed in a scene";
@@ -128,6 +130,7 @@ cleanup:
 }
 
 // The length of the UTF-8 character at `text`, 0 when it is none (overlong forms included).
+// left: bytes from `text` to the end, at least 1.
 static int32_t utf8_length(const unsigned char *text, int32_t left)
 {
     static const uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
