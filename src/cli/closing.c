@@ -92,6 +92,7 @@ static void print_pictures(const char *folder)
     if (count >= 0) free(entries);
 }
 
+// A line for a file that is there.
 static void print_file(const char *folder, const char *name, const char *sentence)
 {
     char path[AMONTONS_PATH_SIZE + 32];
@@ -99,6 +100,7 @@ static void print_file(const char *folder, const char *name, const char *sentenc
     if (access(path, F_OK) == 0) printf("  %-15s %s\n", name, sentence);
 }
 
+// title may be empty. Nothing about files where the run wrote none.
 void closing_print(const char *title, const RunSummary *summary)
 {
     printf("%s%sdone\n", title, *title ? ": " : "");
@@ -114,6 +116,8 @@ void closing_print(const char *title, const RunSummary *summary)
     if (summary->figures > 0) print_pictures(summary->folder);
 }
 
+// Phases as amontons.h has them; some are parts of others, so that their shares do not add up to
+// 100.
 void closing_print_profile(const RunSummary *summary)
 {
     printf("%-18s %10s %6s %10s\n", "Where time went", "seconds", "%", "count");

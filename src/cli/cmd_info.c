@@ -16,6 +16,7 @@ typedef struct Options {
     bool too_many, too_many_overrides;
 } Options;
 
+// Gathers words; command_info judges them.
 static error_t take_option(int key, char *word, struct argp_state *state)
 {
     Options *options = state->input;
@@ -38,6 +39,7 @@ static error_t take_option(int key, char *word, struct argp_state *state)
     }
 }
 
+// `keys` is no file: the reference of all keys is printed.
 int command_info(int argc, char **argv)
 {
     static const struct argp_option known[] = {

@@ -17,6 +17,7 @@ typedef struct Model1dWords {
     bool theory_only;
 } Model1dWords;
 
+// Gathers words; check_words judges them.
 static error_t take_option(int key, char *word, struct argp_state *state)
 {
     Model1dWords *words = state->input;
@@ -114,6 +115,8 @@ static void print_theory(const Model1dSummary *summary)
     point_table_answer("mu_M at V", summary->mu_rod_full, "mu at l_c at V");
 }
 
+// The first sliding starts from tau = mu_K p, as theory does; the periodic ones start from what
+// sliding left, and differ by that.
 static void print_steps(const Model1dSummary *summary)
 {
     printf("Simulation\n");
@@ -145,6 +148,7 @@ static void print_answers(const Model1dSummary *summary)
                summary->simulated ? " and the steps in history.h5" : "");
 }
 
+// The table is printed while it is made, answers when all is known.
 int command_model1d(int argc, char **argv)
 {
     Model1dWords words = {0};

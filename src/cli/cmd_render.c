@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // `amontons render`: pictures of a stored result, or of a plot that a file describes. Which of the
 // two the name's ending tells.
+// Which of both it is, a result or a plot, is told by the name alone, before anything is read.
 #include "cli/commands.h"
 
 #include <stdio.h>
@@ -36,6 +37,7 @@ static error_t take_option(int key, char *word, struct argp_state *state)
     }
 }
 
+// JSON is YAML: the descriptions that a sweep leaves are .json.
 static bool is_plot(const char *name)
 {
     const char *dot = strrchr(name, '.');
@@ -55,6 +57,7 @@ static int draw_plot(const char *plot)
     return 0;
 }
 
+// Figures are checked by the module that draws them: it knows which there are.
 int command_render(int argc, char **argv)
 {
     static const struct argp_option known[] = {

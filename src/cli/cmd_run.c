@@ -13,6 +13,7 @@ typedef struct Options {
     bool profile;
 } Options;
 
+// The words common to all commands on a scene go to scene_words, the first child of the parser.
 static error_t take_option(int key, char *word, struct argp_state *state)
 {
     (void)word;
@@ -71,6 +72,8 @@ static int run_scene(const Scene *scene, const Options *options, const char *fol
     return 0;
 }
 
+// Without -o the folder is named after the scene and lies here, where the user is, not where the
+// scene is.
 int command_run(int argc, char **argv)
 {
     Options options = {0};

@@ -18,6 +18,7 @@ typedef struct StabilityWords {
     bool whole;
 } StabilityWords;
 
+// Gathers words; check_options judges them.
 static error_t take_option(int key, char *word, struct argp_state *state)
 {
     StabilityWords *words = state->input;
@@ -146,6 +147,7 @@ static void print_answers(const StabilitySummary *summary)
                summary->folder);
 }
 
+// With --from end one state's line is the whole answer: there is no path to sum up.
 int command_stability(int argc, char **argv)
 {
     StabilityWords words = {0};

@@ -36,6 +36,7 @@ typedef struct SweepDisplay {
     char failed[FAILURES_SHOWN][500];
 } SweepDisplay;
 
+// Gathers words; check_options judges them.
 static error_t take_option(int key, char *word, struct argp_state *state)
 {
     SweepWords *words = state->input;
@@ -150,6 +151,8 @@ static void read_options(int argc, char **argv, SweepWords *words)
 }
 
 // In a job of a Slurm array: one point.
+// list: the file that the sweep wrote for the array; Slurm says in the environment which element
+// this process is. The exit status is what Slurm sees of it.
 static int run_element(const char *list)
 {
     const char *index = getenv("SLURM_ARRAY_TASK_ID");
@@ -220,6 +223,8 @@ static int close_sweep(const SweepDisplay *display, const char *folder, const ch
     return error_exit_status(ERROR_COMPUTE);
 }
 
+// The ranking is gathered in memory while points are reported on standard error, and printed when
+// the last line of those has gone.
 int command_sweep(int argc, char **argv)
 {
     SweepWords words = {0};

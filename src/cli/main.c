@@ -25,6 +25,7 @@ static const Command commands[] = {
 
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
 
+// The exit status: 0, as help was asked for.
 static int print_help(void)
 {
     printf("usage: amontons COMMAND [OPTION ...] [ARGUMENT ...]\n"
@@ -47,6 +48,7 @@ static int print_help(void)
     return 0;
 }
 
+// NULL: no command has that name.
 static const Command *find_command(const char *name)
 {
     for (int32_t k = 0; k < COMMAND_COUNT; k++)
@@ -54,6 +56,7 @@ static const Command *find_command(const char *name)
     return NULL;
 }
 
+// With the name that was probably meant. The exit status.
 static int report_unknown(const char *name)
 {
     const char *names[COMMAND_COUNT];

@@ -8,6 +8,7 @@
 #include <string.h>
 
 // argp leaves the program by itself where an option is unknown, with the status set here.
+// name: what usage lines begin with, as in "amontons run"; argv[0] is the command's own word.
 void options_parse(const struct argp *argp, int argc, char **argv, const char *name, void *input)
 {
     argp_err_exit_status = error_exit_status(ERROR_INPUT);
@@ -23,6 +24,8 @@ void default_folder(const char *file, const char *ending, char *folder, size_t s
     snprintf(folder, size, "%.*s%s", (int)(length < 200 ? length : 200), name, ending);
 }
 
+// Digits and nothing else, from low to high: "3.5", "3x" and "" are misuse. *count is set on
+// success only.
 int option_count(const char *name, const char *word, int32_t low, int32_t high, int32_t *count)
 {
     char *end = NULL;
@@ -36,6 +39,7 @@ int option_count(const char *name, const char *word, int32_t low, int32_t high, 
 
 // Standard output is flushed first, here and below: in a file that takes both, lines stand in the
 // order in which they were said.
+// One line on standard error, whatever it is: a caller's script can take it as it is.
 int report_error(const Error *err)
 {
     fflush(stdout);
@@ -50,6 +54,8 @@ void report_warnings(const RunWarnings *warnings)
         fprintf(stderr, "amontons: warning: %s\n", warnings->text[k]);
 }
 
+// For words alone; what is wrong in a file is an Error of the library and goes through
+// report_error.
 int report_misuse(const char *format, ...)
 {
     va_list arguments;

@@ -32,6 +32,7 @@ static int32_t terminal_width(void)
     return size.ws_col < WIDTH_MAX ? size.ws_col : WIDTH_MAX;
 }
 
+// "0:12", "1:02:03"; "-:--" for NaN; at most a thousand hours.
 void progress_format_left(double seconds, char *text, size_t size)
 {
     if (isnan(seconds)) {
@@ -82,6 +83,8 @@ static void draw_bar(const StepView *view, const char *state)
     fflush(stderr);
 }
 
+// A bar on a terminal, a line each tenth of the way elsewhere, nothing with --quiet. All goes to
+// standard error: standard output is for answers.
 Progress progress_begin(bool quiet)
 {
     Progress progress = {.style = PROGRESS_LINES};
@@ -120,6 +123,8 @@ void progress_step(const StepView *view, void *context)
     progress->running = true;
 }
 
+// The line is cleared for what is printed next. Called also after a failure; a second time it does
+// nothing.
 void progress_end(Progress *progress)
 {
     if (progress->bar_stands) {

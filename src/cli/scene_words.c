@@ -8,6 +8,7 @@
 
 enum { OPTION_SET = 1000, OPTION_OVERWRITE };
 
+// The word is not copied: argv outlives everything.
 static void add_override(SceneWords *words, const char *word)
 {
     if (words->override_count == OVERRIDES_MAX)
@@ -73,6 +74,7 @@ int scene_words_check(const SceneWords *words, const char *command, const char *
     return 0;
 }
 
+// *scene is the caller's to destroy; NULL where the status is not 0.
 int scene_words_read(const SceneWords *words, Scene **scene)
 {
     Error err = {0};
