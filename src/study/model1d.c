@@ -2,6 +2,9 @@
 // A scene as the effective model sees it (equation 1 of Otsuki and Matsukawa 2013, in model1d.h),
 // theory, simulation, results. The scene's plane decides E_1: E/(1 - nu^2) in plane stress, the
 // paper's case, and the confined modulus in plane strain. Of the mesh only L and H are used.
+//
+// Symbols of the paper: u(x, t) of the interface, theta H the depth over which the shear stress
+// falls off (alpha here, 0.2), pressure 2 P x/L.
 #include "study/model1d.h"
 
 #include "base/clock.h"
@@ -15,6 +18,7 @@
 enum { NODES_MIN = 3, NODES_MAX = 2000, MODES_COUNTED = 40 };
 static const double FLAT = 1e-9;   // of L: how well the contact must fill the block's face
 
+// The paper's alpha; 81 nodes are 80 cells of the line.
 Model1dOptions amontons_model1d_options(void)
 {
     return (Model1dOptions){.alpha = 0.2, .nodes = 81};
@@ -67,6 +71,7 @@ cleanup:
 }
 
 // L and H of the mesh, whose one contact curve must be the whole lower face.
+// The mesh is read for L and H and to see that the contact is one whole face; it is not kept.
 static bool measure_block(const Scene *scene, Model1d *model, Error *err)
 {
     MeshFile file = {0};

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Reading a study. Values are checked when the scenes of its points are made (study/study_point).
+//
+// Order matters: `cases` and `vary` say which keys are columns, --set must know them to refuse
+// those that vary, and `set` comes after --set, as that may replace a formula. Lists are bounded
+// (study.h), so that a slip of the keyboard ends in a message and not in a week of runs.
 #include "study/study.h"
 
 #include "base/memory.h"
@@ -15,6 +19,7 @@
 
 // --- what stands in the file --------------------------------------------------------------------
 
+// Always false, so that a reader can return it.
 bool study_refuse(const Study *study, YamlNode node, const char *name, const char *allowed,
                   Error *err)
 {
@@ -67,6 +72,7 @@ static bool read_text(const Study *study, const char *key, char text[SCENE_TEXT_
 }
 
 // Relative to the study's folder, whatever the working directory.
+// Whether the file is there shows when the first point's scene is read.
 static bool read_scene_path(Study *study, Error *err)
 {
     char given[SCENE_TEXT_SIZE] = "";
@@ -118,6 +124,7 @@ cleanup:
 }
 
 // A key as one would type it after --set: one of the scene's, a map of them, or mesh.set.NAME.
+// Whether the key can be set is known here; whether its value is right when a scene is made.
 static bool check_key(const Study *study, YamlNode item, Error *err)
 {
     const char *key = yaml_key(study->file, item), *nearest = scene_key_nearest(key);
@@ -136,6 +143,7 @@ static bool check_key(const Study *study, YamlNode item, Error *err)
     return error_is_clean(err);
 }
 
+// `= 0.5 * mesh.set.length`; in quotes it is a text that begins with `=`.
 static bool is_formula(const YamlDocument *document, YamlNode node)
 {
     return yaml_kind(document, node) == YAML_SCALAR && !yaml_is_quoted(document, node) &&
@@ -195,6 +203,8 @@ bool study_plain_number(const Study *study, YamlNode node, double *value)
 
 // {log: [from, to], points: n} or {linear: [from, to], points: n}; ends are met exactly, what lies
 // between is rounded to 6 digits, so that it can be quoted.
+// *text: a YAML list, the caller's to free, so that values of a range are read by the same parser
+// as those that stand in the file.
 static bool write_range(const double bounds[2], bool is_log, int32_t points, char **text,
                         Error *err)
 {
@@ -222,6 +232,8 @@ static bool write_range(const double bounds[2], bool is_log, int32_t points, cha
     return true;
 }
 
+// The document made of it belongs to the study (made), and errors in its values name the range's
+// place.
 static bool read_range(Study *study, YamlNode node, StudyAxis *axis, Error *err)
 {
     static const char allowed[] = "a list of values, {log: [from, to], points: n} or "
@@ -375,6 +387,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Also of one half read.
 void study_destroy(Study *study)
 {
     for (int32_t k = 0; k < study->made_count; k++) yaml_destroy(study->made[k]);

@@ -119,6 +119,8 @@ static void drop_replaced(const Study *study, PointSettings *settings)
 }
 
 // changes: a map of the study's file that replaces what varies; YAML_NO_NODE: none.
+// Later settings win: a sweep's standards, `set`, --set, the case, what varies, `changes`. Point p
+// counts through the axes with the last one fastest.
 static bool gather(const Study *study, int32_t point, YamlNode changes, PointSettings *settings,
                    Error *err)
 {
@@ -147,6 +149,7 @@ cleanup:
 }
 
 // The value of formula `k` over `scene`, as one more setting.
+// 15 digits: what is shown in messages and in the table is what is computed with.
 static bool work_out(const Study *study, PointSettings *settings, int32_t k, const Scene *scene,
                      Error *err)
 {

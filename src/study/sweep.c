@@ -161,6 +161,7 @@ cleanup:
 }
 
 // What one computation decided holds for all points of the same scene.
+// Called when all are computed, before the table, which has a row for each.
 static void share_results(Sweep *sweep)
 {
     for (int32_t k = 0; k < sweep->study.point_count; k++) {
@@ -171,6 +172,7 @@ static void share_results(Sweep *sweep)
     }
 }
 
+// Looked at between points; what the caller does about those under way is his.
 bool sweep_check_stop(const Sweep *sweep, Error *err)
 {
     const volatile sig_atomic_t *stop = sweep->options->stop;
@@ -180,6 +182,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// A point whose scene an earlier one has waits for that one, not by itself.
 bool sweep_is_waiting(const Sweep *sweep, int32_t point)
 {
     return sweep->points[point].status == POINT_PENDING && sweep->points[point].same_as == point;
@@ -202,6 +205,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// The report is read back rather than made up: what is counted is what the next sweep will find.
 bool sweep_take_lost(Sweep *sweep, int32_t point, double seconds, const char *failure,
                      const char *message, Error *err)
 {

@@ -58,6 +58,7 @@ cleanup:
 
 // --- in the process of the element --------------------------------------------------------------
 
+// The --set words of the sweep, which every element must apply as well.
 typedef struct ElementSettings {
     const char *list[STUDY_SETTINGS_MAX];   // as after --set
     char text[STUDY_SETTINGS_MAX][SETTING_SIZE];
@@ -72,6 +73,7 @@ static bool find(const char *text, const char *list, int32_t index, char *value,
     return json_find_text(text, path, value, size);
 }
 
+// More than there is room for cannot come from a sweep: it has the same bound.
 static bool read_settings(const char *text, ElementSettings *settings, Error *err)
 {
     double count = 0;

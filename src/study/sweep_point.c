@@ -66,11 +66,13 @@ cleanup:
     return error_is_clean(err);
 }
 
+// By hash, not by number: a study that is changed finds its old points again.
 void point_folder(const Sweep *sweep, int32_t point, char folder[POINT_PATH_SIZE])
 {
     snprintf(folder, POINT_PATH_SIZE, "%s/points/%s", sweep->folder, sweep->points[point].hash);
 }
 
+// The file whose presence makes a point finished.
 static void report_path(const Sweep *sweep, int32_t point, char path[POINT_PATH_SIZE + 16])
 {
     point_folder(sweep, point, path);

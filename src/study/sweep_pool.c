@@ -25,6 +25,8 @@ typedef struct Worker {
     size_t length;   // of the message so far
 } Worker;
 
+// Processes, not threads: the libraries below keep states of their own (gmsh, HDF5), and a crash
+// must not take its neighbours along.
 typedef struct Pool {
     Sweep *sweep;
     int32_t size;   // workers at a time

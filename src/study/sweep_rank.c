@@ -16,6 +16,7 @@ enum { CELL_SIZE = 80, NOTE_SIZE = 120, CELLS_MAX = STUDY_COLUMNS_MAX + 6 };
 
 // --- order --------------------------------------------------------------------------------------
 
+// Bounds are known of mu_M and of mu_trusted only: other results are ranked without.
 static bool is_mu_M(const Study *study)
 {
     return strcmp(study->records[study->rank.record].path, "results.mu_M") == 0;
@@ -74,6 +75,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Zeroed is fine.
 void ranking_destroy(Ranking *ranking)
 {
     memory_free(ranking->rows);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The table of a sweep, a row a point in the study's order: as text in sweep.csv (RFC 4180), as
 // arrays in sweep.h5. Columns: point, the keys that vary, what is recorded, status, message, run.
+//
+// Both files hold the same rows: the CSV for spreadsheets and eyes, the arrays for programs, which
+// have no words: a word is its index in a list that is an attribute beside its column.
 #include "study/sweep.h"
 
 #include "base/memory.h"
@@ -22,6 +25,7 @@ typedef struct TableWriter {
 
 // --- sweep.csv ----------------------------------------------------------------------------------
 
+// Names as the study has them: `record` may rename a path.
 static void write_head(TableWriter *writer)
 {
     const Study *study = &writer->sweep->study;
@@ -167,6 +171,7 @@ static bool write_words(ArrayFile *file, const char *column, const WordList *lis
     return array_file_set_text(file, name, text, err);
 }
 
+// Groups scene/ and result/, a column each, [points].
 static bool write_arrays(const Study *study, const SweepTable *table, ArrayFile *file, Error *err)
 {
     int32_t count = study->point_count;
@@ -207,6 +212,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// On failure the table is the caller's to destroy.
 static bool make_room(const Study *study, SweepTable *table, Error *err)
 {
     int64_t count = study->point_count;
