@@ -28,7 +28,7 @@ static void read_options(int argc, char **argv, SceneWords *words)
     options_parse(&argp, argc, argv, "amontons static", words);
 }
 
-// Sums and balances first: whether to believe the rest. Forces are per width, in the scene's units.
+// Sums, and last the balances by which to judge them. Forces are per width, in the scene's units.
 static void print_summary(const char *title, const StaticSummary *summary)
 {
     printf("%s\n\n", *title ? title : "equilibrium");
