@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// DESIGN 4.5: a large implicit step damps what grows in place of showing it, so that truncation
+// error alone would step over the instability; these are the tests that say where that cannot
+// happen. Each comes down to one Cholesky or LU factorisation of a matrix of |F| rows, F the
+// unknowns that move,. The header has the derivations.
 #include "stepping/certificate.h"
 
 #include "base/clock.h"
@@ -9,8 +13,11 @@
 
 // s m + k/s at the best of the s of rungs that double is at most this times 2 sqrt(m k):
 // (sqrt 2 + 1/sqrt 2)/2.
+// Rungs double, and the worst s lies half way between two in log s:
 static const double BETWEEN_RUNGS = 1.0606601717798212;
 
+// block is borrowed. S_C is condensed from C alone, lifted as C may be singular in the interface's
+// own motion (bulk/interface_operator), once for all states.
 bool certificate_create(const Block *block, Certificate *certificate, Error *err)
 {
     *certificate =
@@ -43,6 +50,8 @@ void certificate_destroy(Certificate *certificate)
 }
 
 // Fills F, W and the dampers; says whether anything weakens at all.
+// moving [*moving_count] in the interface's order; W and dampers beside it. weakening of an open
+// node or of the rod is 0.
 static bool list_moving(Certificate *certificate, const State *state, int32_t *moving_count)
 {
     const Interface *interface = certificate->interface;
@@ -76,6 +85,8 @@ static bool list_moving(Certificate *certificate, const State *state, int32_t *m
 }
 
 // part S + (1 - part) S_C - W on F; schur: S. S_C is NULL where C itself is singular.
+// true: positive definite. Only lower triangles are filled, as Cholesky reads no more. Where
+// nothing weakens no factorisation is done, nor counted.
 static bool is_definite(Certificate *certificate, const State *state, const double *schur,
                         double part)
 {
@@ -107,6 +118,8 @@ bool certificate_holds(Certificate *certificate, const State *state)
 }
 
 // matrix = (S_t + sign(v) mu S_n)[F,F], the pressure that follows slip included; returns |F|.
+// Unsymmetric: row of a slipping tangent plus s mu times the row of its normal; W is left for the
+// caller to subtract, who may need the matrix without it.
 static int32_t fill_coupled(Certificate *certificate, const State *state, const double *schur)
 {
     int32_t count = 0;
@@ -133,6 +146,8 @@ static int32_t fill_coupled(Certificate *certificate, const State *state, const 
 }
 
 // det J > 0
+// The sign of det J is that of the product of U's diagonal and of the row swaps: the determinant
+// itself would overflow.
 static bool coupled_is_positive(Certificate *certificate, const State *state, const double *schur)
 {
     int32_t count = fill_coupled(certificate, state, schur);
@@ -142,6 +157,8 @@ static bool coupled_is_positive(Certificate *certificate, const State *state, co
            dense_lu_sign(certificate->matrix, count, certificate->pivots) > 0;
 }
 
+// growth > 1. part: a = cos(arctan(pi/log g)) of the header, written as ratio/sqrt(1 + ratio^2),
+// ratio = log g/pi, and less by what s between the rungs may hide.
 bool certificate_swings_less(Certificate *certificate, const State *state,
                              const InterfaceOperator *rung, double growth)
 {
@@ -153,6 +170,8 @@ bool certificate_swings_less(Certificate *certificate, const State *state,
 }
 
 // Powers of ((S_t + sign(v) mu S_n)[F,F])^-1 W; INFINITY where they do not settle.
+// W takes all but J out of the vector before each solve. 1e-6 of the load is enough to tell it from
+// 1.
 static double largest_load(Certificate *certificate, const State *state, const double *schur)
 {
     enum { POWERS_MAX = 200 };
@@ -181,6 +200,8 @@ double certificate_load(Certificate *certificate, const State *state, const Inte
     return load;
 }
 
+// First the symmetric test, which is cheaper and sufficient; where that fails the exact sign of det
+// J decides.
 bool certificate_step_resolves(Certificate *certificate, const State *state,
                                const InterfaceOperator *rung)
 {

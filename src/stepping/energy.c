@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// Work comes from the stages, u and v of each with the scheme's weights; what is stored comes from
+// the states at the ends of steps. Both must agree but for the integrator's error: a term that is
+// wrong in any of them shows as an imbalance that does not go down with the step.
 #include "stepping/energy.h"
 
 #include "base/dense.h"
 
 #include <math.h>
 
+// v'M v/2 and u'K u/2 from the products that a state keeps.
 void energy_store(const State *state, EnergyLedger *ledger)
 {
     ledger->kinetic = 0.5 * dense_dot(state->velocity, state->momentum, state->dof_count);
     ledger->elastic = 0.5 * dense_dot(state->displacement, state->elastic_force, state->dof_count);
 }
 
+// What is stored now counts as given; works begin at 0.
 EnergyLedger energy_open(const State *state)
 {
     EnergyLedger ledger = {0};
@@ -19,6 +24,8 @@ EnergyLedger energy_open(const State *state)
     return ledger;
 }
 
+// Friction takes -v_t r_t; normals are left out, as the plane does not move; the rod gives v_x r_x.
+// Forces are per width, so powers are, too.
 StagePower energy_stage(const Interface *interface, const double *velocity,
                         const double *viscous_force, int32_t dof_count,
                         const ContactSolution *contact)
@@ -35,12 +42,15 @@ StagePower energy_stage(const Interface *interface, const double *velocity,
     return power;
 }
 
+// 0 for an exact integrator.
 double energy_imbalance(const EnergyLedger *ledger)
 {
     return ledger->rod_work + ledger->load_work - ledger->viscous - ledger->frictional -
            (ledger->elastic + ledger->kinetic - ledger->stored_at_start);
 }
 
+// Since the ledger was opened; what an imbalance is measured with. Never below what was stored at
+// the start.
 double energy_turnover(const EnergyLedger *ledger)
 {
     return fabs(ledger->rod_work) + fabs(ledger->load_work) + ledger->viscous + ledger->frictional +

@@ -4,6 +4,10 @@
 //     (A - W) u = -M (a + b) - (C - W) a/s,   A = s M + C + K/s,  friction rows combined as in P,
 //
 // and its eigenvalues are theta = 1/(lambda - s). Held unknowns are 0 throughout.
+//
+// A state's unknowns are [u; w/s], 2 dof_count of them: w is scaled by s so that both halves have
+// one unit. Of each shift's space only pairs whose residual is below the tolerance are believed;
+// neighbouring shifts see some of them twice, and keep_rate drops the second.
 #include "stepping/growth.h"
 
 #include "base/dense.h"
@@ -47,6 +51,8 @@ struct Growth {
     double *mode_re, *mode_im, *real_mode, *candidate;   // [interface_count]
 };
 
+// From the slowest swing of the block, a quarter wave over its length, to about c over the distance
+// of two nodes: length/contact_count.
 GrowthDef growth_def(double length, double speed, int32_t contact_count)
 {
     return (GrowthDef){.slowest = speed / (4 * length),
@@ -56,6 +62,8 @@ GrowthDef growth_def(double length, double speed, int32_t contact_count)
                        .tolerance = 1e-8};
 }
 
+// The basis is the largest: 2 dof_count (vectors + 1) doubles, 41 vectors of twice the reduced
+// bulk's size.
 static bool allocate(Growth *growth, Error *err)
 {
     int64_t m = growth->interface->count, n = growth->system->dof_count, k = growth->def.vectors;
@@ -82,6 +90,8 @@ static bool allocate(Growth *growth, Error *err)
     return error_is_clean(err);
 }
 
+// One operator for each s, factored here and never again: they know nothing of the state, whose W
+// is subtracted on the interface.
 Growth *growth_create(const Block *block, const GrowthDef *def, Error *err)
 {
     Growth *growth = NEW_ARRAY(Growth, 1, err);
@@ -121,11 +131,14 @@ void growth_destroy(Growth *growth)
     memory_free(growth);
 }
 
+// Without friction, weakening and spring: the caller adds what it has.
 static void add_moving(Growth *growth, int32_t unknown)
 {
     growth->moving[growth->moving_count++] = (Moving){.unknown = unknown, .normal = -1};
 }
 
+// Where a soft rod node touches, its damper lag/softness enters W with the sign of a damper, below
+// 0.
 static void list_moving(Growth *growth, const State *state)
 {
     const Interface *interface = growth->interface;
@@ -159,6 +172,8 @@ static void list_moving(Growth *growth, const State *state)
 // --- the scan -----------------------------------------------------------------------------------
 
 // The largest eigenvalue of W^1/2 S[F,F]^-1 W^1/2 by powers of it; the inverse stands in `matrix`.
+// Symmetric, so the Rayleigh quotient y'x converges twice as fast as the vector. Weakening below 0
+// (dampers) is in the matrix already.
 static double largest_load(const Growth *growth)
 {
     enum { POWERS_MAX = 2000 };
@@ -182,6 +197,7 @@ static double largest_load(const Growth *growth)
     return load;
 }
 
+// INFINITY: S cannot be factored there.
 static double load_at(Growth *growth, int32_t k)
 {
     int32_t count = growth->moving_count;
@@ -200,6 +216,8 @@ static double load_at(Growth *growth, int32_t k)
     return largest_load(growth);
 }
 
+// load >= 1: some s > 0 is a real growth rate with the pressure held. At an end of the range no
+// parabola is fitted.
 GrowthScan growth_scan(Growth *growth, const State *state)
 {
     double load[GROWTH_SHIFTS_MAX] = {0};
@@ -223,6 +241,7 @@ GrowthScan growth_scan(Growth *growth, const State *state)
 // --- the eigenproblem ---------------------------------------------------------------------------
 
 // LU of the moving unknowns' rows of A - W, the friction rows combined.
+// Into growth->matrix and pivots; false where s is itself a growth rate.
 static bool factor_moving(Growth *growth, int32_t k)
 {
     int32_t count = growth->moving_count;
@@ -242,6 +261,7 @@ static bool factor_moving(Growth *growth, int32_t k)
 }
 
 // to = shifted inverse of from; both [2 dof_count].
+// to and from must be distinct. Held unknowns come out as 0: the border is set so.
 static bool apply_inverse(Growth *growth, int32_t k, const double *from, double *to, Error *err)
 {
     BulkOperator *system = growth->system;
@@ -306,6 +326,8 @@ cleanup:
 }
 
 // Fills `projected` [(vectors + 1) rows]; *count: the dimension reached, *rest: its last residual.
+// Arnoldi: column j of `projected` has the products of step j, below its diagonal the length of
+// what was new.
 static bool build_basis(Growth *growth, int32_t k, int32_t *count, double *rest, Error *err)
 {
     int64_t size = 2 * (int64_t)growth->system->dof_count, rows = growth->def.vectors + 1;
@@ -340,6 +362,7 @@ static void lift_mode(const Growth *growth, int32_t count, const double *column,
 }
 
 // Largest slip 1, real and positive; im may be NULL.
+// A mode is known up to a complex factor: this one makes modes of neighbouring states comparable.
 static void scale_mode(const Growth *growth, double *re, double *im)
 {
     int32_t largest = 0;
@@ -398,6 +421,8 @@ static void take_pair(Growth *growth, int32_t count, GrowthRate found, const dou
     }
 }
 
+// theta of largest modulus belong to the lambda nearest to s, and converge first. rest * last
+// component of the Ritz vector is the residual of the pair.
 static bool rates_near_shift(Growth *growth, int32_t k, GrowthRates *rates, Error *err)
 {
     int32_t count = 0;
@@ -426,6 +451,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Every stride-th shift: their spaces overlap.
 bool growth_rates(Growth *growth, const State *state, GrowthRates *rates, Error *err)
 {
     *rates = (GrowthRates){.mode_re = growth->mode_re, .mode_im = growth->mode_im};

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// The block settles under its load with the rod away or held, by the steps that the run takes
+// later; nothing is asked of energy on the way.
 #include "stepping/relaxation.h"
 
 #include "base/dense.h"
@@ -6,6 +8,7 @@
 #include <math.h>
 
 // The largest velocity on the interface, or the root mean square over the block if that is larger.
+// v'M v over the block's mass is the mean square of |v|, twice the kinetic energy over the mass.
 static double fastest(const StepControl *control)
 {
     const State *state = &control->now;
@@ -14,6 +17,8 @@ static double fastest(const StepControl *control)
     return fmax(sqrt(mean_square), dense_max_abs(state->slip_rate, state->interface_count));
 }
 
+// *steps: how many. control's state at the end is the start of the run; its clock is set back by
+// step_control_restart. ERROR_COMPUTE: it did not settle.
 bool relax(StepControl *control, const RelaxationDef *def, int64_t *steps, Error *err)
 {
     double speed = INFINITY, energy_tolerance = control->def.energy_tolerance;

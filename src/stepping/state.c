@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// A state keeps its products with M and K (momentum, elastic force) beside u and v.
 #include "stepping/state.h"
 
 #include "base/memory.h"
 
 #include <string.h>
 
+// All zero but the statuses: every contact node sticks. On failure state_destroy frees what was
+// made.
 bool state_create(const BulkOperator *system, const Interface *interface, State *state, Error *err)
 {
     *state = (State){.dof_count = system->dof_count,
@@ -39,6 +42,7 @@ void state_destroy(State *state)
     *state = (State){0};
 }
 
+// Both are of the same system and interface; nothing is allocated.
 void state_copy(const State *from, State *to)
 {
     size_t bulk_bytes = (size_t)from->dof_count * sizeof(double);

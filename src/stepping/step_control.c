@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The rung follows the error as dt ~ error^(-1/(p + 1)), p the scheme's order (Hairer and Wanner,
 // Solving ODEs II, IV.8), rounded down to the ladder.
+//
+// A trial costs the scheme's stages and, in a state that is not certified, some small
+// factorisations. What is undone is only `next`: `now` is not touched before a step is accepted,
+// and accepting swaps the two.
 #include "stepping/step_control.h"
 
 #include <math.h>
@@ -28,6 +32,8 @@ enum { SHORTER_FIRST = 8 };
 // the paper, out of it: with 0.03 the second peak of Figure 1's block moved by up to 1 %.
 static const double SMALL_SWING = 0.01;
 
+// The ladder begins at step_max doubled as often as relaxing may need; which rung a run may take at
+// the longest is `coarsest`.
 bool step_control_create(const Block *block, const StepControlDef *def, StepControl *control,
                          Error *err)
 {
@@ -78,6 +84,7 @@ typedef enum Verdict {
 } Verdict;
 
 // The ledger after the step under trial.
+// A copy: the real ledger changes with an accepted step only.
 static EnergyLedger book_step(const StepControl *control, int32_t k, const StepOutcome *outcome)
 {
     EnergyLedger ledger = control->ledger;
@@ -86,6 +93,8 @@ static EnergyLedger book_step(const StepControl *control, int32_t k, const StepO
     return ledger;
 }
 
+// Twice lenient: of what the step turned over a part, or of all that the run turned over a far
+// smaller one, as a step in which next to nothing moves has nothing to compare with.
 static bool step_balances(const StepControl *control, int32_t k, const StepOutcome *outcome)
 {
     double tolerance = control->def.energy_tolerance;
@@ -158,6 +167,8 @@ static bool resolves_waves(const StepControl *control, int32_t k)
     return ladder_step(&control->ladder, k) <= control->def.wave_step * (1 + 1e-12);
 }
 
+// Cheapest first. *certified: of the state the step leads to; true, without a look, where the
+// certificate is switched off.
 static Verdict judge_step(StepControl *control, int32_t k, const StepOutcome *outcome,
                           bool *certified)
 {
@@ -177,6 +188,7 @@ static Verdict judge_step(StepControl *control, int32_t k, const StepOutcome *ou
     return STEP_ACCEPTED;
 }
 
+// Of the local error in dt: one more than the scheme's.
 static double estimate_order(const StepControl *control)
 {
     return control->scheme.tableau.order + 1;
@@ -199,6 +211,7 @@ static int32_t smaller_rung(const StepControl *control, int32_t k, Verdict verdi
     return target > k ? target : k + 1;
 }
 
+// Counted in accepted steps.
 static void hold_rung(StepControl *control)
 {
     control->hold = control->hold == 0 ? HOLD_FIRST : 2 * control->hold;
@@ -258,6 +271,7 @@ static void scan_growth(StepControl *control)
     control->grows = rungs_grow(control);
 }
 
+// `now` and `next` exchange their arrays.
 static void accept_step(StepControl *control, int32_t k, const StepOutcome *outcome)
 {
     control->ledger = book_step(control, k, outcome);
@@ -281,6 +295,7 @@ static bool should_follow_path(const StepControl *control, int32_t k, int32_t un
     return unsolved >= SHORTER_FIRST || k == control->ladder.rung_count - 1;
 }
 
+// A step that was shortened only to end where the run ends does not choose the next rung.
 bool step_control_advance(StepControl *control, double remaining, Error *err)
 {
     static const char *const reasons[] = {

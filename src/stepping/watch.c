@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// A swing that the certificate cannot exclude is followed at wave steps for some time. When it
+// stayed small all along, the weakening it was seen to bear is remembered node by node, and states
+// with no more of it may be stepped over. One fast step, or a node that weakens more than was seen,
+// and watching begins anew.
 #include "stepping/watch.h"
 
 #include "base/memory.h"
@@ -11,6 +15,7 @@ static const double SMALL_RATE = 0.1;
 // Weakening may exceed what was seen by this part: pressure creeps up as the rod moves on.
 static const double SAME_WEAKENING = 1.02;
 
+// duration 0: nothing is ever borne by being seen.
 bool watch_create(const Block *block, double duration, Watch *watch, Error *err)
 {
     const Interface *interface = block->interface;
@@ -27,6 +32,7 @@ void watch_destroy(Watch *watch)
     *watch = (Watch){0};
 }
 
+// -1 at each node: not even moving was seen.
 void watch_forget(Watch *watch)
 {
     int32_t count = watch->interface->contact_count + watch->interface->rod_count;
@@ -45,6 +51,7 @@ static double weakening_of(const Watch *watch, const State *state, int32_t k)
     return -friction_slope(watch->law, speed) * state->reaction[interface_normal(k)];
 }
 
+// At SMALL_RATE of v_c friction has lost so much of its drop already that a swing is no small one.
 static bool is_fast(const Watch *watch, const State *state)
 {
     double limit = SMALL_RATE * watch->law->critical_velocity;
@@ -54,6 +61,8 @@ static bool is_fast(const Watch *watch, const State *state)
     return false;
 }
 
+// After every accepted step that resolves waves. `runs`: something was fast since the state was
+// last certified; until it is again nothing is learned.
 void watch_see(Watch *watch, const State *state, double step, bool certified)
 {
     int32_t count = watch->interface->contact_count + watch->interface->rod_count;
@@ -73,6 +82,7 @@ void watch_see(Watch *watch, const State *state, double step, bool certified)
     }
 }
 
+// Every node moves with at most the weakening that it was seen with, for at least `duration`.
 bool watch_bears(const Watch *watch, const State *state)
 {
     int32_t count = watch->interface->contact_count + watch->interface->rod_count;
