@@ -144,7 +144,8 @@ If (Fabs(margin) < 1e-9 * length)
 EndIf
 If (margin < 0)
     Error(StrCat("pads and gaps do not fit: %g of pads and %g gaps of %g are longer than the ",
-                 "block, length = %g"), touching, n - 1, gap, length);
+                 "block, length = %g; gap may be up to %g, or 0: as wide as ends makes it"),
+          touching, n - 1, gap, length, (length - touching) / (n - 1));
     Abort;
 EndIf
 

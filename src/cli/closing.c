@@ -10,11 +10,15 @@
 #include <string.h>
 #include <unistd.h>
 
-// Where parts of the block slide on their own, the force may fall below mu_M.
+// Where parts of the block slide on their own, the force may fall below mu_M; falls that do not
+// repeat are said with their errors.
 static void print_falls(const RunSummary *summary)
 {
     const double same = 0.01;
-    if (isnan(summary->mu_trusted) || summary->mu_trusted > (1 - same) * summary->mu_M) return;
+    bool is_known = summary->fall_period > 0 ||
+                    summary->falls < 4;   // else mu_M is not settled either
+    if (isnan(summary->mu_trusted)) return;
+    if (is_known && summary->mu_trusted > (1 - same) * summary->mu_M) return;
     if (summary->fall_period > 0) {
         printf(
             "  to trust        %.4f: here the force falls by 5 %% or more, though not all slides;\n"
@@ -22,15 +26,21 @@ static void print_falls(const RunSummary *summary)
             summary->mu_trusted, summary->falls, summary->fall_period);
         return;
     }
-    printf("  to trust        %.4f +- %.4f: at less the force falls by 5 %% or more once in ten "
-           "falls;\n"
-           "                  these do not repeat: the mean of %d is %.4f +- %.4f\n",
+    if (!summary->falls_enough) {
+        printf(
+            "  to trust        %.4f so far: one in ten of %d falls by 5 %% or more came earlier, "
+            "too few to say;\n"
+            "                  they do not repeat yet, and 30 with their mean within 2 %% are "
+            "enough:\n"
+            "                  give a later time.until\n",
+            summary->mu_trusted, summary->falls);
+        return;
+    }
+    printf("  to trust        %.4f +- %.4f: one in ten falls of the force by 5 %% or more comes "
+           "earlier;\n"
+           "                  they do not repeat, and the mean of %d is %.4f +- %.4f\n",
            summary->mu_trusted, summary->mu_trusted_error, summary->falls, summary->mu_falls,
            summary->mu_falls_error);
-    if (!summary->falls_enough)
-        printf("                  too few falls (30, their mean within 2 %%, are enough): give a "
-               "later "
-               "time.until\n");
 }
 
 // Each number with what bounds it: how many peaks it comes from, by how much they differ, whether

@@ -9,6 +9,8 @@ import subprocess
 import tempfile
 import unittest
 
+import numpy as np
+
 PROGRAM = os.path.join(os.environ["AMONTONS_BIN"], "amontons")
 STUDY = os.path.join(os.environ["AMONTONS_SOURCE"], "validation/pads")
 
@@ -57,14 +59,39 @@ class PadsStudy(unittest.TestCase):
         self.assertLess(mu[0.003, 4], 0.97 * mu[0.003, 2])   # lowered from the first division on
 
     def test_set_b(self):
-        """Three pads hold a fifth more than one of the same length."""
+        """Four pads hold a sixth more than two of the same length together."""
         mu, table = {}, published()
-        for n in (1, 3):
+        for n in (2, 4):
             run = self.run_program("run", "pads-b.yaml", "run.json", P=5.75e-5, n=n,
                                    **{"time.until.U": 0.7 * 5.75e-5})
             mu[n] = run["results"]["mu_trusted"]
             self.assertAlmostEqual(mu[n] / table["5.75e-5", str(n)], 1, delta=0.01)
-        self.assertGreater(mu[3], 1.15 * mu[1])
+        self.assertGreater(mu[4], 1.15 * mu[2])
+
+    def test_falls_that_do_not_repeat(self):
+        """Mean, decile and errors of a real run's falls, by numpy; too few of them are said to be."""
+        run = self.run_program("run", "pads-b.yaml", "run.json", P=1.5e-5, n=8, **{
+            "mesh.set.size_contact": 5e-4, "time.until.U": 0.4 * 1.5e-5})["results"]
+        falls = run["falls"]
+        every = np.array([fall["mu"] for fall in falls["list"]])
+        mu = every[len(every) // 4:]
+        self.assertGreater(len(mu), 8)
+        self.assertEqual((falls["period"], falls["counted"], falls["enough"]), (0, len(mu), False))
+        blocks = int(len(mu) ** 0.5)
+
+        def error(x):
+            means = [part.mean() for part in np.split(x[len(x) % blocks:], blocks)]
+            return max(np.std(x, ddof=1) / len(x) ** 0.5, np.std(means, ddof=1) / blocks ** 0.5)
+
+        low = np.quantile(mu, 0.1)
+        share = error((mu <= low).astype(float))
+        ends = np.quantile(mu, [max(0.1 - share, 0), min(0.1 + share, 1)])
+        self.assertAlmostEqual(falls["mean"], mu.mean(), places=12)
+        self.assertAlmostEqual(falls["mean_error"], error(mu), places=12)
+        self.assertAlmostEqual(run["mu_trusted"], low, places=12)
+        self.assertAlmostEqual(run["mu_trusted_error"], (ends[1] - ends[0]) / 2, places=12)
+        self.assertRegex(self.said, rf"to trust +{low:.4f} so far")
+        self.assertIn("give a later time.until", self.said)
 
     def test_grooves(self):
         """Deeper grooves let go earlier where slow slip takes most of the block, and have less drag."""
