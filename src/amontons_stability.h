@@ -48,6 +48,7 @@ typedef struct StabilitySummary {
     double l_c_rod;                // at the scene's V already: an oscillation grows from V to v_c
                                    // within half a period, pi Re/Im > ln(v_c/V)
     double mu_sc;                  // mu at l_sc; NaN: nothing swings
+    double mu_snap;                // where a node first jumps instead of slipping on; NaN: none
     double mu_c, mu_rod;           // mu at l_c and at l_c_rod: mu_M for V -> 0, and for V
     double U_c, U_rod;             // U there, length
     double frequency;              // Im lambda at l_sc, 1/time

@@ -135,6 +135,7 @@ static void print_answers(const StabilitySummary *summary)
     point_table_answer("l_c/L (scan)", summary->l_c_scan, "as l_c, with the pressure held fixed");
     point_table_answer("mu at l_sc", summary->mu_sc,
                        "swings begin: at V the block may slide from here on");
+    point_table_answer("mu at a jump", summary->mu_snap, "a node jumps: there too it may slide");
     point_table_answer("mu_M, V -> 0", summary->mu_c, "mu at l_c");
     point_table_answer("mu_M at V", summary->mu_rod, "mu at l_c at V");
     printf("  (the front goes from node to node: %.4f L between two)\n", summary->element);

@@ -24,6 +24,8 @@ static const double PATH_STEP = 10;
 // What the rod moves in a step, in units of (mu_S - mu_K) p H/E (the front crosses a block within
 // some 4 of them), but not more than about this part of an element.
 static const double PATH_SLIP = 0.02, PATH_ELEMENTS = 0.5;
+static const double SNAP =
+    4;   // slip of a node in a step, over that of the rod (up to 1.5 elsewhere)
 enum {
     PATH_STEPS_MAX = 20000,   // some 20 times what 320 contact nodes need
     POINTS_BEYOND = 2   // front positions that are shown beyond l_c
@@ -227,7 +229,9 @@ cleanup:
 }
 
 // Steps until the front has reached the end (whose own state is the last point), or is some
-// positions beyond l_c.
+// positions beyond l_c. A node that goes SNAP times as far in one step as the rod has jumped: where a
+// pad stands on its leading edge, slow slip has no state to go on to once the edge reaches mu_S. The
+// path's long steps damp the jump and go on; in time it may be a sliding.
 static bool follow_path(StabilityPath *path, Error *err)
 {
     const Interface *interface = &path->simulation->interface;
@@ -240,6 +244,8 @@ static bool follow_path(StabilityPath *path, Error *err)
         TRY(step_control_advance(&path->control, INFINITY, err));
         Observation seen = observe(&path->control, &path->simulation->scales);
         int32_t slipping = count_slipping(&path->control.now);
+        bool snaps = seen.max_slip_rate > SNAP * path->simulation->rod.velocity;
+        if (snaps && step > 0 && isnan(path->mu_snap)) path->mu_snap = before.mu;
         if (step > 0 && slipping > most) TRY(add_point(path, &before, err));
         if (slipping > most) most = slipping;
         before = seen;
@@ -367,6 +373,7 @@ static void summarise(const StabilityPath *path, StabilitySummary *summary)
                            .l_c = slides.front / length,
                            .l_c_rod = rod.front / length,
                            .mu_sc = swings.mu,
+                           .mu_snap = path->mu_snap,
                            .mu_c = slides.mu,
                            .mu_rod = rod.mu,
                            .U_c = slides.U,
@@ -396,7 +403,7 @@ static void path_destroy(StabilityPath *path)
 bool amontons_stability(const Scene *scene, const StabilityOptions *options,
                         StabilitySummary *summary, Error *err)
 {
-    StabilityPath path = {.options = options, .critical = -1, .at_rod = -1};
+    StabilityPath path = {.options = options, .critical = -1, .at_rod = -1, .mu_snap = NAN};
     double started = clock_seconds();
     *summary = (StabilitySummary){.l_c = NAN, .mu_c = NAN};
     TRY(check_scene(scene, options, err));

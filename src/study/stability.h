@@ -26,6 +26,7 @@ typedef struct StabilityPath {
     int32_t critical;   // point where l_c was found; -1: not yet
     int32_t at_rod;   // point where slip first runs away at the scene's V; -1: not yet
     State runaway;   // the state of that point; owned
+    double mu_snap;   // before the first step in which a node jumped; NaN: none did
     double seconds_growth;
 } StabilityPath;
 

@@ -23,6 +23,7 @@ static void write_results(JsonWriter *json, const StabilitySummary *summary)
     json_number(json, "l_c_at_V_over_L", summary->l_c_rod);
     json_number(json, "element_over_L", summary->element);
     json_number(json, "mu_l_sc", summary->mu_sc);
+    json_number(json, "mu_snap", summary->mu_snap);
     json_number(json, "mu_M_adiabatic", summary->mu_c);
     json_number(json, "mu_M", summary->mu_rod);
     json_number(json, "U_adiabatic", summary->U_c);
