@@ -18,7 +18,8 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-SWEEPS = ("plain", "count", "height", "gap", "fill", "grooves", "plain-b", "count-b", "check", "check-b")
+SWEEPS = ("plain", "count", "height", "gap", "fill", "grooves", "plain-b", "count-b", "check", "check-b",
+          "fine-b")
 FIGURES = ("count", "count-b", "load", "drag", "transfer", "shape")
 SET_A, SET_B = (0.001, 0.003, 0.006, 0.012), (1.5e-5, 5.75e-5, 2.3e-4)   # pressures
 COUNTS = range(1, 13)
@@ -42,9 +43,24 @@ class Point:
         self.mu, self.trusted = number(row["mu_M"]), number(row["mu_trusted"])
         self.high, self.first_pad = number(row["mu_falls_high"]), number(row["mu_first_pad"])
         self.l_c, self.period = number(row["l_c"]), int(number(row["results.falls.period"]) or 0)
+        self.trusted_error, falls = self.results["mu_trusted_error"], self.results["falls"]
+        self.mean, self.mean_error = falls["mean"], falls["mean_error"]
+        self.falls, self.enough = falls["counted"], falls["enough"]
+
+    def average(self):
+        """Mean of the falls, with its standard error where they do not repeat."""
+        if self.mean is None or self.period:
+            return self.mean
+        return f"{self.mean:.3f} ± {self.mean_error:.3f}" + ("" if self.enough else ", too few")
+
+    def low_end(self):
+        """mu to trust, with its standard error where falls do not repeat."""
+        if self.trusted is None or self.period:
+            return self.trusted
+        return f"{self.trusted:.3f} ± {self.trusted_error:.3f}"
 
     def branches(self):
-        """mu and the number of pads that slide, of each fall of the period."""
+        """mu and the number of pads that slide, of each fall of the period or each kind of fall."""
         return ", ".join(f"{b['mu']:.3f} ({b['pads']})" for b in self.results["falls"]["branches"])
 
 
@@ -125,14 +141,18 @@ def study_count(study, name, points, plain, pressures, title):
     content, rows = [], []
     for color, P in enumerate(pressures, start=1):
         here, whole = of_pressure(points, P), of_pressure(plain, P)[0]
+        open_ones = [p for p in here if not p.period]
         content += [curve(f"~{{P}} = {stress(P)}", here, lambda p: p.n, color),
                     level(whole.trusted, [0.6, 12.4], color)]
-        rows += [[stress(P), "none", whole.trusted, whole.mu, whole.first_pad, whole.period,
-                  whole.branches(), whole.l_c]]
-        rows += [[stress(P), p.n, p.trusted, p.mu, p.first_pad, p.period, p.branches(), p.l_c]
-                 for p in here]
+        if open_ones:
+            content.append({"x": [p.n for p in open_ones], "y": [p.mean for p in open_ones], "color": color,
+                            "low": [p.mean - 2 * p.mean_error for p in open_ones], "line": "none",
+                            "high": [p.mean + 2 * p.mean_error for p in open_ones], "marker": "square",
+                            "filled": False})
+        rows += [[stress(P), "none" if p is whole else p.n, p.low_end(), p.average(), p.falls, p.period, p.mu,
+                  p.first_pad, p.branches(), p.l_c] for p in [whole] + here]
     study.table(f"Number of pads, equal contact length 0.6 L ({title}); none: the block without gaps",
-                ["P", "n", "mu to trust", "mu_M", "first whole pad", "period",
+                ["P", "n", "mu to trust", "mean of falls", "falls", "period", "mu_M", "first whole pad",
                  "falls (pads that slide)", "l_c/L"], rows)
     low, high = (0.2, 0.4) if name == "count" else (0.4, 1.3)
     study.plot(name, title=f"mu against the number of pads, {title}", height=0.8,
@@ -156,13 +176,15 @@ def runaway_table(study, scene, pressures, reach, points, counts=COUNTS):
         pad, most = one["pads"][0], max(range(n), key=lambda k: one["pads"][k]["mode"])
         others = sorted((p["mode"] for p in one["pads"]), reverse=True)[1:2]
         l_c = [p["l_c_over_length"] for p in one["pads"]]
-        rows.append([stress(P), n, one["mu_M"], run[0].trusted if run else None,
-                     run[0].mu if run else None, most + 1, others[0] if others else None,
+        run = run[0] if run else None
+        rows.append([stress(P), n, one["mu_l_sc"], one["mu_M"], run and run.low_end(),
+                     run and run.first_pad, most + 1, others[0] if others else None,
                      " ".join("–" if v is None else f"{v:.2f}" for v in l_c),
                      pad["pressure"] / P * 0.6, pad["load"], pad["drag"], pad["drag"] * pad["length"]])
     study.table(f"Loss of stability at V on the quasi-static path ({scene}.yaml): the pad that the growing "
                 "mode lies on; of the trailing pad its share of load, what it bears and its drag",
-                ["P", "n", "mu, stability", "mu to trust, stepping", "mu_M, stepping", "pad that goes",
+                ["P", "n", "mu where swings grow", "mu, stability", "mu to trust, stepping",
+                 "first whole pad, stepping", "pad that goes",
                  "next in mode", "l_c of each pad alone, over its length", "load share",
                  "weakening / borne", "drag", "drag x length"], rows)
     return found
@@ -309,14 +331,16 @@ def study_shapes(study, points, plain):
 
 # --- how sure -------------------------------------------------------------------------------------
 
-CASES = ("as computed", "mesh twice as fine", "fine steps", "T6", "V/2", "bonded rod", "rod at H/4",
+CASES = ("as computed", "mesh twice as coarse", "mesh twice as fine", "fine steps", "T6", "V/2", "V/10", "bonded rod", "rod at H/4",
          "start without friction")
 
 
 def case_of(point):
-    scene, base = point.scene, 0.0125 if point.P > 5e-4 else 0.0005
-    if point.mesh["size_contact"] < 0.9 * base:
-        return "mesh twice as fine"
+    scene, is_a = point.scene, point.P > 5e-4
+    size = point.mesh["size_contact"]
+    base = 0.0125 if is_a else 0.0005 if near(point.P, 1.5e-5) else 0.00025
+    if not near(size, base):
+        return "mesh twice as fine" if size < base else "mesh twice as coarse"
     if scene["time"]["accuracy"] == "fine":
         return "fine steps"
     if point.mesh.get("shape") == "triangle":
@@ -327,25 +351,30 @@ def case_of(point):
         return "start without friction"
     if near(scene["rod"]["height"], 0.125):
         return "rod at H/4"
-    slow = 9e-6 if point.P > 5e-4 else 1.1e-8
-    return "V/2" if scene["rod"]["velocity"] < slow else "as computed"
+    part = (1e-5 if is_a else 1.2e-8) / scene["rod"]["velocity"]
+    return "as computed" if near(part, 1) else f"V/{part:.0f}"
 
 
-def change(value, base):
+def change(value, error, base):
     if value is None or base is None:
         return "–"
-    return f"{value:.4f} ({100 * (value / base - 1):+.1f} %)"
+    return f"{value:.4f}{error} ({100 * (value / base - 1):+.1f} %)"
 
 
 def study_check(study, points, name):
-    for what, value in (("mu to trust", lambda p: p.trusted), ("mu_M", lambda p: p.mu)):
-        rows, cases = [], [c for c in CASES if any(case_of(p) == c for p in points)]
-        for P in sorted({p.P for p in points}):
-            for n in sorted({p.n for p in points}):
-                found = {case_of(p): p for p in of_pressure(points, P) if p.n == n}
-                base = value(found["as computed"])
-                rows.append([stress(P), n, base] + [
-                    change(value(found[c]), base) if c in found else None for c in cases[1:]])
+    """Tables of what one change does; points: those as computed among them."""
+    looks = (("mu to trust", lambda p: (p.trusted, "" if p.period else f" ± {p.trusted_error:.4f}")),
+             ("mean of falls", lambda p: (p.mean, "" if p.period else f" ± {p.mean_error:.4f}")),
+             ("mu_M", lambda p: (p.mu, "")))
+    cases = [c for c in CASES if any(case_of(p) == c for p in points)]
+    changed = {(p.P, p.n) for p in points if case_of(p) != "as computed"}
+    for what, look in looks:
+        rows = []
+        for P, n in sorted(changed):
+            found = {case_of(p): p for p in of_pressure(points, P) if p.n == n}
+            base, error = look(found["as computed"])
+            rows.append([stress(P), n, f"{base:.4f}{error}" if base else None] + [
+                change(*look(found[c]), base) if c in found else None for c in cases[1:]])
         study.table(f"{name}: {what} with one thing changed", ["P", "n"] + cases, rows)
 
 
@@ -368,14 +397,14 @@ def main():
     study_count(study, "count", points["count"], points["plain"], SET_A, "set A")
     study_count(study, "count-b", points["count-b"], points["plain-b"], SET_B, "set B")
     a = runaway_table(study, "pads", SET_A, 10, points["count"])
-    b = runaway_table(study, "pads-b", SET_B[1:2], 0.5, points["count-b"], COUNTS[:8])   # more: no rest
+    b = runaway_table(study, "pads-b", SET_B, 1, points["count-b"])
     study_load(study, a, b)
     study_drag(study, points["grooves"])
     study_loads(study, points["count"])
     study_transfer(study)
     study_shapes(study, points, points["plain"])
     study_check(study, points["check"], "Set A")
-    study_check(study, points["check-b"], "Set B")
+    study_check(study, points["count-b"] + points["check-b"] + points["fine-b"], "Set B")
     (words.output / "tables.md").write_text("\n".join(study.lines), encoding="utf-8")
     if words.publish:
         publish(words.output)
