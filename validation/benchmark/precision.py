@@ -82,7 +82,8 @@ def compute(mesh_words, keys=(), with_length=False):
     rapid = [event["U_start"] for event in results["events"] if event["kind"] == "leading rapid"]
     return found | {"mu_M": results["mu_M"] or math.nan, "peak": peaks[0] if peaks else math.nan,
                     "slides": rapid[0] if rapid else math.nan, "steps": steps["accepted"],
-                    "solves": steps["contact_solves"], "seconds": ended.seconds,
+                    "solves": max(steps["contact_solves"], steps["accepted"]),
+                    else steps["accepted"], "seconds": ended.seconds,
                     "nodes": len(found["x"])}
 
 

@@ -101,7 +101,7 @@ def candidate(design, index):
     if design == "pads":
         return pads(index)
     if design == "B":
-        return block("B", BLOCK_B, (1.5e-6, 6e-6), (0.02, 0.08), index, 45)
+        return block("B", BLOCK_B, (1.5e-6, 6e-6), (0.02, 0.08), index, 18)
     return block("A", BLOCK, (0.002, 0.02), (0.4, 2.5), index, 12)
 
 
