@@ -83,8 +83,7 @@ def compute(mesh_words, keys=(), with_length=False):
     return found | {"mu_M": results["mu_M"] or math.nan, "peak": peaks[0] if peaks else math.nan,
                     "slides": rapid[0] if rapid else math.nan, "steps": steps["accepted"],
                     "solves": max(steps["contact_solves"], steps["accepted"]),
-                    else steps["accepted"], "seconds": ended.seconds,
-                    "nodes": len(found["x"])}
+                    "seconds": ended.seconds, "nodes": len(found["x"])}
 
 
 def on_grid(found, U, x):
