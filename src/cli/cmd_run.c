@@ -47,7 +47,7 @@ static void read_options(int argc, char **argv, Options *options)
                "\vValues are written as in the scene: --set load.pressure=0.006, "
                "--set output.figures=[], --set output.fields=none; `amontons info keys` lists all "
                "keys. time.accuracy=standard has mu_M within 1 % on a mesh of 80 cells along the "
-               "block, draft within 3 % on 40, where six cells or more lie on l_c. "
+               "block, draft within 3 % on 40, where l_c lies six cells or more from either end. "
                "Ctrl-C ends the run after the present step and keeps its results. Example:\n\n"
                "  amontons run validation/paper/fig1.yaml --set mesh.set.nx=40 -o coarse"};
     options_parse(&argp, argc, argv, "amontons run", options);
