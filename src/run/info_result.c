@@ -19,7 +19,8 @@ static const struct {
     const char *path, *label;
 } entries[] = {
     {"status", "status"},
-    {"error", "error"},
+    {"failure", "failure"},
+    {"message", "message"},
     {"results.mu_M", "mu_M"},
     {"results.mu_M_spread", "mu_M spread"},
     {"results.l_c_over_L", "l_c / L"},

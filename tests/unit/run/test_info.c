@@ -91,8 +91,14 @@ static void test_result(void **state)
         "bounded rapid           0.2",
         "leading rapid           0.3",
         NULL};
+    static const char *const failed[] = {"status             failed",
+                                         "failure            computation failed",
+                                         "message            the ledger does not close", NULL};
     write_history();
     assert_info_holds(folder, unfinished);
+    write_text("run.json", "{\"status\": \"failed\", \"failure\": \"computation failed\", "
+                           "\"message\": \"the ledger does not close\"}");
+    assert_info_holds(folder, failed);
     write_text("run.json", "{\"status\": \"done\", \"results\": {\"mu_M\": 0.25, "
                            "\"mu_M_spread\": null}}");
     assert_info_holds(folder, whole);
