@@ -56,3 +56,24 @@ int32_t text_nearest(const char *given, const char *const *names, int32_t count)
     }
     return nearest;
 }
+
+// The first byte says how many follow and, in the four cases below, narrows the range of the next
+// (RFC 3629, section 4). A text that ends within a character ends with a zero byte, which is no
+// continuation: nothing is read beyond it.
+int32_t text_utf8_length(const char *text)
+{
+    const unsigned char *byte = (const unsigned char *)text;
+    unsigned char first = byte[0], low = 0x80, high = 0xBF;
+    if (first < 0x80) return 1;
+    int32_t length = first < 0xC2 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : first < 0xF5 ? 4 : 0;
+    if (first == 0xE0) low = 0xA0;
+    if (first == 0xED) high = 0x9F;
+    if (first == 0xF0) low = 0x90;
+    if (first == 0xF4) high = 0x8F;
+    for (int32_t k = 1; k < length; k++) {
+        if (byte[k] < low || byte[k] > high) return 0;
+        low = 0x80;
+        high = 0xBF;
+    }
+    return length;
+}

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Suggestions for mistyped names. Called wherever a name from a user is looked up.
+// Suggestions for mistyped names, called wherever a name from a user is looked up; and what is a
+// character, for those who read and write text.
 #ifndef AMONTONS_BASE_TEXT_H
 #define AMONTONS_BASE_TEXT_H
 
@@ -12,5 +13,9 @@ int32_t text_distance(const char *a, const char *b);
 // The index of the name nearest to `given`, or -1 when none is near enough to be a likely slip of
 // the finger (more than a third of the longer name differs). names: [count].
 int32_t text_nearest(const char *given, const char *const *names, int32_t count);
+
+// Bytes of the UTF-8 character at `text`, which ends with a zero byte; 0 when it is none (RFC 3629:
+// no overlong forms, no surrogates, nothing past U+10FFFF). The zero byte itself is a character.
+int32_t text_utf8_length(const char *text);
 
 #endif

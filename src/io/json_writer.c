@@ -4,6 +4,7 @@
 #include "io/json_writer.h"
 
 #include "base/memory.h"
+#include "base/text.h"
 #include "io/part_file.h"
 
 #include <inttypes.h>
@@ -61,25 +62,6 @@ static void append_new_line(JsonWriter *json)
     for (int32_t column = 0; column < INDENT * json->depth; column++) append_text(json, " ");
 }
 
-// Bytes of the UTF-8 character at `text`, 0 when it is none (RFC 3629: no overlong forms, no
-// surrogates, nothing past U+10FFFF).
-static int32_t utf8_length(const unsigned char *text)
-{
-    unsigned char first = text[0], low = 0x80, high = 0xBF;
-    if (first < 0x80) return 1;
-    int32_t length = first < 0xC2 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : first < 0xF5 ? 4 : 0;
-    if (first == 0xE0) low = 0xA0;
-    if (first == 0xED) high = 0x9F;
-    if (first == 0xF0) low = 0x90;
-    if (first == 0xF4) high = 0x8F;
-    for (int32_t k = 1; k < length; k++) {
-        if (text[k] < low || text[k] > high) return 0;
-        low = 0x80;
-        high = 0xBF;
-    }
-    return length;
-}
-
 // A JSON string. What must be escaped is (RFC 8259, section 7), and DEL; what is not UTF-8 becomes
 // the replacement character, for a file name may hold any bytes and a parser would stop at them.
 static void append_escaped(JsonWriter *json, const char *value)
@@ -87,7 +69,7 @@ static void append_escaped(JsonWriter *json, const char *value)
     append_text(json, "\"");
     const unsigned char *next = (const unsigned char *)value;
     while (*next) {
-        int32_t length = utf8_length(next);
+        int32_t length = text_utf8_length((const char *)next);
         char escaped[8] = {0};
         if (length == 0)
             snprintf(escaped, sizeof escaped, "\xEF\xBF\xBD");   // U+FFFD, replacement

@@ -4,6 +4,7 @@
 #include "io/yaml_tree.h"
 
 #include "base/memory.h"
+#include "base/text.h"
 #include "io/text_file.h"
 
 #include <libfyaml.h>
@@ -129,34 +130,13 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The length of the UTF-8 character at `text`, 0 when it is none (overlong forms included).
-// left: bytes from `text` to the end, at least 1.
-static int32_t utf8_length(const unsigned char *text, int32_t left)
-{
-    static const uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
-    int32_t length = text[0] < 0x80           ? 1
-                     : (text[0] >> 5) == 0x06 ? 2
-                     : (text[0] >> 4) == 0x0E ? 3
-                     : (text[0] >> 3) == 0x1E ? 4
-                                              : 0;
-    if (length <= 1) return length;
-    if (length > left) return 0;
-    uint32_t code = text[0] & (0x7Fu >> length);
-    for (int32_t i = 1; i < length; i++) {
-        if ((text[i] & 0xC0) != 0x80) return 0;
-        code = code << 6 | (text[i] & 0x3Fu);
-    }
-    bool surrogate = code >= 0xD800 && code <= 0xDFFF;
-    return code < least[length] || code > 0x10FFFF || surrogate ? 0 : length;
-}
-
 // Before libfyaml sees it: a binary file gets a sentence with the byte and its place.
 static bool check_is_text(const YamlDocument *document, Error *err)
 {
     const unsigned char *text = (const unsigned char *)document->shown;
     for (int32_t i = 0; i < document->size;) {
         char message[100];
-        int32_t length = utf8_length(text + i, document->size - i);
+        int32_t length = text_utf8_length((const char *)text + i);
         bool control = text[i] < ' ' && !strchr("\t\n\r", text[i]);
         if (control || text[i] == 0 || text[i] == 0x7F)
             snprintf(message, sizeof message, "the byte 0x%02X: not a text file", text[i]);

@@ -5,6 +5,8 @@
 #include "near.h"
 #include "random_numbers.h"
 
+#include <stdbool.h>
+
 static void test_distances(void **state)
 {
     (void)state;
@@ -91,6 +93,42 @@ static void test_nearest(void **state)
     assert_int_equal(text_nearest("pad_9", alike, 3), 0);   // the first of equals
 }
 
+// Decodes without any rule but the bit patterns, then asks whether that was the shortest way.
+static int32_t slow_utf8_length(const unsigned char *text)
+{
+    static const uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
+    int32_t ones = 0;
+    while (ones < 8 && text[0] & (0x80 >> ones)) ones++;
+    if (ones == 0) return 1;
+    if (ones == 1 || ones > 4) return 0;
+    uint32_t code = text[0] & (0x7Fu >> ones);
+    for (int32_t k = 1; k < ones; k++) {
+        if (text[k] >> 6 != 2) return 0;
+        code = code * 64 + text[k] % 64;
+    }
+    bool surrogate = code / 0x800 == 0xD800 / 0x800;
+    return code >= least[ones] && code <= 0x10FFFF && !surrogate ? ones : 0;
+}
+
+// Every first byte with bytes at the edges of all ranges behind it, and with the text's end there.
+static void test_utf8(void **state)
+{
+    (void)state;
+    static const unsigned char edges[] = {0,    'a',  0x7F, 0x80, 0x8F, 0x90,
+                                          0x9F, 0xA0, 0xBF, 0xC0, 0xFF};
+    enum { EDGES = sizeof edges };
+    for (int32_t first = 1; first < 256; first++) {
+        for (int32_t k = 0; k < EDGES * EDGES * EDGES; k++) {
+            unsigned char text[5] = {(unsigned char)first, edges[k % EDGES],
+                                     edges[k / EDGES % EDGES], edges[k / EDGES / EDGES], 0};
+            assert_int_equal(text_utf8_length((const char *)text), slow_utf8_length(text));
+        }
+    }
+    assert_int_equal(text_utf8_length("\xE2\x82\xAC"), 3);   // the euro sign
+    assert_int_equal(text_utf8_length("\xC0\x80"), 0);   // a zero in two bytes
+    assert_int_equal(text_utf8_length(""), 1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -98,6 +136,7 @@ int main(void)
         cmocka_unit_test(test_random_distances),
         cmocka_unit_test(test_long_names_are_cut),
         cmocka_unit_test(test_nearest),
+        cmocka_unit_test(test_utf8),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
