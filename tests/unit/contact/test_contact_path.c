@@ -53,8 +53,8 @@ static void test_one_node(void **state)
     }
 }
 
-// Strongly coupled, weakening by half of S and more: what Newton's statuses may cycle on. Arcs of the
-// exponential law are not always followed to their end: of 1000 such problems 3 were given up,
+// Strongly coupled, weakening by half of S and more: what Newton's statuses may cycle on. Arcs of
+// the exponential law are not always followed to their end: of 1000 such problems 3 were given up,
 // after which the caller takes a shorter step; none with the other laws.
 static void test_random_problems(void **state)
 {
