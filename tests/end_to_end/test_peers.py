@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """FreeFEM, stepping the same equations on the same mesh with the same fixed steps, sees the same
-mu(t) through the first rapid slips; and the comparison notices other physics. And the exponents of
-the cost benchmark are those of known powers."""
+mu(t) through the first rapid slips; and the comparison notices other physics. The exponents of the
+cost benchmark are those of known powers, and the promise is judged by what it says."""
 import os
 import shutil
+import statistics
 import sys
 import tempfile
+import types
 import unittest
 from pathlib import Path
 
@@ -13,6 +15,7 @@ sys.path.insert(0, str(Path(os.environ["AMONTONS_SOURCE"], "validation", "benchm
 import figure  # noqa: E402
 import growth  # noqa: E402
 import peers  # noqa: E402
+import promise  # noqa: E402
 
 STEP, DURATION = 0.2, 140
 FAST = ["rod.velocity=2e-5"]      # twice the paper's: the first slips come within DURATION
@@ -44,6 +47,27 @@ class Exponents(unittest.TestCase):
         x += [160, 320, 640]
         rows = growth.exponent_lines("n", x, {"s": [5, 5, 5, *(v**2 for v in x[3:])]}, {"s": "2"})
         self.assertEqual(rows, [["s", "n", "2.00", "2"]])
+
+
+class Promise(unittest.TestCase):
+    def test_cases_are_the_sequence(self):
+        self.assertEqual([promise.halton(k, 2) for k in range(1, 6)],
+                         [1 / 2, 1 / 4, 3 / 4, 1 / 8, 5 / 8])
+        middle = promise.candidate("A", 1)      # P L half way from 0.002 to 0.02, L a third
+        self.assertAlmostEqual(middle.way / 12, 0.002 * 10**0.5, delta=1e-4)
+        self.assertAlmostEqual(middle.length, 0.4 * (2.5 / 0.4) ** (1 / 3), delta=1e-2)
+
+    def test_a_mean_knows_its_error(self):
+        """Peaks on two branches in turn: batches of ten have equal means; left out: a third."""
+        def of(peaks):
+            report = {"results": {"peaks": [{"mu": mu} for mu in peaks]}}
+            return promise.mean_peak(types.SimpleNamespace(report=report))
+        mean, error = of([9] * 25 + [0.3, 0.4] * 25)
+        self.assertAlmostEqual(mean, 0.35)
+        self.assertAlmostEqual(error, 0)
+        mean, error = of([9] * 5 + [0.3] * 4 + [0.4] * 6)
+        self.assertAlmostEqual(mean, 0.36)
+        self.assertAlmostEqual(error, statistics.stdev([0.3, 0.3, 0.4, 0.4, 0.4]) / 5**0.5)
 
 
 if __name__ == "__main__":
