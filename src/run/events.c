@@ -2,6 +2,10 @@
 // The three kinds of precursor that Otsuki and Matsukawa (2013) tell apart, by two thresholds on
 // the largest slip rate, with hysteresis: quasi-static slip goes at V or less (its front and rate
 // are proportional to V), rapid slip at several V (bounded) or at several v_c (leading).
+//
+// At any time at most one rapid event and one slow one are under way. A rapid event has hysteresis:
+// it begins above RATE_START and ends below RATE_STOP. `slipped` marks the nodes that have let go
+// since it began; when all have, it is leading, and from then on the block slides.
 #include "run/events.h"
 
 #include "base/memory.h"
@@ -24,6 +28,7 @@ const char *event_name(EventKind kind)
     return names[kind];
 }
 
+// rate_scale: the rod's velocity, or what stands for it (run/model_shape, set_scales).
 bool events_create(const Interface *interface, double rate_scale, Events *events, Error *err)
 {
     *events = (Events){.rate_start = RATE_START * rate_scale,
@@ -109,6 +114,7 @@ static double mark_slipped(Events *events, const Observation *seen, bool *all)
 }
 
 // The farthest node that slips fast.
+// NaN: none does, as while a rapid event slows down.
 static double fast_front(const Events *events, const Observation *seen)
 {
     const Interface *interface = seen->interface;
@@ -168,6 +174,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// A Recorder, the first of all: began, ended and crossed hold for this step only.
 bool events_record(void *self, const Observation *seen, Error *err)
 {
     Events *events = self;
@@ -177,6 +184,7 @@ bool events_record(void *self, const Observation *seen, Error *err)
     return followed;
 }
 
+// What is still under way ends with the run; its last step is `last`.
 void events_close(Events *events, const Observation *last)
 {
     if (!events->list) return;   // the run failed before they were created

@@ -46,6 +46,8 @@ void front_path_follow(FrontPath *path, const Observation *seen)
     }
 }
 
+// Called in every step, also in those without a rapid event, so that its first step can be
+// interpolated.
 void front_path_keep(FrontPath *path, const Observation *seen)
 {
     for (int32_t i = 0; i < seen->interface->contact_count; i++)
@@ -53,6 +55,7 @@ void front_path_keep(FrontPath *path, const Observation *seen)
     path->t_before = seen->t;
 }
 
+// Where one of two neighbours was never reached, stations between them are NaN.
 void front_path_stations(const FrontPath *path, const Interface *interface, double origin,
                          double times[FRONT_STATIONS])
 {

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// What a run steps with, from a shape that stands (run/model_shape): tolerances and steps, the rod,
+// and the start. Lengths here are the block's; slip is measured by what the drop of friction can
+// drive, so that tolerances hold for any load and any units.
 #include "run/model.h"
 
 #include "base/clock.h"
@@ -15,6 +18,8 @@ static const double TOLERANCES[] = {
     [ACCURACY_DRAFT] = 2e-2, [ACCURACY_STANDARD] = 5e-3, [ACCURACY_FINE] = 5e-4};
 
 // The slip that the drop of friction drives: (mu_S - mu_K) p H / E, with p the mean pressure.
+// Length. For Coulomb friction, which has no drop, mu_S stands in its place; without any friction
+// 1.
 static double friction_slip(const Simulation *simulation)
 {
     const FrictionLaw *law = &simulation->law;
@@ -30,6 +35,8 @@ static double half_plane(double d[3][3])
     return d[0][0] > 0 ? 4 * d[2][2] * (d[0][0] - d[2][2]) / d[0][0] : 0;
 }
 
+// At rest, its origin not yet set: touch_rod does that when the block has relaxed. Soft ends get E*
+// of the elastic and of the viscous stiffness (contact/rod).
 bool model_build_rod(Simulation *simulation, RodKind kind, Error *err)
 {
     const Material *material = &simulation->material;
@@ -41,6 +48,8 @@ bool model_build_rod(Simulation *simulation, RodKind kind, Error *err)
     return true;
 }
 
+// simulation->system, interface, law and material stand. While relaxing the rod is away, or held
+// where start.rod says so.
 bool model_prepare_steps(Simulation *simulation, Error *err)
 {
     const Scene *scene = &simulation->scene;
@@ -92,6 +101,9 @@ static void set_moving(Simulation *simulation)
     bulk_operator_apply(system, BULK_MASS, state->velocity, state->momentum);
 }
 
+// The law is replaced while relaxing without friction and comes back whatever happens; an
+// undeformed start skips relaxing. At the end t = 0, the ledger is opened and the rod has its
+// velocity.
 bool model_relax(Simulation *simulation, Error *err)
 {
     const Scene *scene = &simulation->scene;

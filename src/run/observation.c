@@ -19,6 +19,7 @@ static double judged_velocity(const StepControl *control, const ObservationScale
     return fmax(scales->slip_velocity, ROUNDINGS * rounding);
 }
 
+// x of the last node of the run of nodes from the trailing edge that do not stick: l.
 static double slip_front(const Interface *interface, const State *state)
 {
     double front = interface->x[0];

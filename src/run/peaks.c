@@ -75,6 +75,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Relative to the later one.
 static bool peaks_agree(const void *series, int32_t k, int32_t later)
 {
     const Peaks *peaks = series;
@@ -119,6 +120,7 @@ static void average(Peaks *peaks, PeaksSummary *summary)
     if (summary->counted > 1) summary->spread = high - low;
 }
 
+// All NaN without a peak. `low` and `high` leave the first out, which belongs to the start.
 PeaksSummary peaks_summarise(Peaks *peaks)
 {
     PeaksSummary summary = {.mu_M = NAN,
@@ -138,6 +140,8 @@ PeaksSummary peaks_summarise(Peaks *peaks)
     return summary;
 }
 
+// Single linkage: a branch grows upwards as long as the next peak is within the tolerance of its
+// highest.
 bool peaks_branch_above(const Peaks *peaks, double above, PeakBranch *branch)
 {
     *branch = (PeakBranch){.low = INFINITY};

@@ -2,6 +2,10 @@
 // A scene is read in four steps: the defaults; what the file gives; what the overrides give; the
 // checks. Settings are gathered first and stored after, because `units` must be known before any
 // number is.
+//
+// A later setting wins over an earlier one, key by key; a map given as a whole (--set
+// time.until={t: 3}) first gives its keys their defaults back. `sources` remembers where each value
+// stands, for errors that only the checks can find.
 #include "run/scene.h"
 
 #include "amontons.h"
@@ -35,6 +39,7 @@ typedef struct Reader {
 
 // --- gathering ----------------------------------------------------------------------------------
 
+// SETTINGS_MAX is several times what a scene with every key has.
 static bool add_setting(Reader *reader, const Setting *setting, Error *err)
 {
     if (reader->setting_count == SETTINGS_MAX)
@@ -58,6 +63,7 @@ static void report_unknown(const char *name, const SceneValue *value, Error *err
 
 static bool gather(Reader *reader, const char *name, const SceneValue *value, Error *err);
 
+// An empty map (`load:` alone) is taken as one without keys.
 static bool gather_children(Reader *reader, const char *name, const SceneValue *value, Error *err)
 {
     const YamlDocument *document = value->document;
@@ -140,6 +146,8 @@ cleanup:
 
 // --- storing ------------------------------------------------------------------------------------
 
+// The table's defaults are texts, read by the same parser as a scene's values: what is shown as a
+// default can be typed.
 static bool read_defaults(Reader *reader, Error *err)
 {
     char text[16 * SCENE_KEYS_MAX] = "[";
@@ -196,6 +204,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// `units` first, wherever it stands: numbers are read by it.
 static bool store_settings(Reader *reader, Scene *scene, Error *err)
 {
     int32_t units = scene_key_index("units");
@@ -272,6 +281,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Errors have been written by now: they carry their texts with them.
 static void destroy_reader(Reader *reader)
 {
     for (int32_t i = 0; i < reader->override_count; i++) yaml_destroy(reader->overrides[i]);
@@ -281,6 +291,7 @@ static void destroy_reader(Reader *reader)
     yaml_destroy(reader->defaults);
 }
 
+// *scene is overwritten, and of no use after a failure.
 bool scene_read(const char *path, const char *const *overrides, int32_t override_count,
                 Scene *scene, Error *err)
 {

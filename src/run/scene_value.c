@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// Each type of key has a function that reads, checks and stores it, and refuses anything else with
+// what was found and what is allowed, at its line. Numbers may carry a unit in an SI scene
+// (run/scene_units). A value is stored only when it is right: a scene half set keeps its defaults.
 #include "run/scene_value.h"
 
 #include "base/text.h"
@@ -9,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+// The key table holds offsets into Scene.
 static void *field_of(const SceneKey *key, Scene *scene)
 {
     return (char *)scene + key->offset;
@@ -94,6 +98,7 @@ static bool apply_unit(const SceneKey *key, const SceneValue *value, SceneUnits 
     return error_is_clean(err);
 }
 
+// Range is the caller's to check. ERROR_INPUT for what is not a finite decimal number.
 static bool read_number(const SceneKey *key, const SceneValue *value, SceneUnits units,
                         double *number, Error *err)
 {
@@ -123,6 +128,7 @@ cleanup:
 
 // --- words --------------------------------------------------------------------------------------
 
+// true and false only: YAML 1.1's yes, no, on and off are refused.
 static bool set_flag(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
     const char *text = yaml_text(value->document, value->node);
@@ -134,6 +140,8 @@ static bool set_flag(const SceneKey *key, const SceneValue *value, Scene *scene,
     return error_is_clean(err);
 }
 
+// size: of `out`, which is filled with zeros first. A name (GROUP_NAME_SIZE) must not be empty; no
+// text may have line ends or tabs.
 static bool copy_text(const SceneKey *key, const SceneValue *value, size_t size, char *out,
                       Error *err)
 {
@@ -148,6 +156,7 @@ cleanup:
     return error_is_clean(err);
 }
 
+// -1: not among them.
 static int32_t find_choice(const SceneKey *key, const char *text)
 {
     for (int32_t k = 0; key->choices[k]; k++)
@@ -277,6 +286,7 @@ static bool set_traction_part(const SceneKey *key, const SceneValue *value, Scen
     return false;
 }
 
+// Counted only after its parts were read: set_traction_part writes into the place behind the last.
 static bool add_traction(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
     SceneTraction *traction = &scene->load.tractions[scene->load.traction_count];
@@ -311,6 +321,7 @@ static bool set_support_part(const SceneKey *key, const SceneValue *value, Scene
     return error_is_clean(err);
 }
 
+// Likewise.
 static bool add_support(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
     SceneSupport *support = &scene->load.supports[scene->load.support_count];
@@ -333,6 +344,8 @@ static bool set_list(const SceneKey *key, const SceneValue *value, Scene *scene,
     return set_items(key, value, YAML_LIST, tractions ? add_traction : add_support, scene, err);
 }
 
+// `none`, or a map whose keys follow as settings of their own; these were given their defaults
+// before.
 static bool set_fields(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
     bool is_map = yaml_kind(value->document, value->node) == YAML_MAP;

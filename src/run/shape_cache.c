@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Whether a scene's shape is known is decided without gmsh: by the bytes of its mesh file, the
 // parameters it is given, and the keys of the scene that choose nodes.
+//
+// What is read is checked against the counts that stand in the file itself (io/cache_file checks
+// that the file is whole), and anything that does not fit means that the shape is made anew.
 #include "run/shape_cache.h"
 
 #include "base/memory.h"
@@ -23,6 +26,7 @@ enum {
     BASIS_NUMBERS = HASH_TEXT_SIZE / sizeof(double) + 1
 };
 
+// Zeroed is fine.
 void shape_destroy(Shape *shape)
 {
     interface_destroy(&shape->interface);
@@ -30,6 +34,7 @@ void shape_destroy(Shape *shape)
     *shape = (Shape){0};
 }
 
+// Never 0: a scene without loads is measured by 1.
 double load_reference(const Scene *scene)
 {
     double largest = fabs(scene->load.pressure);
@@ -166,6 +171,7 @@ static bool read_shape(const CacheFile *file, Shape *shape, Error *err)
            read_numbers(file, "rotation", interface->count, &shape->rotation, err);
 }
 
+// A shape that is not to be trusted is no error: found is false and `note` says why.
 bool shape_cache_load(const char *key, Shape *shape, bool *found, char note[CACHE_NOTE_SIZE],
                       Error *err)
 {

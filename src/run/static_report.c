@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What `amontons static` leaves: the sums as JSON, every node's values as HDF5 (for comparison node
 // by node), the fields for ParaView.
+// static.json, static.h5 and static.vtu: sums for eyes, every node's values for a comparison with
+// another program (validation/freefem), a picture for ParaView. The JSON comes last: where it
+// stands the others are whole.
 #include "run/static_solve.h"
 
 #include "base/memory.h"
@@ -126,6 +129,7 @@ cleanup:
     return false;
 }
 
+// velocity is 0: solution->work, which was emptied for it.
 static bool write_vtu(const char *folder, const StaticSolution *solution, Fields *fields,
                       Error *err)
 {
@@ -135,6 +139,7 @@ static bool write_vtu(const char *folder, const StaticSolution *solution, Fields
     return fields_write_bulk(fields, &state, path, err);
 }
 
+// solution->work is overwritten.
 bool static_report_write(const char *folder, const Simulation *simulation, StaticSolution *solution,
                          const StaticSummary *summary, Error *err)
 {

@@ -17,6 +17,7 @@ static const TableauKind TABLEAUS[] = {[SCHEME_SDIRK2] = TABLEAU_SDIRK2,
                                        [SCHEME_EULER] = TABLEAU_EULER,
                                        [SCHEME_SDIRK3] = TABLEAU_SDIRK3};
 
+// Time; 0 where the scene says neither.
 double step_rule_end(const Scene *scene)
 {
     double by_rod = scene->time.until_U > 0 ? scene->time.until_U / scene->rod.velocity : 0;
@@ -25,6 +26,8 @@ double step_rule_end(const Scene *scene)
     return by_rod > 0 ? by_rod : by_time;
 }
 
+// relax_step is 0: it is the caller's. Keys of the scene replace what follows from sizes, for
+// implicit schemes.
 StepControlDef step_rule(const Scene *scene, const StepSizes *sizes)
 {
     bool driven = scene->rod.kind != ROD_NONE;
