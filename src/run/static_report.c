@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What `amontons static` leaves: the sums as JSON, every node's values as HDF5 (for comparison node
 // by node), the fields for ParaView.
-// static.json, static.h5 and static.vtu: sums for eyes, every node's values for a comparison with
-// another program (validation/freefem), a picture for ParaView. The JSON comes last: where it
-// stands the others are whole.
+// The JSON comes last: where it stands, the others are whole.
 #include "run/static_solve.h"
 
 #include "base/memory.h"
