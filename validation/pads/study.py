@@ -145,7 +145,7 @@ def study_count(study, name, points, plain, pressures, title):
         content += [curve(f"~{{P}} = {stress(P)}", here, lambda p: p.n, color),
                     level(whole.trusted, [0.6, 12.4], color)]
         if open_ones:
-            content.append({"x": [p.n for p in open_ones], "y": [p.mean for p in open_ones], "color": color,
+            content.append({"label": "", "x": [p.n for p in open_ones], "y": [p.mean for p in open_ones], "color": color,
                             "low": [p.mean - 2 * p.mean_error for p in open_ones], "line": "none",
                             "high": [p.mean + 2 * p.mean_error for p in open_ones], "marker": "square",
                             "filled": False})
@@ -373,6 +373,8 @@ def study_check(study, points, name):
         rows = []
         for P, n in sorted(changed):
             found = {case_of(p): p for p in of_pressure(points, P) if p.n == n}
+            if "as computed" not in found:
+                continue
             base, error = look(found["as computed"])
             rows.append([stress(P), n, f"{base:.4f}{error}" if base else None] + [
                 change(*look(found[c]), base) if c in found else None for c in cases[1:]])
