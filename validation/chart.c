@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "render/axes.h"
 #include "render/context.h"
+#include "render/legend_place.h"
 #include "render/png_file.h"
 
 #include <math.h>
@@ -18,6 +19,8 @@
 enum { LINE_SIZE = 200, CURVES_MAX = 8, CHARTS_MAX = 60 };
 enum { COLUMNS = 3, WIDTH = 1000, HEIGHT = 700 };   // WIDTH, HEIGHT: of one chart, pixels
 enum { MARKED_MAX = 20 };   // curves of so few points show each of them
+
+static const double NAME_PITCH = 9, DISC_RADIUS = 1.6;   // points
 
 typedef struct Curve {
     char name[LINE_SIZE];
@@ -128,23 +131,38 @@ static bool draw_curve(const Page *page, const Axes *axes, const Curve *curve, C
         points[i] = axes_place(axes, curve->x[i], curve->y[i]);
     shape_line(page->canvas, &stroke, points, curve->count);
     for (int64_t i = 0; curve->count <= MARKED_MAX && i < curve->count; i++)
-        shape_disc(page->canvas, color, points[i], 1.6 * page->point);
+        shape_disc(page->canvas, color, points[i], DISC_RADIUS * page->point);
     memory_free(points);
     return true;
 }
 
-// Whether the curves' right ends lie in the lower half of the frame: names go to the other one.
-static bool ends_low(const Chart *chart, const Axes *axes)
+// Where the curves' names hide least of them; right of the frame, which is narrowed, where no corner
+// is free.
+static bool place_names(const Page *page, const Chart *chart, Axes *axes, Box *names, Error *err)
 {
-    double height = 0;
+    LegendSize size = {.height = NAME_PITCH * chart->curve_count * page->point,
+                       .margin = 4 * page->point,
+                       .clearance = 2 * page->point,
+                       .mark = DISC_RADIUS * page->point};
+    PlotPanel *panel = NEW_ARRAY(PlotPanel, 1, err);
+    if (!panel) return false;
     for (int32_t c = 0; c < chart->curve_count; c++) {
         const Curve *curve = &chart->curves[c];
-        int64_t last = 0;
-        for (int64_t i = 0; i < curve->count; i++)
-            if (curve->x[i] >= curve->x[last]) last = i;
-        height += axes_place(axes, curve->x[last], curve->y[last]).y / chart->curve_count;
+        size.width =
+            fmax(size.width, text_width(page->text, NUMBER_SIZE * page->point, curve->name));
+        panel->series[panel->series_count++] =
+            (PlotSeries){.count = (int32_t)curve->count,
+                         .x = curve->x,
+                         .y = curve->y,
+                         .line = LINE_SOLID,
+                         .marker = curve->count <= MARKED_MAX ? MARKER_CIRCLE : MARKER_NONE};
     }
-    return height > (axes->box.top + axes->box.bottom) / 2;
+    PlotCorner corner = legend_choose(panel, axes, &size, NULL);
+    if (corner == CORNER_OUTSIDE)
+        axes->box.right = round(axes->box.right - size.width - size.margin);
+    *names = legend_box(axes, &size, corner);
+    memory_free(panel);
+    return true;
 }
 
 // corner: the upper left one of the chart's place on the page, pixels.
@@ -160,14 +178,13 @@ static bool draw_chart(const Page *page, Point corner, const Chart *chart, Error
                      .right = round(corner.x + WIDTH - 8 * point),
                      .bottom = round(corner.y + HEIGHT - foot * point)};
     TextStyle title = {.size = LABEL_SIZE * point, .color = INK};
-    bool names_up = ends_low(chart, &axes);
+    Box names;
+    TRY(place_names(page, chart, &axes, &names, err));
     text_draw(page->text, &title, (Point){axes.box.left, corner.y + 12 * point}, chart->title);
     for (int32_t c = 0; c < chart->curve_count; c++) {
         TRY(draw_curve(page, &axes, &chart->curves[c], COLORS[c], err));
-        TextStyle name = {.size = NUMBER_SIZE * point, .color = COLORS[c], .across = 1, .up = 0.5};
-        double away = (6 + 9 * c) * point;   // from the frame's upper or lower side
-        Point place = {axes.box.right - 4 * point,
-                       names_up ? axes.box.top + away : axes.box.bottom - away};
+        TextStyle name = {.size = NUMBER_SIZE * point, .color = COLORS[c], .up = 0.5};
+        Point place = {names.left, names.top + (c + 0.5) * NAME_PITCH * point};
         text_draw(page->text, &name, place, chart->curves[c].name);
     }
     axes_draw(page, &axes);
