@@ -4,6 +4,7 @@
 
 #include "amontons.h"
 #include "base/memory.h"
+#include "run/model.h"
 #include "run/scene_keys.h"
 
 #include <errno.h>
@@ -19,9 +20,8 @@ static bool info_scene_mesh(const Scene *scene, const char *picture, FILE *out, 
                        err));
     TRY(mesh_build(&file, scene->mesh.file, &mesh, err));
     info_write_mesh(&mesh, out);
-    double height = mesh.z_max - mesh.z_min;
-    double middle = scene->rod.height > 0 ? scene->rod.height : 0.5 * height;
-    double width = scene->rod.width > 0 ? scene->rod.width : 0.1 * height;
+    double middle = 0, width = 0;
+    model_rod_strip(scene, mesh.z_max - mesh.z_min, &middle, &width);
     double strip[2] = {middle - 0.5 * width, middle + 0.5 * width};
     TRY(info_draw_mesh(&mesh, scene->rod.kind == ROD_NONE ? NULL : strip, picture, err));
 cleanup:

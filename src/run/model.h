@@ -22,4 +22,8 @@ bool model_build_rod(Simulation *simulation, RodKind kind, Error *err);
 bool model_prepare_steps(Simulation *simulation, Error *err);
 bool model_relax(Simulation *simulation, Error *err);   // to t = 0, the rod in place
 
+// Where the rod touches a block of this height: the centre of its strip over the plane and its
+// extent, length.
+void model_rod_strip(const Scene *scene, double height, double *middle, double *width);
+
 #endif

@@ -19,8 +19,6 @@
 static const double REDUCTION_TOLERANCES[] = {
     [ACCURACY_DRAFT] = 5e-2, [ACCURACY_STANDARD] = 2e-2, [ACCURACY_FINE] = 2e-3};
 
-static const double ROD_HEIGHT = 0.5, ROD_WIDTH = 0.1;   // of H
-
 // Through gmsh, the slowest part of a small run (TOOLCHAIN: 76 ms to load).
 bool model_read_mesh(Simulation *simulation, Error *err)
 {
@@ -278,12 +276,20 @@ static bool reduction_pays(const Simulation *simulation)
            REDUCTION_BYTES * n * m < REDUCTION_BYTES_MAX;
 }
 
+void model_rod_strip(const Scene *scene, double height, double *middle, double *width)
+{
+    static const double standard_middle = 0.5, standard_width = 0.1;   // of H
+    *middle = scene->rod.height > 0 ? scene->rod.height : standard_middle * height;
+    *width = scene->rod.width > 0 ? scene->rod.width : standard_width * height;
+}
+
 // The assembled bulk of the full mesh, its loads and its interface; needed to build a basis, to
 // find one by content, and wherever nothing is reduced.
 bool model_build_bulk(Simulation *simulation, Error *err)
 {
     const Scene *scene = &simulation->scene;
-    double height = simulation->model.height;
+    double middle = 0, width = 0;
+    model_rod_strip(scene, simulation->model.height, &middle, &width);
     translate_materials(simulation);
     TRY(bulk_assemble(&simulation->mesh, &simulation->material, &simulation->bulk, err));
     TRY(add_loads(simulation, err));
@@ -291,9 +297,8 @@ bool model_build_bulk(Simulation *simulation, Error *err)
                         .contact_names = scene->groups.contact.name,
                         .has_rod = scene->rod.kind != ROD_NONE,
                         .rod_name = scene->groups.rod,
-                        .rod_height = scene->rod.height > 0 ? scene->rod.height
-                                                            : ROD_HEIGHT * height,
-                        .rod_width = scene->rod.width > 0 ? scene->rod.width : ROD_WIDTH * height,
+                        .rod_height = middle,
+                        .rod_width = width,
                         .rod_in_part = scene->rod.ends == ROD_ENDS_EXACT};
     TRY(interface_build(&simulation->mesh, &def, &simulation->interface, err));
     simulation->scales.length = simulation->model.length;
