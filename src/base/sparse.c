@@ -2,9 +2,9 @@
 // CHOLMOD (Chen, Davis, Hager, Rajamanickam, ACM TOMS 35, 2008): CAMD keeps the border last,
 // supernodal LL'. The supernodes of the factor are read directly for L_bb.
 //
-// A pattern is analysed once and factored for every rung of the ladder (TOOLCHAIN: 5 ms for the
-// analysis, 25 ms for a factor, 1 ms for a solve at 80 x 80). Workspaces of solves belong to the
-// analysis: factors of one analysis must not be used by two threads.
+// A pattern is analysed once and factored for every rung of the ladder (on 80 x 80 cells: 5 ms for
+// the analysis, 25 ms for a factor, 1 ms for a solve). Workspaces of solves belong to the analysis:
+// factors of one analysis must not be used by two threads.
 #include "base/sparse.h"
 
 #include "base/dense.h"

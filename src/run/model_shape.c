@@ -19,7 +19,7 @@
 static const double REDUCTION_TOLERANCES[] = {
     [ACCURACY_DRAFT] = 5e-2, [ACCURACY_STANDARD] = 2e-2, [ACCURACY_FINE] = 2e-3};
 
-// Through gmsh, the slowest part of a small run (TOOLCHAIN: 76 ms to load).
+// Through gmsh, the slowest part of a small run (76 ms to load).
 bool model_read_mesh(Simulation *simulation, Error *err)
 {
     const Scene *scene = &simulation->scene;
