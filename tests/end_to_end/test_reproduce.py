@@ -21,6 +21,7 @@ sys.dont_write_bytecode = True
 import fronts      # noqa: E402
 import interface   # noqa: E402
 import paper_report   # noqa: E402
+import refinement   # noqa: E402
 import windows     # noqa: E402
 import theory      # noqa: E402
 
@@ -154,6 +155,76 @@ class Windows(unittest.TestCase):
         self.assertIn("2.0 cells", windows.reason(window((1, 0.32), l_c=0.05), fine, 40))
         self.assertIn("let go", windows.reason(window((1, 0.32), l_c=0.97), fine, 40))
         self.assertIn("scatter", windows.reason(window((1, 0.32)), fine, 40))
+
+
+class Refinement(InFolder):
+    @staticmethod
+    def window(P, mu, l_c, scatter=0.0, runs=5):
+        """Runs about P whose values go up and down by `scatter`, relative."""
+        factors = np.exp(np.linspace(-0.12, 0.12, runs)) if runs > 1 else [1.0]
+        signs = np.resize([1, -2, 1], runs) if runs == 3 else np.zeros(runs)
+        return windows.Window([Windows.row(P * f, mu * (1 + s * scatter), l_c=l_c) for f, s in zip(factors, signs)])
+
+    def test_settled(self):
+        """Agreement counts where l_c has 8 cells: 40 even ones, or of 80 graded ones as long as those at the end."""
+        pair = lambda mu, l_c, cells=40, graded=False: refinement.Pair(  # noqa: E731
+            self.window(1, 0.3, l_c), self.window(1, mu, l_c), cells, graded)
+        self.assertTrue(pair(0.302, 0.21).settled())
+        self.assertFalse(pair(0.302, 0.19).settled())
+        self.assertFalse(pair(0.304, 0.21).settled())
+        self.assertTrue(pair(0.302, float("nan")).settled())
+        self.assertTrue(pair(0.302, 0.05, 80, True).settled())
+        self.assertFalse(pair(0.302, 0.046, 80, True).settled())
+
+    def test_error_of_a_mean(self):
+        window = self.window(1, 0.3, 0.5, scatter=0.01, runs=3)
+        pair = refinement.Pair(window, window, 40)
+        self.assertAlmostEqual(pair.scatter(), 100 * 0.01 * np.sqrt(2))
+        self.assertAlmostEqual(pair.error(), pair.scatter() / np.sqrt(3))
+
+    def test_doubles_where_it_must(self):
+        """Four points: one needs nothing, one no more than 80 and 160 cells, two 320, one of them a single run there."""
+        truth = {1.0: (0.5, 0), 2.0: (0.1, 0), 4.0: (0.03, 0), 8.0: (0.03, 0.02)}
+        mu = lambda P, cells: 0.3 * (1 + 0.05 * (40 / cells) ** 2 / truth[P][0] / 10)  # noqa: E731
+        even = [refinement.Pair(self.window(P, mu(P, 40), truth[P][0]), self.window(P, mu(P, 80), truth[P][0]), 40) for P in truth]
+        asked = []
+
+        def compute(cells, points):
+            asked.append((cells, [round(P, 3) for _, P in points]))
+            out = []
+            for centre in sorted({min(truth, key=lambda c, P=P: abs(np.log(P / c))) for _, P in points}):
+                runs = sum(abs(np.log(P / centre)) < 0.2 for _, P in points)
+                out.append(self.window(centre, mu(centre, cells), truth[centre][0], truth[centre][1], runs))
+            return out[::-1]
+        found = refinement.refine(even, compute)
+        self.assertEqual([(pair.cells, pair.graded) for pair in found], [(40, False), (80, True), (160, True), (160, True)])
+        self.assertEqual([len(pair.fine.rows) for pair in found], [5, 1, 1, 3])
+        self.assertEqual([cells for cells, _ in asked], [80, 160, 320])
+        self.assertEqual(asked[0][1], [1.774, 2.0, 2.255, 3.548, 4.0, 4.51, 7.095, 8.0, 9.02])
+        self.assertEqual(asked[2][1], [4.0, 7.095, 8.0, 9.02])
+        for pair in found:
+            self.assertEqual(len(pair.coarse.rows), len(pair.fine.rows))
+            self.assertAlmostEqual(pair.coarse.mu, mu(pair.P, pair.cells), places=3)
+
+    def test_study_of_points(self):
+        text = refinement.study_text((PAPER / "fig2a.yaml").read_text(), PAPER, [(4.0, 0.02), (1.0, 0.1)])
+        (self.folder / "points.yaml").write_text(text)
+        done = subprocess.run([PROGRAM, "sweep", self.folder / "points.yaml", "-q", "-o", self.folder / "out", "--set",
+                               "groups.rod=nowhere"], capture_output=True, text=True, timeout=500)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(done.stderr.count("nowhere"), 2, done.stderr)
+
+    def test_cells_at_the_end(self):
+        """The length of the first cell of a graded mesh, by the mesh itself."""
+        for cells in refinement.GRADED[:2]:
+            words = [word for setting in refinement.graded_settings(cells) for word in ("--set", setting)]
+            done = subprocess.run([PROGRAM, "run", PAPER / "fig1.yaml", "-q", "-o", self.folder / str(cells), *words, "--set",
+                                   "mesh.set.nz=2", "--set", "time.until.U=1e-8", "--set", "output.figures=[]", "--set",
+                                   "output.fields=none"], capture_output=True, text=True, timeout=500)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            with h5py.File(self.folder / str(cells) / "history.h5") as file:
+                x = file["nodes/x"][:]
+            self.assertAlmostEqual((x[1] - x[0]) * cells / refinement.FIRST_CELL, 1, delta=0.02)
 
 
 class Studies(InFolder):

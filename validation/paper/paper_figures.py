@@ -18,32 +18,31 @@ def plain(values):
 
 # --- figures 2a, 2b, 3a ---------------------------------------------------------------------------
 
-def curves_of_pressure(found, finer, material, filled):
-    """Marks: windows of the coarser mesh; dashed: of the finer one; thin: 1D theory."""
+def curves_of_pressure(pairs, both, material, filled):
+    """Marks: the finer mesh of each point; dashed: the coarser, where `both` differ; thin: 1D theory."""
     series = []
-    for k, length in enumerate(sorted({w.length for w in found})):
-        at = [w for w in found if w.length == length]
-        P = [w.P for w in at]
-        series.append({"label": f"~{{L}} = {length:g}", "x": P, "y": [w.mu for w in at], "low": [w.low for w in at],
-                       "high": [w.high for w in at], "color": k + 1, "marker": MARKERS[k], "filled": filled})
-        if finer:
-            at = [w for w in finer if w.length == length]
-            series.append({"x": [w.P for w in at], "y": [w.mu for w in at], "color": k + 1, "line": "dashed"})
-        fine = np.geomspace(min(P) / 1.3, max(P) * 1.3, 120)
-        series.append({"x": plain(fine), "y": plain(material.mu(length, p) for p in fine), "color": k + 1,
+    for k, length in enumerate(sorted({pair.length for pair in pairs})):
+        at = [pair for pair in pairs if pair.length == length]
+        P, fine = [pair.P for pair in at], [pair.fine for pair in at]
+        series.append({"label": f"~{{L}} = {length:g}", "x": P, "y": [w.mu for w in fine], "low": [w.low for w in fine],
+                       "high": [w.high for w in fine], "color": k + 1, "marker": MARKERS[k], "filled": filled})
+        if both:
+            series.append({"x": P, "y": [pair.coarse.mu for pair in at], "color": k + 1, "line": "dashed"})
+        range_of_P = np.geomspace(min(P) / 1.3, max(P) * 1.3, 120)
+        series.append({"x": plain(range_of_P), "y": plain(material.mu(length, p) for p in range_of_P), "color": k + 1,
                        "line": "thin"})
     series[-1]["label"] = "1D theory"
-    if finer:
-        series[-2]["label"] = "twice as many cells"
+    if both:
+        series[-2]["label"] = "half as many cells"
     return series
 
 
-def figure_2(place, name, found, finer, material, filled):
+def figure_2(place, name, pairs, both, material, filled):
     top = material.mu_static * 1.07
     place.draw(name, {
         "title": f"mu_M against pressure, set {material.name}",
         "x": {"label": P_LABEL, "scale": "log"}, "y": {"label": MU_LABEL, "range": [0, top]},
-        "series": curves_of_pressure(found, finer, material, filled)})
+        "legend": "lower-left", "series": curves_of_pressure(pairs, both, material, filled)})
 
 
 def figure_3a(place, found):

@@ -18,9 +18,10 @@ import critical
 import fronts
 import paper_figures as figures
 import paper_report as report
+import refinement
 import theory
 from interface import History, same
-from windows import agreement_words, windows
+from windows import windows
 
 HERE = Path(__file__).resolve().parent
 COARSE = ["mesh.set.nx=20", "mesh.set.nz=20"]
@@ -42,13 +43,13 @@ class Place:
         done = subprocess.run([str(self.program), *map(str, words)], check=False)
         return done.returncode
 
-    def sweep(self, name, label=None, settings=()):
-        """Rows of the table of study `name`, as dicts; numbers where they are numbers."""
+    def sweep(self, name, label=None, settings=(), study=None):
+        """Rows of the table of study `name` (in the file `study`), as dicts; numbers where they are numbers."""
         label, started = label or name, time.monotonic()
         if self.quick and label == name:
             settings = [*settings, *COARSE]
         folder = self.folder / label
-        words = ["sweep", HERE / f"{name}.yaml", "-o", folder, "-j", self.jobs, *self.fresh]
+        words = ["sweep", study or HERE / f"{name}.yaml", "-o", folder, "-j", self.jobs, *self.fresh]
         for setting in settings:
             words += ["--set", setting]
         print(f"--- {label}", flush=True)
@@ -101,23 +102,35 @@ def without_nan(value):
     return value
 
 
+def finer(place, name):
+    """compute(cells, points) for refinement.refine: a study of those points is written, and swept."""
+    def compute(cells, points):
+        label = f"{name}-{cells}-graded"
+        study = place.folder / f"{label}.yaml"
+        study.write_text(refinement.study_text((HERE / f"{name}.yaml").read_text(), HERE, points))
+        return windows(place.sweep(name, label, refinement.graded_settings(cells), study))
+    return compute
+
+
 def pressure_parts(place, parts):
-    """Figures 2a, 2b and 3a; the windows of the finer mesh, by set."""
-    cells = 20 if place.quick else 40
-    rows = {"A": place.sweep("fig2a"), "B": place.sweep("fig2b")}
-    fine = rows if place.quick else {
-        name: place.sweep(f"fig2{name.lower()}", f"fig2{name.lower()}-80", ["mesh.set.nx=80", "mesh.set.nz=80"]) for name in "AB"}
-    found = {name: windows(at) for name, at in rows.items()}
-    found_fine = {name: windows(at) for name, at in fine.items()}
+    """Figures 2a, 2b and 3a; what they show as pairs of meshes, by set."""
+    cells, found = 20 if place.quick else refinement.EVEN, {}
     for name, material, filled in (("A", theory.A, False), ("B", theory.B, True)):
-        figures.figure_2(place, f"fig2{name.lower()}", found[name], [] if place.quick else found_fine[name], material, filled)
-        pairs = list(zip(found[name], found_fine[name]))
-        parts[name.lower()] = report.mu_table(found[name], found_fine[name], cells)
-        parts[f"agreement_{name.lower()}"] = "(quick: no finer mesh; its columns repeat the coarser's)\n" if place.quick else agreement_words(pairs, cells)
-    figures.figure_3a(place, found_fine)
-    widest = found["A"][-1].rows
-    parts.update(cells=cells, runs=len(widest), width=100 * (max(r["load.pressure"] for r in widest) / found["A"][-1].P - 1))
-    return found_fine
+        study, key = f"fig2{name.lower()}", name.lower()
+        coarse = windows(place.sweep(study))
+        fine = coarse if place.quick else windows(place.sweep(study, f"{study}-80", ["mesh.set.nx=80", "mesh.set.nz=80"]))
+        even = [refinement.Pair(*pair, cells) for pair in zip(coarse, fine)]
+        found[name] = even if place.quick else refinement.refine(even, finer(place, study))
+        figures.figure_2(place, study, found[name], not place.quick, material, filled)
+        parts[f"even_{key}"] = report.even_table(even)
+        if place.quick:
+            parts[key], parts[f"agreement_{key}"] = "", "(quick: no finer mesh; its columns repeat the coarser's)\n"
+        else:
+            parts[key] = report.pair_table(found[name])
+            parts[f"agreement_{key}"] = report.agreement_words(found[name], even)
+    figures.figure_3a(place, {name: [pair.fine for pair in pairs] for name, pairs in found.items()})
+    parts.update(cells=cells)
+    return {name: [pair.fine for pair in pairs] for name, pairs in found.items()}
 
 
 def line_and_profiles(place, parts):

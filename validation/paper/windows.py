@@ -86,17 +86,3 @@ def reason(window, fine, cells):
 def branch_words(window):
     found = window.branches()
     return " ".join(f"{mu:.4f} ({count})" for mu, count in found) or "-"
-
-
-def agreement_words(pairs, cells):
-    """pairs: (window, fine). The windows' central runs alone are compared as well."""
-    differences = np.array([abs(difference(*pair)) for pair in pairs])
-    resolved = np.array([a.l_c * cells >= CELLS_RESOLVED and a.l_c <= 1 - END_CELLS / cells for a, _ in pairs])
-    alone = np.array([abs(mu_of(fine.centre) / mu_of(coarse.centre) - 1) for coarse, fine in pairs])
-    words = (f"Meshes of {cells} and {2 * cells} cells agree within 1 % at {(differences <= AGREE).sum()} of {len(pairs)} points, "
-             f"within 2 % at {(differences <= 2 * AGREE).sum()}; single runs at {(alone <= AGREE).sum()}.")
-    if resolved.any():
-        words += (f" Where l_c is {CELLS_RESOLVED} cells of the coarser mesh or more, and {END_CELLS} or more from L, it is "
-                  f"{(differences[resolved] <= AGREE).sum()} of {resolved.sum()}, median {100 * np.median(differences[resolved]):.2g} %, "
-                  f"largest {100 * differences[resolved].max():.2g} %.")
-    return words + "\n"

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Which mesh each point of figures 2a and 2b takes: the first pair of N and 2N cells that agree and whose cells l_c holds.
+
+Pairs in turn: 40 and 80 even cells; 80 and 160, then 160 and 320, graded in x to both ends of the contact, where slip sets out
+and where pressure is highest, and in z to the contact. A graded mesh has 40 rows, and costs what its contact nodes do.
+"""
+import json
+
+import numpy as np
+
+from windows import AGREE, CELLS_RESOLVED, Window, difference
+
+EVEN = 40
+GRADED = (80, 160, 320)
+GRADE_X = 3                              # the middle cell over the end's
+FIRST_CELL = 0.48                        # the end's, over L/N
+STEADY = AGREE / 4                       # runs of a window that scatter less, relative: one of them will do
+GRADE_Z = {80: 3, 160: 8, 320: 24}       # of 40 rows: the lowest is as high as the end's cell is long
+
+
+def graded_settings(cells):
+    return [f"mesh.set.nx={cells}", "mesh.set.nz=40", f"mesh.set.grade_x={GRADE_X}", f"mesh.set.grade_z={GRADE_Z[cells]}",
+            "reduction.use=always"]
+
+
+class Pair:
+    """One point on two meshes: windows of N = `cells` and of 2N."""
+
+    def __init__(self, coarse, fine, cells, graded=False):
+        self.coarse, self.fine, self.cells, self.graded = coarse, fine, cells, graded
+        self.length, self.P = coarse.length, coarse.P
+
+    def difference(self):
+        return difference(self.coarse, self.fine)
+
+    def cells_in_front(self):
+        """l_c in cells of N, as long as those where slip sets out."""
+        return self.coarse.l_c * self.cells / (FIRST_CELL if self.graded else 1)
+
+    def agrees(self):
+        return abs(self.difference()) <= AGREE
+
+    def settled(self):
+        """Where slip is slow there is no l_c: agreement is enough."""
+        front = self.cells_in_front()
+        return self.agrees() and (not np.isfinite(front) or front >= CELLS_RESOLVED)
+
+    def scatter(self):
+        """Per cent, of a single run on the finer mesh."""
+        return 100 * self.fine.scatter / self.fine.mu
+
+    def error(self):
+        """Per cent: standard error of the finer window's mean, from its runs' scatter."""
+        return self.scatter() / np.sqrt(len(self.fine.rows))
+
+
+def study_text(base, folder, points):
+    """The study `base` with its scene and settings, at these (length, pressure) in place of what it varies."""
+    lines = [f"scene: {json.dumps(str(folder / line.split(':')[1].strip()))}" if line.startswith("scene:") else line
+             for line in base.split("cases:")[0].splitlines()]
+    lines += ["cases:"] + [f"  - {{mesh.set.length: {length!r}, load.pressure: {P!r}}}" for length, P in points]
+    return "\n".join(lines) + "\n"
+
+
+def pressures(window):
+    """Of the next mesh's window: both ends and the middle; the middle alone where runs do not scatter."""
+    rows = window.rows
+    some = {0, len(rows) // 2, len(rows) - 1} if window.scatter > STEADY * window.mu or len(rows) > 3 else {len(rows) // 2}
+    return [rows[k]["load.pressure"] for k in sorted(some)]
+
+
+def nearest(window, at):
+    """The key in `at`, of windows, whose window stands at the same length and pressure."""
+    return min((k for k in at if at[k].length == window.length), key=lambda k: abs(np.log(at[k].P / window.P)))
+
+
+def refine(pairs, compute):
+    """`pairs`, in place of those not settled finer ones. compute(cells, points): windows of a graded mesh at (length, P)."""
+    pairs = list(pairs)
+    coarse = {k: pair.coarse for k, pair in enumerate(pairs) if not pair.settled()}
+    for cells in GRADED:
+        if not coarse:
+            break
+        found = compute(cells, [(window.length, P) for window in coarse.values() for P in pressures(window)])
+        fine = {nearest(window, coarse): window for window in found}
+        if cells > GRADED[0]:
+            for k, window in fine.items():
+                same = coarse[k] if len(window.rows) == len(coarse[k].rows) else Window([coarse[k].centre])
+                pairs[k] = Pair(same, window, cells // 2, True)
+            fine = {k: window for k, window in fine.items() if not pairs[k].settled()}
+        coarse = fine
+    return pairs
