@@ -62,11 +62,12 @@ def study_text(base, folder, points):
     return "\n".join(lines) + "\n"
 
 
-def pressures(window):
-    """Of the next mesh's window: both ends and the middle; the middle alone where runs do not scatter."""
+def pressures(window, cells):
+    """Of the window on the mesh of `cells`: both ends and the middle; on the last the middle alone where runs do not scatter."""
     rows = window.rows
-    some = {0, len(rows) // 2, len(rows) - 1} if window.scatter > STEADY * window.mu or len(rows) > 3 else {len(rows) // 2}
-    return [rows[k]["load.pressure"] for k in sorted(some)]
+    middle = len(rows) // 2
+    one = cells == GRADED[-1] and window.scatter <= STEADY * window.mu
+    return [rows[k]["load.pressure"] for k in ([middle] if one else sorted({0, middle, len(rows) - 1}))]
 
 
 def nearest(window, at):
@@ -81,7 +82,7 @@ def refine(pairs, compute):
     for cells in GRADED:
         if not coarse:
             break
-        found = compute(cells, [(window.length, P) for window in coarse.values() for P in pressures(window)])
+        found = compute(cells, sorted((window.length, P) for window in coarse.values() for P in pressures(window, cells)))
         fine = {nearest(window, coarse): window for window in found}
         if cells > GRADED[0]:
             for k, window in fine.items():
