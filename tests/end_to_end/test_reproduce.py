@@ -167,14 +167,14 @@ class Refinement(InFolder):
 
     def test_settled(self):
         """Agreement counts where l_c has 8 cells: 40 even ones, or of 80 graded ones as long as those at the end."""
-        pair = lambda mu, l_c, cells=40, graded=False: refinement.Pair(  # noqa: E731
-            self.window(1, 0.3, l_c), self.window(1, mu, l_c), cells, graded)
+        pair = lambda mu, l_c, cells=40, grade=1: refinement.Pair(  # noqa: E731
+            self.window(1, 0.3, l_c), self.window(1, mu, l_c), cells, grade)
         self.assertTrue(pair(0.302, 0.21).settled())
         self.assertFalse(pair(0.302, 0.19).settled())
         self.assertFalse(pair(0.304, 0.21).settled())
         self.assertTrue(pair(0.302, float("nan")).settled())
-        self.assertTrue(pair(0.302, 0.05, 80, True).settled())
-        self.assertFalse(pair(0.302, 0.046, 80, True).settled())
+        self.assertTrue(pair(0.302, 0.05, 80, 3).settled())
+        self.assertFalse(pair(0.302, 0.046, 80, 3).settled())
 
     def test_error_of_a_mean(self):
         window = self.window(1, 0.3, 0.5, scatter=0.01, runs=3)
@@ -189,15 +189,16 @@ class Refinement(InFolder):
         even = [refinement.Pair(self.window(P, mu(P, 40), truth[P][0]), self.window(P, mu(P, 80), truth[P][0]), 40) for P in truth]
         asked = []
 
-        def compute(cells, points):
+        def compute(cells, grade_x, points):
+            self.assertEqual(grade_x, 3)
             asked.append((cells, [round(P, 3) for _, P in points]))
             out = []
             for centre in sorted({min(truth, key=lambda c, P=P: abs(np.log(P / c))) for _, P in points}):
                 runs = sum(abs(np.log(P / centre)) < 0.2 for _, P in points)
                 out.append(self.window(centre, mu(centre, cells), truth[centre][0], truth[centre][1], runs))
             return out[::-1]
-        found = refinement.refine(even, compute)
-        self.assertEqual([(pair.cells, pair.graded) for pair in found], [(40, False), (80, True), (160, True), (160, True)])
+        found = refinement.refine(even, theory.Material("", 0.3, 0.38, 0.1, 0.1), compute)
+        self.assertEqual([(pair.cells, pair.grade) for pair in found], [(40, 1), (80, 3), (160, 3), (160, 3)])
         self.assertEqual([len(pair.fine.rows) for pair in found], [5, 3, 1, 3])
         self.assertEqual([cells for cells, _ in asked], [80, 160, 320])
         self.assertEqual(asked[0][1], [1.774, 2.0, 2.255, 3.548, 4.0, 4.51, 7.095, 8.0, 9.02])
@@ -216,8 +217,8 @@ class Refinement(InFolder):
 
     def test_cells_at_the_end(self):
         """The length of the first cell of a graded mesh, by the mesh itself."""
-        for cells in refinement.GRADED[:2]:
-            words = [word for setting in refinement.graded_settings(cells) for word in ("--set", setting)]
+        for cells in refinement.FINER[:2]:
+            words = [word for setting in refinement.settings(cells, refinement.GRADE_X) for word in ("--set", setting)]
             done = subprocess.run([PROGRAM, "run", PAPER / "fig1.yaml", "-q", "-o", self.folder / str(cells), *words, "--set",
                                    "mesh.set.nz=2", "--set", "time.until.U=1e-8", "--set", "output.figures=[]", "--set",
                                    "output.fields=none"], capture_output=True, text=True, timeout=500)
@@ -225,6 +226,12 @@ class Refinement(InFolder):
             with h5py.File(self.folder / str(cells) / "history.h5") as file:
                 x = file["nodes/x"][:]
             self.assertAlmostEqual((x[1] - x[0]) * cells / refinement.FIRST_CELL, 1, delta=0.02)
+            self.assertAlmostEqual(np.diff(x).max() * cells / refinement.LONGEST_CELL, 1, delta=0.01)
+
+    def test_grade(self):
+        """By hand, 160 graded cells with 0.00875 L the longest: viscosity holds 6.8e-4/(0.28 P L) in A, 7.8e-7/(P L) in B."""
+        self.assertEqual([refinement.grade(theory.A, 4, P) for P in (0.0464, 0.069, 0.07, 0.1)], [3, 3, 1, 1])
+        self.assertEqual([refinement.grade(theory.B, 0.08, P) for P in (1e-4, 1e-3, 1.2e-3)], [3, 3, 1])
 
 
 class Studies(InFolder):

@@ -22,7 +22,7 @@ standard output:
 
 What they show (at 80 cells too, where nothing else is said):
 - The 1D equation does what its theory says once all terms are kept: at the first peak l_c is within
-  0.022 L and mu_M within 2 %. The neglected terms lower l_c by 3 to 19 %.
+  0.023 L and mu_M within 2.1 %. The neglected terms lower l_c by 3 to 19 %.
 - Periodic peaks lie within 5 % of the first: in 1D the state that sliding leaves hardly counts.
 - The line's mu lies above the straight line by kappa r alone (`exact`), at most 0.07 (mu_S - mu_K)
   and nothing for small l. The block lies above it where l_c is small, by up to 0.09 in set A, for

@@ -47,7 +47,7 @@ def pair_table(pairs):
     """What the figures show: each point on its own pair of meshes."""
     return table(["L", "P", "N", "l_c/L", "l_c, cells of N", "runs", "mu_M, N", "mu_M, 2N", "difference, %", "a run's scatter, %",
                   "standard error, %", "branches (peaks), 2N", "period"],
-                 [(pair.length, pair.P, f"{pair.cells}{' graded' if pair.graded else ''}", pair.fine.l_c, pair.cells_in_front(),
+                 [(pair.length, pair.P, f"{pair.cells}{' graded' if pair.grade > 1 else ''}", pair.fine.l_c, pair.cells_in_front(),
                    len(pair.fine.rows), pair.coarse.mu, pair.fine.mu, 100 * pair.difference(), pair.scatter(), pair.error(),
                    branch_words(pair.fine), regime(pair.fine.centre)) for pair in pairs])
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Which mesh each point of figures 2a and 2b takes: the first pair of N and 2N cells that agree and whose cells l_c holds.
 
-Pairs in turn: 40 and 80 even cells; 80 and 160, then 160 and 320, graded in x to both ends of the contact, where slip sets out
-and where pressure is highest, and in z to the contact. A graded mesh has 40 rows, and costs what its contact nodes do.
+Pairs in turn: 40 and 80 even cells; 80 and 160, then 160 and 320, finer towards both ends of the contact, where slip sets out
+and where pressure is highest, and towards the contact. They have 40 rows, and cost what their contact nodes do.
 """
 import json
 
@@ -11,23 +11,31 @@ import numpy as np
 from windows import AGREE, CELLS_RESOLVED, Window, difference
 
 EVEN = 40
-GRADED = (80, 160, 320)
+FINER = (80, 160, 320)
+GRADE_Z = {80: 3, 160: 8, 320: 24}       # of 40 rows: the lowest is as high as a graded mesh's first cell is long
 GRADE_X = 3                              # the middle cell over the end's
-FIRST_CELL = 0.48                        # the end's, over L/N
+FIRST_CELL, LONGEST_CELL = 0.48, 1.4     # of such a mesh, over L/N
 STEADY = AGREE / 4                       # runs of a window that scatter less, relative: one of them will do
-GRADE_Z = {80: 3, 160: 8, 320: 24}       # of 40 rows: the lowest is as high as the end's cell is long
 
 
-def graded_settings(cells):
-    return [f"mesh.set.nx={cells}", "mesh.set.nz=40", f"mesh.set.grade_x={GRADE_X}", f"mesh.set.grade_z={GRADE_Z[cells]}",
+def grade(material, length, pressure):
+    """Of a point's finer meshes. Cells must be no longer, wherever slip runs, than the length that viscosity holds weakening
+    on, (eta1 + eta2) v_c / ((mu_S - mu_K) P); where that leaves none to spare, they are even."""
+    drop = material.mu_static - material.mu_kinetic
+    held = material.eta_t * material.critical_velocity / (drop * pressure * length)
+    return GRADE_X if LONGEST_CELL / FINER[1] <= held else 1
+
+
+def settings(cells, grade_x):
+    return [f"mesh.set.nx={cells}", "mesh.set.nz=40", f"mesh.set.grade_x={grade_x}", f"mesh.set.grade_z={GRADE_Z[cells]}",
             "reduction.use=always"]
 
 
 class Pair:
     """One point on two meshes: windows of N = `cells` and of 2N."""
 
-    def __init__(self, coarse, fine, cells, graded=False):
-        self.coarse, self.fine, self.cells, self.graded = coarse, fine, cells, graded
+    def __init__(self, coarse, fine, cells, grade_x=1):
+        self.coarse, self.fine, self.cells, self.grade = coarse, fine, cells, grade_x
         self.length, self.P = coarse.length, coarse.P
 
     def difference(self):
@@ -35,7 +43,7 @@ class Pair:
 
     def cells_in_front(self):
         """l_c in cells of N, as long as those where slip sets out."""
-        return self.coarse.l_c * self.cells / (FIRST_CELL if self.graded else 1)
+        return self.coarse.l_c * self.cells / (FIRST_CELL if self.grade > 1 else 1)
 
     def agrees(self):
         return abs(self.difference()) <= AGREE
@@ -66,7 +74,7 @@ def pressures(window, cells):
     """Of the window on the mesh of `cells`: both ends and the middle; on the last the middle alone where runs do not scatter."""
     rows = window.rows
     middle = len(rows) // 2
-    one = cells == GRADED[-1] and window.scatter <= STEADY * window.mu
+    one = cells == FINER[-1] and window.scatter <= STEADY * window.mu
     return [rows[k]["load.pressure"] for k in ([middle] if one else sorted({0, middle, len(rows) - 1}))]
 
 
@@ -75,19 +83,21 @@ def nearest(window, at):
     return min((k for k in at if at[k].length == window.length), key=lambda k: abs(np.log(at[k].P / window.P)))
 
 
-def refine(pairs, compute):
-    """`pairs`, in place of those not settled finer ones. compute(cells, points): windows of a graded mesh at (length, P)."""
+def refine(pairs, material, compute):
+    """`pairs`, in place of those not settled finer ones. compute(cells, grade_x, points): windows of runs at (length, pressure)."""
     pairs = list(pairs)
-    coarse = {k: pair.coarse for k, pair in enumerate(pairs) if not pair.settled()}
-    for cells in GRADED:
-        if not coarse:
-            break
-        found = compute(cells, sorted((window.length, P) for window in coarse.values() for P in pressures(window, cells)))
-        fine = {nearest(window, coarse): window for window in found}
-        if cells > GRADED[0]:
-            for k, window in fine.items():
-                same = coarse[k] if len(window.rows) == len(coarse[k].rows) else Window([coarse[k].centre])
-                pairs[k] = Pair(same, window, cells // 2, True)
-            fine = {k: window for k, window in fine.items() if not pairs[k].settled()}
-        coarse = fine
+    for grade_x in (GRADE_X, 1):
+        coarse = {k: pair.coarse for k, pair in enumerate(pairs)
+                  if not pair.settled() and grade(material, pair.length, pair.P) == grade_x}
+        for cells in FINER:
+            if not coarse:
+                break
+            points = sorted((window.length, P) for window in coarse.values() for P in pressures(window, cells))
+            fine = {nearest(window, coarse): window for window in compute(cells, grade_x, points)}
+            if cells > FINER[0]:
+                for k, window in fine.items():
+                    like = coarse[k] if len(window.rows) == len(coarse[k].rows) else Window([coarse[k].centre])
+                    pairs[k] = Pair(like, window, cells // 2, grade_x)
+                fine = {k: window for k, window in fine.items() if not pairs[k].settled()}
+            coarse = fine
     return pairs

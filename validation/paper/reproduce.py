@@ -103,12 +103,12 @@ def without_nan(value):
 
 
 def finer(place, name):
-    """compute(cells, points) for refinement.refine: a study of those points is written, and swept."""
-    def compute(cells, points):
-        label = f"{name}-{cells}-graded"
+    """compute(cells, grade_x, points) for refinement.refine: a study of those points is written, and swept."""
+    def compute(cells, grade_x, points):
+        label = f"{name}-{cells}-{'graded' if grade_x > 1 else 'even'}"
         study = place.folder / f"{label}.yaml"
         study.write_text(refinement.study_text((HERE / f"{name}.yaml").read_text(), HERE, points))
-        return windows(place.sweep(name, label, refinement.graded_settings(cells), study))
+        return windows(place.sweep(name, label, refinement.settings(cells, grade_x), study))
     return compute
 
 
@@ -120,7 +120,7 @@ def pressure_parts(place, parts):
         coarse = windows(place.sweep(study))
         fine = coarse if place.quick else windows(place.sweep(study, f"{study}-80", ["mesh.set.nx=80", "mesh.set.nz=80"]))
         even = [refinement.Pair(*pair, cells) for pair in zip(coarse, fine)]
-        found[name] = even if place.quick else refinement.refine(even, finer(place, study))
+        found[name] = even if place.quick else refinement.refine(even, material, finer(place, study))
         figures.figure_2(place, study, found[name], not place.quick, material, filled)
         parts[f"even_{key}"] = report.even_table(even)
         if place.quick:
