@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """REPORT.md: tables of what was computed, beside what the paper says."""
+from collections import Counter
 
 import numpy as np
 
@@ -47,9 +48,19 @@ def pair_table(pairs):
     """What the figures show: each point on its own pair of meshes."""
     return table(["L", "P", "N", "l_c/L", "l_c, cells of N", "runs", "mu_M, N", "mu_M, 2N", "difference, %", "a run's scatter, %",
                   "standard error, %", "branches (peaks), 2N", "period"],
-                 [(pair.length, pair.P, f"{pair.cells}{' graded' if pair.grade > 1 else ''}", pair.fine.l_c, pair.cells_in_front(),
+                 [(pair.length, pair.P, mesh_name(pair), pair.fine.l_c, pair.cells_in_front(),
                    len(pair.fine.rows), pair.coarse.mu, pair.fine.mu, 100 * pair.difference(), pair.scatter(), pair.error(),
                    branch_words(pair.fine), regime(pair.fine.centre)) for pair in pairs])
+
+
+def mesh_name(pair):
+    return f"{pair.cells}{' graded' if pair.grade > 1 else ''}"
+
+
+def meshes_words(pairs):
+    """How many points have which N."""
+    count = Counter((pair.cells, mesh_name(pair)) for pair in pairs)
+    return "N is " + ", ".join(f"{name} at {count[cells, name]}" for cells, name in sorted(count))
 
 
 def agreement_words(pairs, even):
@@ -59,12 +70,21 @@ def agreement_words(pairs, even):
     alone = np.array([abs(mu_of(pair.fine.centre) / mu_of(pair.coarse.centre) - 1) for pair in even])
     resolved = np.array([pair.cells_in_front() >= CELLS_RESOLVED and pair.coarse.l_c <= 1 - END_CELLS / cells for pair in even])
     words = (f"N and 2N cells agree within 1 % at {(found <= AGREE).sum()} of {len(pairs)} points, median {100 * np.median(found):.2g} %, "
-             f"largest {100 * found.max():.2g} %. With {cells} and {2 * cells} even cells everywhere it is {(first <= AGREE).sum()} "
+             f"largest {100 * found.max():.2g} %; {meshes_words(pairs)}. With {cells} and {2 * cells} even cells everywhere it is {(first <= AGREE).sum()} "
              f"(single runs: {(alone <= AGREE).sum()})")
     if resolved.any():
         words += (f"; where l_c is {CELLS_RESOLVED} cells of {cells} or more, and {END_CELLS} or more from L, "
                   f"{(first[resolved] <= AGREE).sum()} of {resolved.sum()}, largest {100 * first[resolved].max():.2g} %")
     return words + ".\n"
+
+
+def jump_table(rows):
+    """mu_M (and l_c/L) against P, a column a mesh."""
+    mesh = lambda row: (row["mesh.set.nx"], row["mesh.set.grade_x"] > 1)  # noqa: E731
+    meshes = sorted({mesh(row) for row in rows})
+    found = {(row["load.pressure"], mesh(row)): f"{mu_of(row):.4f} ({row['l_c']:.4f})" for row in rows if row["status"] == "done"}
+    return table(["P", *(f"{cells:.0f}{' graded' if graded else ''}" for cells, graded in meshes)],
+                 [[f"{P:.4g}", *(found.get((P, at), "-") for at in meshes)] for P in sorted({row["load.pressure"] for row in rows})])
 
 
 def line_words(parts):
@@ -202,6 +222,13 @@ the highest branch of a run, less that trend.
 
 """
 
+JUMP = """
+### Where set B begins to slide before its last node lets go, L = 0.02
+
+mu_M (and l_c/L) of single runs on meshes of so many cells along the contact.
+
+"""
+
 EVEN = """
 ### The same points on {mesh} and twice as many even cells
 
@@ -247,6 +274,7 @@ def write(place, parts):
             "\nSet A:\n\n", parts["a"], "\n", parts["agreement_a"], "\nSet B:\n\n", parts["b"], "\n", parts["agreement_b"],
             "\nThe paper: mu_M falls as P or L grows, and becomes nearly constant at both ends.\n",
             EVEN.format(mesh=parts["cells"]), "Set A:\n\n", parts["even_a"], "\nSet B:\n\n", parts["even_b"],
+            JUMP, parts["jump"],
             "\n## Figure 3a\n\n", picture("fig3a", "mu_M against l_c"), LINE, parts["line"], parts["words"],
             "\n## Figures 3b and 3c\n\n", picture("fig3b", "p over P"), picture("fig3c", "tau over p"), parts["profile"],
             CRITICAL, picture("critical-a", "critical lengths, set A"), picture("critical-b", "critical lengths, set B"),

@@ -174,6 +174,7 @@ def main():
     parser.add_argument("--fresh", action="store_true", help="compute again what an earlier call (of another build) left")
     place, parts = Place(parser.parse_args()), {}
     dynamic = pressure_parts(place, parts)
+    parts["jump"] = "(left out: quick)\n" if place.quick else report.jump_table(place.sweep("jump"))
     line_and_profiles(place, parts)
     velocity_parts(place, parts)
     critical_parts(place, parts, dynamic)
