@@ -166,15 +166,18 @@ class Refinement(InFolder):
         return windows.Window([Windows.row(P * f, mu * (1 + s * scatter), l_c=l_c) for f, s in zip(factors, signs)])
 
     def test_settled(self):
-        """Agreement counts where l_c has 8 cells: 40 even ones, or of 80 graded ones as long as those at the end."""
+        """Agreement counts where l_c has 8 cells, of 40 or as long as the end ones of 80 graded; and ends 2 short of L, or at mu_S."""
         pair = lambda mu, l_c, cells=40, grade=1: refinement.Pair(  # noqa: E731
             self.window(1, 0.3, l_c), self.window(1, mu, l_c), cells, grade)
-        self.assertTrue(pair(0.302, 0.21).settled())
-        self.assertFalse(pair(0.302, 0.19).settled())
-        self.assertFalse(pair(0.304, 0.21).settled())
-        self.assertTrue(pair(0.302, float("nan")).settled())
-        self.assertTrue(pair(0.302, 0.05, 80, 3).settled())
-        self.assertFalse(pair(0.302, 0.046, 80, 3).settled())
+        self.assertTrue(pair(0.302, 0.21).settled(0.38))
+        self.assertFalse(pair(0.302, 0.19).settled(0.38))
+        self.assertFalse(pair(0.304, 0.21).settled(0.38))
+        self.assertTrue(pair(0.302, float("nan")).settled(0.38))
+        self.assertFalse(pair(0.302, 0.96).settled(0.38))
+        self.assertTrue(pair(0.302, 0.96).settled(0.305))
+        self.assertTrue(pair(0.302, 0.96, 80, 3).settled(0.38))
+        self.assertTrue(pair(0.302, 0.05, 80, 3).settled(0.38))
+        self.assertFalse(pair(0.302, 0.046, 80, 3).settled(0.38))
 
     def test_error_of_a_mean(self):
         window = self.window(1, 0.3, 0.5, scatter=0.01, runs=3)
@@ -215,23 +218,28 @@ class Refinement(InFolder):
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertEqual(done.stderr.count("nowhere"), 2, done.stderr)
 
-    def test_cells_at_the_end(self):
-        """The length of the first cell of a graded mesh, by the mesh itself."""
-        for cells in refinement.FINER[:2]:
-            words = [word for setting in refinement.settings(cells, refinement.GRADE_X) for word in ("--set", setting)]
-            done = subprocess.run([PROGRAM, "run", PAPER / "fig1.yaml", "-q", "-o", self.folder / str(cells), *words, "--set",
+    def test_cells_at_the_ends(self):
+        """The lengths of the first and the longest cell of graded meshes, by the mesh itself."""
+        for grade_x in (refinement.GRADED, refinement.STEEP):
+            words = [word for setting in refinement.settings(80, grade_x) for word in ("--set", setting)]
+            done = subprocess.run([PROGRAM, "run", PAPER / "fig1.yaml", "-q", "-o", self.folder / str(grade_x), *words, "--set",
                                    "mesh.set.nz=2", "--set", "time.until.U=1e-8", "--set", "output.figures=[]", "--set",
                                    "output.fields=none"], capture_output=True, text=True, timeout=500)
             self.assertEqual(done.returncode, 0, done.stderr)
-            with h5py.File(self.folder / str(cells) / "history.h5") as file:
-                x = file["nodes/x"][:]
-            self.assertAlmostEqual((x[1] - x[0]) * cells / refinement.FIRST_CELL, 1, delta=0.02)
-            self.assertAlmostEqual(np.diff(x).max() * cells / refinement.LONGEST_CELL, 1, delta=0.01)
+            with h5py.File(self.folder / str(grade_x) / "history.h5") as file:
+                cells = 80 * np.diff(file["nodes/x"][:])
+            self.assertAlmostEqual(cells[0] / refinement.FIRST_CELL[grade_x], 1, delta=0.05)
+            if grade_x == refinement.GRADED:
+                self.assertAlmostEqual(cells.max() / refinement.LONGEST_CELL, 1, delta=0.01)
 
     def test_grade(self):
         """By hand, 160 graded cells with 0.00875 L the longest: viscosity holds 6.8e-4/(0.28 P L) in A, 7.8e-7/(P L) in B."""
-        self.assertEqual([refinement.grade(theory.A, 4, P) for P in (0.0464, 0.069, 0.07, 0.1)], [3, 3, 1, 1])
-        self.assertEqual([refinement.grade(theory.B, 0.08, P) for P in (1e-4, 1e-3, 1.2e-3)], [3, 3, 1])
+        def graded(material, length, P, l_c=0.1):
+            rows = [Windows.row(P, 0.3, length=length, l_c=l_c)]
+            return refinement.grade(material, refinement.Pair(windows.Window(rows), windows.Window(rows), 40))
+        self.assertEqual([graded(theory.A, 4, P) for P in (0.0464, 0.069, 0.07, 0.1)], [3, 3, 1, 1])
+        self.assertEqual([graded(theory.B, 0.08, P) for P in (1e-4, 1e-3, 1.2e-3)], [3, 3, 1])
+        self.assertEqual(graded(theory.B, 0.02, 2e-5, 0.96), 100)
 
 
 class Studies(InFolder):

@@ -7,6 +7,7 @@ import numpy as np
 import fronts
 import theory
 from interface import History, peak_made_of, same
+from refinement import NAMES
 from windows import AGREE, CELLS_RESOLVED, END_CELLS, branch_words, mu_of, reason
 
 
@@ -54,7 +55,7 @@ def pair_table(pairs):
 
 
 def mesh_name(pair):
-    return f"{pair.cells}{' graded' if pair.grade > 1 else ''}"
+    return f"{pair.cells} {NAMES[pair.grade]}".strip()
 
 
 def meshes_words(pairs):
@@ -76,15 +77,6 @@ def agreement_words(pairs, even):
         words += (f"; where l_c is {CELLS_RESOLVED} cells of {cells} or more, and {END_CELLS} or more from L, "
                   f"{(first[resolved] <= AGREE).sum()} of {resolved.sum()}, largest {100 * first[resolved].max():.2g} %")
     return words + ".\n"
-
-
-def jump_table(rows):
-    """mu_M (and l_c/L) against P, a column a mesh."""
-    mesh = lambda row: (row["mesh.set.nx"], row["mesh.set.grade_x"] > 1)  # noqa: E731
-    meshes = sorted({mesh(row) for row in rows})
-    found = {(row["load.pressure"], mesh(row)): f"{mu_of(row):.4f} ({row['l_c']:.4f})" for row in rows if row["status"] == "done"}
-    return table(["P", *(f"{cells:.0f}{' graded' if graded else ''}" for cells, graded in meshes)],
-                 [[f"{P:.4g}", *(found.get((P, at), "-") for at in meshes)] for P in sorted({row["load.pressure"] for row in rows})])
 
 
 def line_words(parts):
@@ -213,19 +205,14 @@ for the steady F_T/F_N of slow sliding.
 ## Figures 2a and 2b: mu_M against pressure
 
 Each point is computed on N and 2N cells along the contact. N is 40, even, or where these two meshes are more than 1 % apart or l_c
-is less than 8 cells of N, 80 or else 160, graded to both ends and to the contact; the marks are of 2N, the dashed lines of N.
+is less than 8 cells of N, or sliding waits for the last two nodes to let go, 80 or else 160. Those have 40 rows and are graded to
+the contact and to both its ends (graded: three to one; steep: a hundred to one, for the last nodes). The marks are of 2N, the
+dashed lines of N.
 
 Sliding starts with one of a row of bursts, and the slip front then stands at a node, so that a single run's mu_M is a staircase in
 P with steps that lie elsewhere on each mesh. So a point is the mean of three to five runs at pressures within 13 % of P, of one
 where runs scatter by less than 0.25 %. Scatter is what a run departs from the window's trend; bars reach from the lowest to
 the highest branch of a run, less that trend.
-
-"""
-
-JUMP = """
-### Where set B begins to slide before its last node lets go, L = 0.02
-
-mu_M (and l_c/L) of single runs on meshes of so many cells along the contact.
 
 """
 
@@ -274,7 +261,6 @@ def write(place, parts):
             "\nSet A:\n\n", parts["a"], "\n", parts["agreement_a"], "\nSet B:\n\n", parts["b"], "\n", parts["agreement_b"],
             "\nThe paper: mu_M falls as P or L grows, and becomes nearly constant at both ends.\n",
             EVEN.format(mesh=parts["cells"]), "Set A:\n\n", parts["even_a"], "\nSet B:\n\n", parts["even_b"],
-            JUMP, parts["jump"],
             "\n## Figure 3a\n\n", picture("fig3a", "mu_M against l_c"), LINE, parts["line"], parts["words"],
             "\n## Figures 3b and 3c\n\n", picture("fig3b", "p over P"), picture("fig3c", "tau over p"), parts["profile"],
             CRITICAL, picture("critical-a", "critical lengths, set A"), picture("critical-b", "critical lengths, set B"),

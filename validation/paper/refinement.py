@@ -8,26 +8,32 @@ import json
 
 import numpy as np
 
-from windows import AGREE, CELLS_RESOLVED, Window, difference
+from windows import AGREE, CELLS_RESOLVED, END_CELLS, Window, difference
 
 EVEN = 40
 FINER = (80, 160, 320)
-GRADE_Z = {80: 3, 160: 8, 320: 24}       # of 40 rows: the lowest is as high as a graded mesh's first cell is long
-GRADE_X = 3                              # the middle cell over the end's
-FIRST_CELL, LONGEST_CELL = 0.48, 1.4     # of such a mesh, over L/N
+GRADED, STEEP = 3, 100                   # the middle cell over the end's; STEEP where the last nodes decide
+NAMES = {1: "", GRADED: "graded", STEEP: "steep"}
+FIRST_CELL = {1: 1, GRADED: 0.48, STEEP: 0.032}     # the end's, over L/N
+LONGEST_CELL = 1.4                       # of GRADED, over L/N
+LOWEST_ROW = {GRADED: {80: 3, 160: 8, 320: 24}, STEEP: {80: 60, 160: 120, 320: 240}}    # grade_z: about as high as the end's cell
+AT_STATIC = 0.98                         # mu_M over mu_S where the whole contact is about to slip
 STEADY = AGREE / 4                       # runs of a window that scatter less, relative: one of them will do
 
 
-def grade(material, length, pressure):
+def grade(material, pair):
     """Of a point's finer meshes. Cells must be no longer, wherever slip runs, than the length that viscosity holds weakening
     on, (eta1 + eta2) v_c / ((mu_S - mu_K) P); where that leaves none to spare, they are even."""
     drop = material.mu_static - material.mu_kinetic
-    held = material.eta_t * material.critical_velocity / (drop * pressure * length)
-    return GRADE_X if LONGEST_CELL / FINER[1] <= held else 1
+    held = material.eta_t * material.critical_velocity / (drop * pair.P * pair.length)
+    if LONGEST_CELL / FINER[1] > held:
+        return 1
+    return STEEP if pair.waits(material.mu_static) else GRADED
 
 
 def settings(cells, grade_x):
-    return [f"mesh.set.nx={cells}", "mesh.set.nz=40", f"mesh.set.grade_x={grade_x}", f"mesh.set.grade_z={GRADE_Z[cells]}",
+    grade_z = LOWEST_ROW[STEEP if grade_x == STEEP else GRADED][cells]
+    return [f"mesh.set.nx={cells}", "mesh.set.nz=40", f"mesh.set.grade_x={grade_x}", f"mesh.set.grade_z={grade_z}",
             "reduction.use=always"]
 
 
@@ -43,15 +49,19 @@ class Pair:
 
     def cells_in_front(self):
         """l_c in cells of N, as long as those where slip sets out."""
-        return self.coarse.l_c * self.cells / (FIRST_CELL if self.grade > 1 else 1)
+        return self.coarse.l_c * self.cells / FIRST_CELL[self.grade]
 
     def agrees(self):
         return abs(self.difference()) <= AGREE
 
-    def settled(self):
+    def waits(self, mu_static):
+        """Sliding waits for the last nodes to let go, and not because all of the contact holds mu_S: finer cells let go sooner."""
+        left = (1 - self.coarse.l_c) * self.cells / FIRST_CELL[self.grade]
+        return left < END_CELLS and self.fine.mu < AT_STATIC * mu_static
+
+    def settled(self, mu_static):
         """Where slip is slow there is no l_c: agreement is enough."""
-        front = self.cells_in_front()
-        return self.agrees() and (not np.isfinite(front) or front >= CELLS_RESOLVED)
+        return self.agrees() and not (self.cells_in_front() < CELLS_RESOLVED or self.waits(mu_static))
 
     def scatter(self):
         """Per cent, of a single run on the finer mesh."""
@@ -86,9 +96,9 @@ def nearest(window, at):
 def refine(pairs, material, compute):
     """`pairs`, in place of those not settled finer ones. compute(cells, grade_x, points): windows of runs at (length, pressure)."""
     pairs = list(pairs)
-    for grade_x in (GRADE_X, 1):
-        coarse = {k: pair.coarse for k, pair in enumerate(pairs)
-                  if not pair.settled() and grade(material, pair.length, pair.P) == grade_x}
+    wanted = {k: grade(material, pair) for k, pair in enumerate(pairs) if not pair.settled(material.mu_static)}
+    for grade_x in (STEEP, GRADED, 1):
+        coarse = {k: pairs[k].coarse for k in wanted if wanted[k] == grade_x}
         for cells in FINER:
             if not coarse:
                 break
@@ -98,6 +108,6 @@ def refine(pairs, material, compute):
                 for k, window in fine.items():
                     like = coarse[k] if len(window.rows) == len(coarse[k].rows) else Window([coarse[k].centre])
                     pairs[k] = Pair(like, window, cells // 2, grade_x)
-                fine = {k: window for k, window in fine.items() if not pairs[k].settled()}
+                fine = {k: window for k, window in fine.items() if not pairs[k].settled(material.mu_static)}
             coarse = fine
     return pairs

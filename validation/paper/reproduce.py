@@ -105,7 +105,7 @@ def without_nan(value):
 def finer(place, name):
     """compute(cells, grade_x, points) for refinement.refine: a study of those points is written, and swept."""
     def compute(cells, grade_x, points):
-        label = f"{name}-{cells}-{'graded' if grade_x > 1 else 'even'}"
+        label = f"{name}-{cells}-{refinement.NAMES[grade_x] or 'even'}"
         study = place.folder / f"{label}.yaml"
         study.write_text(refinement.study_text((HERE / f"{name}.yaml").read_text(), HERE, points))
         return windows(place.sweep(name, label, refinement.settings(cells, grade_x), study))
@@ -174,7 +174,6 @@ def main():
     parser.add_argument("--fresh", action="store_true", help="compute again what an earlier call (of another build) left")
     place, parts = Place(parser.parse_args()), {}
     dynamic = pressure_parts(place, parts)
-    parts["jump"] = "(left out: quick)\n" if place.quick else report.jump_table(place.sweep("jump"))
     line_and_profiles(place, parts)
     velocity_parts(place, parts)
     critical_parts(place, parts, dynamic)
