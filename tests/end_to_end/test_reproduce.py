@@ -207,7 +207,6 @@ class Refinement(InFolder):
         self.assertEqual(asked[0][1], [1.774, 2.0, 2.255, 3.548, 4.0, 4.51, 7.095, 8.0, 9.02])
         self.assertEqual(asked[2][1], [4.0, 7.095, 8.0, 9.02])
         for pair in found:
-            self.assertEqual(len(pair.coarse.rows), len(pair.fine.rows))
             self.assertAlmostEqual(pair.coarse.mu, mu(round(pair.P), pair.cells), places=3)
 
     def test_study_of_points(self):

@@ -47,10 +47,10 @@ def even_table(pairs):
 
 def pair_table(pairs):
     """What the figures show: each point on its own pair of meshes."""
-    return table(["L", "P", "N", "l_c/L", "l_c, cells of N", "runs", "mu_M, N", "mu_M, 2N", "difference, %", "a run's scatter, %",
+    return table(["L", "P", "N", "l_c/L", "l_c, cells of N", "runs, N and 2N", "mu_M, N", "mu_M, 2N", "difference, %", "a run's scatter, %",
                   "standard error, %", "branches (peaks), 2N", "period"],
                  [(pair.length, pair.P, mesh_name(pair), pair.fine.l_c, pair.cells_in_front(),
-                   len(pair.fine.rows), pair.coarse.mu, pair.fine.mu, 100 * pair.difference(), pair.scatter(), pair.error(),
+                   f"{len(pair.coarse.rows)}, {len(pair.fine.rows)}", pair.coarse.mu, pair.fine.mu, 100 * pair.difference(), pair.scatter(), pair.error(),
                    branch_words(pair.fine), regime(pair.fine.centre)) for pair in pairs])
 
 

@@ -8,7 +8,7 @@ import json
 
 import numpy as np
 
-from windows import AGREE, CELLS_RESOLVED, END_CELLS, Window, difference
+from windows import AGREE, CELLS_RESOLVED, END_CELLS, difference
 
 EVEN = 40
 FINER = (80, 160, 320)
@@ -64,11 +64,11 @@ class Pair:
         return self.agrees() and not (self.cells_in_front() < CELLS_RESOLVED or self.waits(mu_static))
 
     def scatter(self):
-        """Per cent, of a single run on the finer mesh."""
-        return 100 * self.fine.scatter / self.fine.mu
+        """Per cent, of a single run on either mesh."""
+        return 100 * max(window.scatter / window.mu for window in (self.coarse, self.fine))
 
     def error(self):
-        """Per cent: standard error of the finer window's mean, from its runs' scatter."""
+        """Per cent: standard error of the finer window's mean, from that scatter."""
         return self.scatter() / np.sqrt(len(self.fine.rows))
 
 
@@ -106,8 +106,7 @@ def refine(pairs, material, compute):
             fine = {nearest(window, coarse): window for window in compute(cells, grade_x, points)}
             if cells > FINER[0]:
                 for k, window in fine.items():
-                    like = coarse[k] if len(window.rows) == len(coarse[k].rows) else Window([coarse[k].centre])
-                    pairs[k] = Pair(like, window, cells // 2, grade_x)
+                    pairs[k] = Pair(coarse[k], window, cells // 2, grade_x)
                 fine = {k: window for k, window in fine.items() if not pairs[k].settled(material.mu_static)}
             coarse = fine
     return pairs
