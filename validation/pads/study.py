@@ -49,13 +49,13 @@ class Point:
 
     def average(self):
         """Mean of the falls, with its standard error where they do not repeat."""
-        if self.mean is None or self.period:
+        if self.mean_error is None or self.period:
             return self.mean
         return f"{self.mean:.3f} ± {self.mean_error:.3f}" + ("" if self.enough else ", too few")
 
     def low_end(self):
         """mu to trust, with its standard error where falls do not repeat."""
-        if self.trusted is None or self.period:
+        if self.trusted_error is None or self.period:
             return self.trusted
         return f"{self.trusted:.3f} ± {self.trusted_error:.3f}"
 
@@ -141,7 +141,7 @@ def study_count(study, name, points, plain, pressures, title):
     content, rows = [], []
     for color, P in enumerate(pressures, start=1):
         here, whole = of_pressure(points, P), of_pressure(plain, P)[0]
-        open_ones = [p for p in here if not p.period]
+        open_ones = [p for p in here if not p.period and p.mean_error is not None]
         content += [curve(f"~{{P}} = {stress(P)}", here, lambda p: p.n, color),
                     level(whole.trusted, [0.6, 12.4], color)]
         if open_ones:
@@ -364,8 +364,11 @@ def change(value, error, base):
 
 def study_check(study, points, name):
     """Tables of what one change does; points: those as computed among them."""
-    looks = (("mu to trust", lambda p: (p.trusted, "" if p.period else f" ± {p.trusted_error:.4f}")),
-             ("mean of falls", lambda p: (p.mean, "" if p.period else f" ± {p.mean_error:.4f}")),
+    def bound(p, error):
+        return "" if p.period or error is None else f" ± {error:.4f}"
+
+    looks = (("mu to trust", lambda p: (p.trusted, bound(p, p.trusted_error))),
+             ("mean of falls", lambda p: (p.mean, bound(p, p.mean_error))),
              ("mu_M", lambda p: (p.mu, "")))
     cases = [c for c in CASES if any(case_of(p) == c for p in points)]
     changed = {(p.P, p.n) for p in points if case_of(p) != "as computed"}
