@@ -16,7 +16,7 @@ GRADED, STEEP = 3, 100                   # the middle cell over the end's; STEEP
 NAMES = {1: "", GRADED: "graded", STEEP: "steep"}
 FIRST_CELL = {1: 1, GRADED: 0.48, STEEP: 0.032}     # the end's, over L/N
 LONGEST_CELL = 1.4                       # of GRADED, over L/N
-LOWEST_ROW = {GRADED: {80: 3, 160: 8, 320: 24}, STEEP: {80: 60, 160: 120, 320: 240}}    # grade_z: about as high as the end's cell
+LOWEST_ROW = {1: {80: 1, 160: 4, 320: 12}, GRADED: {80: 3, 160: 8, 320: 24}, STEEP: {80: 60, 160: 120, 320: 240}}   # grade_z
 AT_STATIC = 0.98                         # mu_M over mu_S where the whole contact is about to slip
 STEADY = AGREE / 4                       # runs of a window that scatter less, relative: one of them will do
 
@@ -32,8 +32,8 @@ def grade(material, pair):
 
 
 def settings(cells, grade_x):
-    grade_z = LOWEST_ROW[STEEP if grade_x == STEEP else GRADED][cells]
-    return [f"mesh.set.nx={cells}", "mesh.set.nz=40", f"mesh.set.grade_x={grade_x}", f"mesh.set.grade_z={grade_z}",
+    """The lowest row is about as high as the end's cell is long; where that is very short, as high as is enough."""
+    return [f"mesh.set.nx={cells}", "mesh.set.nz=40", f"mesh.set.grade_x={grade_x}", f"mesh.set.grade_z={LOWEST_ROW[grade_x][cells]}",
             "reduction.use=always"]
 
 
