@@ -69,7 +69,7 @@ bool certificate_swings_less(Certificate *certificate, const State *state,
 
 // Weakening over what the block bears at s = 1/(gamma dt), the pressure that follows slip included:
 // the largest eigenvalue of ((S_t + sign(v) mu S_n)[F,F])^-1 W, by powers of it. 1: s is a real
-// growth rate. INFINITY where powers do not settle.
+// growth rate. Where powers do not settle a bound from above, INFINITY where S is singular.
 double certificate_load(Certificate *certificate, const State *state,
                         const InterfaceOperator *rung);
 
