@@ -173,9 +173,12 @@ bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *fini
         TRY(step_control_advance(control, remaining, err));
     simulation->timing.solve += clock_seconds() - started;
     TRY(record_step(simulation, err));
+    bool implicit = simulation->scene.time.scheme != SCHEME_EXPLICIT;
+    if (implicit)
+        TRY(pace_check(&simulation->pace, control->counters.accepted, control->now.time,
+                       simulation->t_end, err));
     // What is left is less than a rung that is built: not worth a factorisation.
     remaining = simulation->t_end - control->now.time;
-    bool implicit = simulation->scene.time.scheme != SCHEME_EXPLICIT;
     *finished = remaining <= 1e-9 * simulation->t_end ||
                 (implicit && !step_control_fits(control, remaining));
     if (simulation->scene.time.until_periodic && simulation->events.ended)

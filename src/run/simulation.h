@@ -8,6 +8,7 @@
 #include "run/falls.h"
 #include "run/fields.h"
 #include "run/history.h"
+#include "run/pace.h"
 #include "run/recorder.h"
 #include "run/report.h"
 #include "run/scene.h"
@@ -31,6 +32,7 @@ struct Simulation {
     BulkOperator system;
     Rod rod;
     StepControl control;
+    Pace pace;
     ExplicitReference explicit_reference;   // empty under another scheme
     int64_t explicit_steps;   // of it in a recording interval
     ObservationScales scales;
