@@ -219,3 +219,12 @@ bool certificate_step_resolves(Certificate *certificate, const State *state,
     certificate->seconds += clock_seconds() - started;
     return resolves;
 }
+
+bool certificate_no_single_rate(Certificate *certificate, const State *state,
+                                const InterfaceOperator *rung)
+{
+    double started = clock_seconds();
+    bool none = coupled_is_positive(certificate, state, interface_operator_schur(rung));
+    certificate->seconds += clock_seconds() - started;
+    return none;
+}

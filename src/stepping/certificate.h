@@ -58,9 +58,15 @@ void certificate_destroy(Certificate *certificate);
 // The slip set of `state` cannot gain energy.
 bool certificate_holds(Certificate *certificate, const State *state);
 
-// Nothing grows faster than 1/(gamma dt), dt that of `rung`.
+// Nothing grows faster than 1/(gamma dt), dt that of `rung`; where pressure follows slip no single
+// rate does, either test being enough.
 bool certificate_step_resolves(Certificate *certificate, const State *state,
                                const InterfaceOperator *rung);
+
+// The same by det J > 0 alone. A corner that carries a pad may weaken faster than it bears only as
+// pressure follows its slip, at a rate far above 1/(gamma dt) where S - W is definite already.
+bool certificate_no_single_rate(Certificate *certificate, const State *state,
+                                const InterfaceOperator *rung);
 
 // A disturbance that swings grows by less than `growth` > 1 in half a period. To be asked on all
 // rungs that are built.
