@@ -29,8 +29,9 @@
 //     J(s) = S_t + sign(v) mu S_n - W,
 //
 // are singular exactly at real growth rates, and det J > 0 for s to infinity, where M decides. So
-// where the second test fails, det J > 0 still clears the step: no single rate lies above s. (With
-// mu_S = 1.2 slip is steady for long while S - W is indefinite.) Called by stepping/step_control.
+// where the second test fails, det J > 0 still clears the step: no single rate lies above s; where
+// it holds, det J < 0 tells of one that only pressure gives. (With mu_S = 1.2 slip is steady for
+// long while S - W is indefinite.) Called by stepping/step_control.
 #ifndef AMONTONS_STEPPING_CERTIFICATE_H
 #define AMONTONS_STEPPING_CERTIFICATE_H
 

@@ -167,8 +167,8 @@ static bool resolves_waves(const StepControl *control, int32_t k)
     return ladder_step(&control->ladder, k) <= control->def.wave_step * (1 + 1e-12);
 }
 
-// Where longer steps have been refused over and over while slip stays what it is, the step itself
-// may be hiding a growth far above its rate, which would have changed it: then both tests are asked.
+// Where longer steps have been refused over and over while slip stays what it is, the step may be
+// hiding a growth far above its rate, which would have changed it: then both tests are asked.
 static bool growth_is_resolved(StepControl *control, int32_t k)
 {
     const InterfaceOperator *rung = control->ladder.rung[k];
