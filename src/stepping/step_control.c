@@ -168,14 +168,13 @@ static bool resolves_waves(const StepControl *control, int32_t k)
 }
 
 // Where longer steps have been refused over and over while slip stays what it is, the step may be
-// hiding a growth far above its rate, which would have changed it: then both tests are asked.
+// hiding a growth far above its rate, which would have changed it: then det J > 0 alone counts.
 static bool growth_is_resolved(StepControl *control, int32_t k)
 {
     const InterfaceOperator *rung = control->ladder.rung[k];
-    Certificate *certificate = &control->certificate;
-    if (!certificate_step_resolves(certificate, &control->next, rung)) return false;
-    bool refused_for_long = control->hold >= HOLD_MAX;
-    return !refused_for_long || certificate_no_single_rate(certificate, &control->next, rung);
+    if (control->hold >= HOLD_MAX)
+        return certificate_no_single_rate(&control->certificate, &control->next, rung);
+    return certificate_step_resolves(&control->certificate, &control->next, rung);
 }
 
 // Cheapest first. *certified: of the state the step leads to; true, without a look, where the

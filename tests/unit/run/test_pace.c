@@ -8,12 +8,20 @@
 
 #include <cmocka.h>
 
-// `count` steps of dt each, from where `pace` and *steps, *time stand; whether all were borne.
-static bool go_on(Pace *pace, int64_t count, double dt, int64_t *steps, double *time, Error *err)
+// A run to t = 1000, as far as it has come.
+typedef struct Run {
+    Pace pace;
+    int64_t steps;
+    double time;
+    Error err;
+} Run;
+
+// `count` steps of dt each; whether all were borne.
+static bool go_on(Run *run, int64_t count, double dt)
 {
     for (int64_t k = 0; k < count; k++) {
-        *time += dt;
-        if (!pace_check(pace, ++*steps, *time, 1000, err)) return false;
+        run->time += dt;
+        if (!pace_check(&run->pace, ++run->steps, run->time, 1000, &run->err)) return false;
     }
     return true;
 }
@@ -22,40 +30,31 @@ static bool go_on(Pace *pace, int64_t count, double dt, int64_t *steps, double *
 static void short_steps_that_end_are_borne(void **state)
 {
     (void)state;
-    Pace pace = {0};
-    Error err = {0};
-    int64_t steps = 0;
-    double time = 0;
-    assert_true(go_on(&pace, PACE_STEPS / 2, 1e-2, &steps, &time, &err));
-    assert_true(go_on(&pace, PACE_STEPS - 10, 1e-9, &steps, &time, &err));
-    assert_true(go_on(&pace, PACE_STEPS, 1e-2, &steps, &time, &err));
+    Run run = {0};
+    assert_true(go_on(&run, PACE_STEPS / 2, 1e-2));
+    assert_true(go_on(&run, PACE_STEPS - 10, 1e-9));
+    assert_true(go_on(&run, PACE_STEPS, 1e-2));
 }
 
 // 1000 away at 1e-6: 1e9 steps; refused at the first look after a whole row of them.
 static void a_standstill_is_refused(void **state)
 {
     (void)state;
-    Pace pace = {0};
-    Error err = {0};
-    int64_t steps = 0;
-    double time = 0;
-    assert_true(go_on(&pace, PACE_STEPS / 2, 1e-2, &steps, &time, &err));
-    assert_false(go_on(&pace, 3 * PACE_STEPS, 1e-6, &steps, &time, &err));
-    assert_in_range(steps, PACE_STEPS, 2 * PACE_STEPS);
-    assert_int_equal(err.code, ERROR_COMPUTE);
-    assert_non_null(strstr(err.message, "steps of 1e-06"));
-    assert_non_null(strstr(err.message, "9.0e+08"));
+    Run run = {0};
+    assert_true(go_on(&run, PACE_STEPS / 2, 1e-2));
+    assert_false(go_on(&run, 3 * PACE_STEPS, 1e-6));
+    assert_in_range(run.steps, PACE_STEPS, 2 * PACE_STEPS);
+    assert_int_equal(run.err.code, ERROR_COMPUTE);
+    assert_non_null(strstr(run.err.message, "steps of 1e-06"));
+    assert_non_null(strstr(run.err.message, "9.0e+08"));
 }
 
 // 1e7 steps to go are long, and no reason to refuse.
 static void long_runs_are_borne(void **state)
 {
     (void)state;
-    Pace pace = {0};
-    Error err = {0};
-    int64_t steps = 0;
-    double time = 0;
-    assert_true(go_on(&pace, 2 * PACE_STEPS, 1e-4, &steps, &time, &err));
+    Run run = {0};
+    assert_true(go_on(&run, 2 * PACE_STEPS, 1e-4));
 }
 
 int main(void)

@@ -3,7 +3,7 @@
 // against the closed form where a single node slips.
 #include "stepping/certificate.h"
 
-#include "block_rig.h"
+#include "certificate_rig.h"
 
 typedef struct Fixture {
     BlockRig rig;
@@ -151,24 +151,16 @@ static void test_no_viscosity(void **state)
     Error err = {0};
     RigDef def = rig_def();
     def.material.eta1 = def.material.eta2 = 0;
-    BlockRig rig;
-    Certificate certificate;
-    State seen;
-    Ladder ladder;
-    rig_build(&def, &rig);
-    assert_true(certificate_create(&rig.block, &certificate, &err));
-    assert_true(state_create(&rig.system, &rig.interface, &seen, &err));
-    assert_true(certificate_holds(&certificate, &seen));   // all stick
-    seen.status[2] = CONTACT_SLIP_FORWARD;
-    seen.slip_rate[interface_tangent(2)] = 1e-6;
-    seen.reaction[interface_normal(2)] = 1e-9;
-    assert_false(certificate_holds(&certificate, &seen));
-    ladder_init(&rig.system, 0.1, 0.05, &ladder);
-    assert_true(certificate_step_resolves(&certificate, &seen, ladder_rung(&ladder, 0, &err)));
-    ladder_destroy(&ladder);
-    state_destroy(&seen);
-    certificate_destroy(&certificate);
-    rig_destroy(&rig);
+    CertificateRig on;
+    certificate_rig_build(&def, 0.1, 0.05, &on);
+    assert_true(certificate_holds(&on.certificate, &on.seen));   // all stick
+    on.seen.status[2] = CONTACT_SLIP_FORWARD;
+    on.seen.slip_rate[interface_tangent(2)] = 1e-6;
+    on.seen.reaction[interface_normal(2)] = 1e-9;
+    assert_false(certificate_holds(&on.certificate, &on.seen));
+    assert_true(
+        certificate_step_resolves(&on.certificate, &on.seen, ladder_rung(&on.ladder, 0, &err)));
+    certificate_rig_destroy(&on);
 }
 
 int main(void)

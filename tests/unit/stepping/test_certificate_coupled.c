@@ -4,7 +4,7 @@
 // moves.
 #include "stepping/certificate.h"
 
-#include "block_rig.h"
+#include "certificate_rig.h"
 
 enum { UNKNOWNS_MAX = 32 };
 
@@ -129,26 +129,20 @@ static void test_random_states(void **state)
     RigDef def = rig_def();
     def.law.mu_static = 1.2;   // large enough for pressure to matter
     def.law.mu_kinetic = 0.2;
-    BlockRig rig;
-    Certificate certificate;
-    State seen;
-    Ladder ladder;
-    rig_build(&def, &rig);
-    assert_true(certificate_create(&rig.block, &certificate, &err));
-    assert_true(state_create(&rig.system, &rig.interface, &seen, &err));
-    ladder_init(&rig.system, 1, 1e-2, &ladder);
+    CertificateRig on;
+    certificate_rig_build(&def, 1, 1e-2, &on);
     int32_t cleared = 0, refused = 0, definite = 0, hidden = 0;
     for (int32_t trial = 0; trial < 600; trial++) {
-        InterfaceOperator *rung = ladder_rung(&ladder, trial % ladder.rung_count, &err);
+        InterfaceOperator *rung = ladder_rung(&on.ladder, trial % on.ladder.rung_count, &err);
         const double *schur = interface_operator_schur(rung);
         // Weakening of the size of S's diagonal.
         double weak = schur[0] * def.law.critical_velocity * random_between(&random, 0.2, 4);
-        random_state(&random, &rig, weak, &seen);
-        Slip slip = {.rig = &rig, .seen = &seen, .schur = schur};
+        random_state(&random, &on.rig, weak, &on.seen);
+        Slip slip = {.rig = &on.rig, .seen = &on.seen, .schur = schur};
         list_moving(&slip);
-        bool resolves = certificate_step_resolves(&certificate, &seen, rung);
+        bool resolves = certificate_step_resolves(&on.certificate, &on.seen, rung);
         int sign = sign_by_differences(&slip);
-        if (certificate_no_single_rate(&certificate, &seen, rung) != (sign > 0))
+        if (certificate_no_single_rate(&on.certificate, &on.seen, rung) != (sign > 0))
             fail_msg("trial %d: no single rate, where the sign is %d", trial, sign);
         if (is_definite(&slip)) {
             assert_true(resolves);
@@ -164,10 +158,7 @@ static void test_random_states(void **state)
                   "coupled test, %d refused\n",
                   definite, hidden, cleared, refused);
     assert_true(definite > 50 && cleared > 50 && refused > 50);
-    ladder_destroy(&ladder);
-    state_destroy(&seen);
-    certificate_destroy(&certificate);
-    rig_destroy(&rig);
+    certificate_rig_destroy(&on);
 }
 
 // The sign of det(J + (1 - part) W): weakening taken at `part` of what it is.
@@ -198,23 +189,17 @@ static void test_load(void **state)
     Error err = {0};
     Random random = {.state = 5};
     RigDef def = rig_def();
-    BlockRig rig;
-    Certificate certificate;
-    State seen;
-    Ladder ladder;
-    rig_build(&def, &rig);
-    assert_true(certificate_create(&rig.block, &certificate, &err));
-    assert_true(state_create(&rig.system, &rig.interface, &seen, &err));
-    ladder_init(&rig.system, 1, 1e-2, &ladder);
+    CertificateRig on;
+    certificate_rig_build(&def, 1, 1e-2, &on);
     int32_t above = 0, below = 0;
     for (int32_t trial = 0; trial < 100; trial++) {
-        InterfaceOperator *rung = ladder_rung(&ladder, trial % ladder.rung_count, &err);
+        InterfaceOperator *rung = ladder_rung(&on.ladder, trial % on.ladder.rung_count, &err);
         const double *schur = interface_operator_schur(rung);
         double weak = schur[0] * def.law.critical_velocity * random_between(&random, 0.2, 12);
-        random_state(&random, &rig, weak, &seen);
-        Slip slip = {.rig = &rig, .seen = &seen, .schur = schur};
+        random_state(&random, &on.rig, weak, &on.seen);
+        Slip slip = {.rig = &on.rig, .seen = &on.seen, .schur = schur};
         list_moving(&slip);
-        double load = certificate_load(&certificate, &seen, rung);
+        double load = certificate_load(&on.certificate, &on.seen, rung);
         assert_true(isfinite(load) && load >= 0);
         if (load == 0) continue;
         assert_int_equal(sign_at(&slip, 0.999 / load), 1);
@@ -226,10 +211,7 @@ static void test_load(void **state)
     }
     print_message("load above 1: %d times, below: %d\n", above, below);
     assert_true(above > 20 && below > 20);
-    ladder_destroy(&ladder);
-    state_destroy(&seen);
-    certificate_destroy(&certificate);
-    rig_destroy(&rig);
+    certificate_rig_destroy(&on);
 }
 
 // All nodes slip, just below v_c, where mu_kinetic = 0 leaves no friction and S - W is symmetric.
@@ -266,20 +248,15 @@ static void test_load_of_nodes_alike(void **state)
     RigDef def = rig_def();
     def.law.mu_kinetic = 0;
     def.rod_width = 0;
-    BlockRig rig;
-    Certificate certificate;
-    State seen;
-    Ladder ladder;
-    rig_build(&def, &rig);
-    assert_true(certificate_create(&rig.block, &certificate, &err));
-    assert_true(state_create(&rig.system, &rig.interface, &seen, &err));
-    ladder_init(&rig.system, 1e-2, 1e-7, &ladder);
+    CertificateRig on;
+    certificate_rig_build(&def, 1e-2, 1e-7, &on);
     int32_t apart = 0;
-    for (int32_t k = 0; k < ladder.rung_count; k++) {
-        InterfaceOperator *rung = ladder_rung(&ladder, k, &err);
+    for (int32_t k = 0; k < on.ladder.rung_count; k++) {
+        InterfaceOperator *rung = ladder_rung(&on.ladder, k, &err);
         for (double spread = 1e-1; spread > 1e-5; spread /= 3) {
-            double largest = alike_state(&rig, interface_operator_schur(rung), 0.1, spread, &seen);
-            double load = certificate_load(&certificate, &seen, rung);
+            double largest =
+                alike_state(&on.rig, interface_operator_schur(rung), 0.1, spread, &on.seen);
+            double load = certificate_load(&on.certificate, &on.seen, rung);
             assert_true(load >= 0.999 * largest);
             if (!(load <= 1.08 * largest)) fail_msg("load %g, not %g", load, largest);
             apart += load > 1.01 * largest;
@@ -287,10 +264,7 @@ static void test_load_of_nodes_alike(void **state)
     }
     print_message("powers did not settle: %d times\n", apart);
     assert_true(apart > 5);
-    ladder_destroy(&ladder);
-    state_destroy(&seen);
-    certificate_destroy(&certificate);
-    rig_destroy(&rig);
+    certificate_rig_destroy(&on);
 }
 
 int main(void)
