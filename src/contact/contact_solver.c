@@ -15,7 +15,8 @@
 // The header says what the numbers rest on.
 ContactSolverDef contact_solver_def(void)
 {
-    return (ContactSolverDef){.iterations_all = 30, .iterations_one = 200, .tolerance = 1e-12};
+    return (ContactSolverDef){
+        .iterations_all = 30, .iterations_one = 200, .iterations_short = 40, .tolerance = 1e-12};
 }
 
 // Dense matrices of interface->count squared: for the interface's own size, whatever the mesh.
@@ -31,6 +32,7 @@ bool contact_solver_create(const Interface *interface, ContactSolverDef def, Con
     solver->step = NEW_ARRAY(double, count, err);
     solver->kept_free = NEW_ARRAY(int32_t, count, err);
     solver->kept_status = NEW_ARRAY(uint8_t, interface->contact_count + interface->rod_count, err);
+    solver->anchor = NEW_ARRAY(uint8_t, interface->contact_count + interface->rod_count, err);
     return error_is_clean(err) && contact_path_create(interface, &solver->path, err);
 }
 
@@ -43,6 +45,7 @@ void contact_solver_destroy(ContactSolver *solver)
     memory_free(solver->step);
     memory_free(solver->kept_free);
     memory_free(solver->kept_status);
+    memory_free(solver->anchor);
     *solver = (ContactSolver){0};
 }
 
@@ -339,20 +342,72 @@ static void free_reactions(const ContactProblem *problem, ContactSolution *solut
     }
 }
 
+// What a solve remembers of its own course.
+typedef struct Course {
+    int32_t iterations, limit;
+    bool change_all;
+    int32_t changes, anchored;   // status sets met; the one that solver->anchor holds
+    double least;   // residual with these statuses, over the scale of force
+    int32_t stalled;   // steps of Newton's own in a row that did not halve it
+    double before;   // residual of the step before, where its matrix was reused
+} Course;
+
+// Only the worst status is changed from here on.
+static void change_one(ContactSolver *solver, Course *course)
+{
+    if (!course->change_all) return;
+    course->change_all = false;
+    course->limit = course->iterations + (solver->follows_path ? solver->def.iterations_one
+                                                               : solver->def.iterations_short);
+    solver->fallbacks++;
+}
+
+static bool may_go_on(ContactSolver *solver, Course *course)
+{
+    if (course->iterations == course->limit) change_one(solver, course);
+    return course->iterations++ < course->limit;
+}
+
+// After statuses have changed. A set met before means that they go round in a cycle (Brent, BIT 20,
+// 1980: compared with one set kept, which is renewed at powers of two).
+static void note_statuses(ContactSolver *solver, const ContactProblem *problem,
+                          const ContactSolution *solution, Course *course)
+{
+    size_t contacts = (size_t)problem->interface->contact_count;
+    size_t rods = (size_t)problem->interface->rod_count;
+    course->least = INFINITY;
+    course->stalled = 0;
+    bool met = course->changes > 0 && memcmp(solver->anchor, solution->status, contacts) == 0 &&
+               memcmp(solver->anchor + contacts, solution->rod_touches, rods) == 0;
+    if (met) change_one(solver, course);
+    if (course->changes++ < 2 * course->anchored) return;
+    course->anchored = course->changes;
+    memcpy(solver->anchor, solution->status, contacts);
+    memcpy(solver->anchor + contacts, solution->rod_touches, rods);
+}
+
+// Newton's own steps no longer bring the equations of these statuses nearer: where friction weakens
+// they may have no solution (two that met and are gone).
+static bool has_stalled(Course *course, double residual)
+{
+    enum { STALLED_MAX = 4 };
+    course->stalled = residual > course->least / 2 ? course->stalled + 1 : 0;
+    course->least = fmin(course->least, residual);
+    return course->stalled >= STALLED_MAX;
+}
+
 // true: equations and all statuses hold, reactions of open nodes are 0 to the bit. false: `limit`
-// steps were not enough, a matrix was singular or a number not finite; *solution then has no
-// meaning.
+// steps were not enough, Newton stalled, a matrix was singular or a number not finite; *solution
+// then has no meaning.
 static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
                            ContactSolution *solution)
 {
     fix_rod_kind(problem, solution);
-    int32_t limit = solver->def.iterations_all + solver->def.iterations_one;
-    double before = INFINITY;   // residual of the step before, where the matrix was reused
+    Course course = {.limit = solver->def.iterations_all, .change_all = true, .before = INFINITY};
+    note_statuses(solver, problem, solution, &course);
     hold_unknowns(problem, solution);
     compute_reaction(problem, solution);
-    for (int32_t iteration = 0; iteration < limit; iteration++) {
-        bool change_all = iteration < solver->def.iterations_all;
-        if (iteration == solver->def.iterations_all) solver->fallbacks++;
+    while (may_go_on(solver, &course)) {
         int32_t free_count = list_free(problem, solution, solver->free);
         solver->iterations++;
         bool reused = false;
@@ -363,17 +418,19 @@ static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
         if (!isfinite(residual)) break;
         bool equations_hold = residual <= solver->def.tolerance * scales.force;
         // An old matrix that no longer brings a digit a step has had its time.
-        if (!equations_hold && reused && residual > 0.1 * before) solver->kept_schur = NULL;
-        before = reused ? residual : INFINITY;
+        if (!equations_hold && reused && residual > 0.1 * course.before) solver->kept_schur = NULL;
+        course.before = reused ? residual : INFINITY;
+        if (!equations_hold && !reused && has_stalled(&course, residual / scales.force)) break;
         // First solve for these statuses, where steps are not Newton's own or only one may change.
-        if (!equations_hold && (reused || !change_all)) continue;
-        Violation found = update_statuses(solver, problem, solution, scales, change_all);
+        if (!equations_hold && (reused || !course.change_all)) continue;
+        Violation found = update_statuses(solver, problem, solution, scales, course.change_all);
         if (found.broken == 0 && equations_hold) {
             stop_reversed(problem, solution);
             free_reactions(problem, solution);
             return true;
         }
         if (found.broken == 0) continue;
+        note_statuses(solver, problem, solution, &course);
         hold_unknowns(problem, solution);
         compute_reaction(problem, solution);
     }

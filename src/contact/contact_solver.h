@@ -23,6 +23,7 @@ typedef struct ContactSolverDef {
     int32_t iterations_all;   // Newton steps in which every broken status is changed: 30, some ten
         // times what a solvable problem was seen to need
     int32_t iterations_one;   // and then those that change only the worst: 200
+    int32_t iterations_short;   // the same where the caller has shorter steps: 40
     double tolerance;   // of residual forces, relative to the largest force: 1e-12, some 1e2
         // above what rounding leaves in S v - g
 } ContactSolverDef;
@@ -38,6 +39,7 @@ typedef struct ContactSolver {
     int32_t *kept_free;   // [count] unknowns `matrix` is factored for; owned
     uint8_t *kept_status;   // [contact_count + rod_count] statuses and touching rod nodes it is
         // factored for; owned
+    uint8_t *anchor;   // [contact_count + rod_count] work: statuses met before; owned
     int32_t kept_count;   // of kept_free
     const double *kept_schur;   // operator it is factored for; NULL: it holds no factors
     int64_t factorisations;   // counted

@@ -26,7 +26,7 @@ enum { HOLD_FIRST = 4, HOLD_MAX = 256 };
 // resolved: where slip first goes too far is closed in on by eighths.
 enum { UNCERTIFIED_DROP = 3 };
 // Steps in a row without a solution before the contact solver follows its path.
-enum { SHORTER_FIRST = 8 };
+enum { SHORTER_FIRST = 16 };
 
 // Part of v_c that swings may reach to be stepped over unseen. 0.01 keeps a rod at v_c/30, as in
 // the paper, out of it: with 0.03 the second peak of Figure 1's block moved by up to 1 %.
