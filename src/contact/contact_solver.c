@@ -350,6 +350,7 @@ typedef struct Course {
     double least;   // residual with these statuses, over the scale of force
     int32_t stalled;   // steps of Newton's own in a row that did not halve it
     double before;   // residual of the step before, where its matrix was reused
+    int32_t started;   // node set slipping alone, by the last change; -1: none
 } Course;
 
 // Only the worst status is changed from here on.
@@ -396,6 +397,36 @@ static bool has_stalled(Course *course, double residual)
     return course->stalled >= STALLED_MAX;
 }
 
+// After the only change of statuses. A node that slips now where it stuck is watched.
+static void note_start(const ContactProblem *problem, const ContactSolution *solution, int32_t node,
+                       Course *course)
+{
+    bool contact = node >= 0 && node < problem->interface->contact_count;
+    bool starts = contact && status_slips(solution->status[node]) &&
+                  solution->velocity[interface_tangent(node)] == 0;
+    course->started = starts ? node : -1;
+}
+
+// A node that is overloaded where it sticks, yet slips backwards by Newton's first step from there:
+// friction falls faster with its slip than the block resists, the others' statuses as they are.
+// Beyond the weakening lies what solves that. false: it is not so.
+static bool starts_fast(ContactSolver *solver, const ContactProblem *problem,
+                        ContactSolution *solution, Course *course)
+{
+    int32_t node = course->started;
+    course->started = -1;
+    if (node < 0) return false;
+    double *slip_rate = &solution->velocity[interface_tangent(node)];
+    double direction = status_direction(solution->status[node]);
+    if (*slip_rate * direction >= 0) return false;
+    *slip_rate = direction * friction_spent_speed(problem->law);
+    solver->kept_schur = NULL;
+    course->least = INFINITY;
+    course->stalled = 0;
+    compute_reaction(problem, solution);
+    return true;
+}
+
 // true: equations and all statuses hold, reactions of open nodes are 0 to the bit. false: `limit`
 // steps were not enough, Newton stalled, a matrix was singular or a number not finite; *solution
 // then has no meaning.
@@ -403,7 +434,7 @@ static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
                            ContactSolution *solution)
 {
     fix_rod_kind(problem, solution);
-    Course course = {.limit = solver->def.iterations_all, .change_all = true, .before = INFINITY};
+    Course course = {.limit = solver->def.iterations_all, .change_all = true, .before = INFINITY, .started = -1};
     note_statuses(solver, problem, solution, &course);
     hold_unknowns(problem, solution);
     compute_reaction(problem, solution);
@@ -413,6 +444,7 @@ static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
         bool reused = false;
         if (!newton_step(solver, problem, solution, free_count, &reused)) break;
         compute_reaction(problem, solution);
+        if (starts_fast(solver, problem, solution, &course)) continue;
         Scales scales = problem_scales(problem, solution);
         double residual = equations_residual(solver, problem, solution, free_count);
         if (!isfinite(residual)) break;
@@ -431,6 +463,7 @@ static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
         }
         if (found.broken == 0) continue;
         note_statuses(solver, problem, solution, &course);
+        if (!course.change_all) note_start(problem, solution, found.worst_node, &course);
         hold_unknowns(problem, solution);
         compute_reaction(problem, solution);
     }

@@ -60,6 +60,12 @@ bool friction_weakens(const FrictionLaw *law, double speed)
     return friction_slope(law, speed) < 0.0;
 }
 
+// Where exp(-5) is left of the drop, under 1 %, or none.
+double friction_spent_speed(const FrictionLaw *law)
+{
+    return law->critical_velocity * (law->kind == FRICTION_EXPONENTIAL_WEAKENING ? 5 : 1);
+}
+
 // Solves mu = mu_K + (mu_S - mu_K) phi for phi: 1 at rest, 0 from v_c on, and for the linear law
 // just the paper's 1 - |v|/v_c.
 double friction_contact_density(const FrictionLaw *law, double speed)

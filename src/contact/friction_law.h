@@ -38,6 +38,9 @@ double friction_slope(const FrictionLaw *law, double speed);
 // Still weakening at this speed: a faster slip meets less friction.
 bool friction_weakens(const FrictionLaw *law, double speed);
 
+// From about this speed on next to nothing weakens any more (linear law: nothing), velocity.
+double friction_spent_speed(const FrictionLaw *law);
+
 // phi = max(0, 1 - |v|/v_c), the density of real contacts that hold (the paper's Figure 1d); from
 // the coefficient for the other laws: (mu - mu_K) / (mu_S - mu_K), and 1 where nothing weakens.
 double friction_contact_density(const FrictionLaw *law, double speed);

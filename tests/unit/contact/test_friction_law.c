@@ -53,6 +53,12 @@ static void test_slopes(void **state)
     }
     FrictionLaw linear = law_of(FRICTION_LINEAR_WEAKENING);
     assert_near("beyond the kink", friction_slope(&linear, 0.05), 0, 0);
+    for (int k = 0; k < 3; k++) {   // at the spent speed 1 % of the drop is left, at most
+        FrictionLaw law = law_of(KINDS[k]);
+        double spent = friction_spent_speed(&law);
+        double left = friction_coefficient(&law, spent) - friction_coefficient(&law, 100 * spent);
+        assert_true(left <= 0.01 * (law.mu_static - law.mu_kinetic));
+    }
 }
 
 // phi = max(0, 1 - v/v_c), and mu = mu_K + (mu_S - mu_K) phi wherever something weakens.
