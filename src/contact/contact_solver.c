@@ -434,7 +434,8 @@ static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
                            ContactSolution *solution)
 {
     fix_rod_kind(problem, solution);
-    Course course = {.limit = solver->def.iterations_all, .change_all = true, .before = INFINITY, .started = -1};
+    Course course = {
+        .limit = solver->def.iterations_all, .change_all = true, .before = INFINITY, .started = -1};
     note_statuses(solver, problem, solution, &course);
     hold_unknowns(problem, solution);
     compute_reaction(problem, solution);

@@ -119,7 +119,8 @@ static void test_strong_weakening(void **state)
             ContactSolution solution = {hand.velocity, hand.reaction, hand.status,
                                         hand.rod_touches};
             ContactProblem problem = hand_problem(&hand);
-            assert_true(contact_solver_create(&hand.interface, contact_solver_def(), &solver, &err));
+            assert_true(
+                contact_solver_create(&hand.interface, contact_solver_def(), &solver, &err));
             solver.follows_path = false;
             assert_true(contact_solve(&solver, &problem, &solution));
             assert_true(solver.iterations <= 12);   // a cycle seen, two looked at alone
