@@ -126,6 +126,27 @@ bool dense_invert_factored(double *a, int32_t n)
     return info == 0;
 }
 
+// One rank-one update of all, then row and column k anew.
+bool dense_sweep(double *a, int32_t n, int32_t k, bool back, double *work)
+{
+    double *column = a + (int64_t)k * n, pivot = column[k];
+    if (pivot == 0) return false;
+    memcpy(work, column, (size_t)n * sizeof(double));
+    cblas_dger(CblasColMajor, n, n, -1 / pivot, work, 1, work, 1, a, n);
+    for (int64_t i = 0; i < n; i++) {
+        double entry = (back ? -work[i] : work[i]) / pivot;
+        column[i] = entry;
+        a[i * n + k] = entry;
+    }
+    column[k] = -1 / pivot;
+    return true;
+}
+
+void dense_add_scaled(double factor, const double *x, int32_t n, double *y)
+{
+    if (n > 0) cblas_daxpy(n, factor, x, 1, y, 1);
+}
+
 // Two triangular solves, from the left and from the right; turns a x = lambda L L' x into a
 // symmetric problem of its own.
 void dense_divide_both_sides(const double *lower, int32_t n, double *a)

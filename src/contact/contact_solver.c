@@ -30,19 +30,23 @@ bool contact_solver_create(const Interface *interface, ContactSolverDef def, Con
     solver->pivots = NEW_ARRAY(int32_t, count, err);
     solver->matrix = NEW_ARRAY(double, count *count, err);
     solver->step = NEW_ARRAY(double, count, err);
+    solver->pull = NEW_ARRAY(double, count, err);
     solver->kept_free = NEW_ARRAY(int32_t, count, err);
     solver->kept_status = NEW_ARRAY(uint8_t, interface->contact_count + interface->rod_count, err);
     solver->anchor = NEW_ARRAY(uint8_t, interface->contact_count + interface->rod_count, err);
-    return error_is_clean(err) && contact_path_create(interface, &solver->path, err);
+    return error_is_clean(err) && closed_operator_create(interface, &solver->closed, err) &&
+           contact_path_create(interface, &solver->path, err);
 }
 
 void contact_solver_destroy(ContactSolver *solver)
 {
     contact_path_destroy(&solver->path);
+    closed_operator_destroy(&solver->closed);
     memory_free(solver->free);
     memory_free(solver->pivots);
     memory_free(solver->matrix);
     memory_free(solver->step);
+    memory_free(solver->pull);
     memory_free(solver->kept_free);
     memory_free(solver->kept_status);
     memory_free(solver->anchor);
@@ -97,18 +101,15 @@ static void hold_unknowns(const ContactProblem *problem, ContactSolution *soluti
     }
 }
 
-// Into free: tangents of nodes that slip or are open, normals of open ones, rod nodes that are soft
-// or have let go. How many they are; ascending for contact nodes, then the rod.
+// Into free: tangents of nodes that slip, rod nodes that are soft or have let go. How many they
+// are; ascending. Open nodes are free as well, and condensed out (contact/closed_operator).
 static int32_t list_free(const ContactProblem *problem, const ContactSolution *solution,
                          int32_t *free)
 {
     const Interface *interface = problem->interface;
     int32_t count = 0;
-    for (int32_t i = 0; i < interface->contact_count; i++) {
-        if (solution->status[i] == CONTACT_STICK) continue;
-        free[count++] = interface_tangent(i);
-        if (solution->status[i] == CONTACT_OPEN) free[count++] = interface_normal(i);
-    }
+    for (int32_t i = 0; i < interface->contact_count; i++)
+        if (status_slips(solution->status[i])) free[count++] = interface_tangent(i);
     for (int32_t j = 0; j < interface->rod_count; j++) {
         if (!solution->rod_touches[j] || rod_stiffness(problem, j) > 0)
             free[count++] = interface_rod(interface, j);
@@ -169,33 +170,32 @@ static bool kept_fits(const ContactSolver *solver, const ContactProblem *problem
 
 // The derivative of `equation` by the free unknowns, column after column [free_count^2], and its
 // LU:
-//     row of a slipping tangent t:  S_t + s mu S_n + mu'(|v_t|) r_n e_t
-//     any other:                    S_row + spring e_row
-// s^2 = 1 makes the last term of a slipping row free of the direction: d|v_t|/dv_t = s. false: it
-// is singular. Remembers what it was factored for; kept_schur stays NULL while it holds no factors.
+//     row of a slipping tangent t:  S'_t + s mu S'_n + mu'(|v_t|) r_n e_t
+//     any other:                    S'_row + spring e_row
+// S' (`closed`): S with what is open condensed out. s^2 = 1 makes the last term of a slipping row
+// free of the direction: d|v_t|/dv_t = s. false: it is singular. Remembers what it was factored
+// for; kept_schur stays NULL while it holds no factors.
 static bool factor_matrix(ContactSolver *solver, const ContactProblem *problem,
-                          const ContactSolution *solution, int32_t free_count)
+                          const ContactSolution *solution, const double *closed, int32_t free_count)
 {
     int32_t count = problem->interface->count;
     for (int32_t a = 0; a < free_count; a++) {
         int32_t row = solver->free[a];
-        const double *schur_row = problem->schur + (int64_t)row * count;   // symmetric
+        const double *own = closed + (int64_t)row * count;   // symmetric
         int32_t i = slipping_node(problem, solution, row);
-        if (i < 0) {
-            for (int32_t b = 0; b < free_count; b++)
-                solver->matrix[(int64_t)b * free_count + a] = schur_row[solver->free[b]];
-            solver->matrix[(int64_t)a * free_count + a] += spring_of(problem, solution, row);
-            continue;
-        }
+        double *out = solver->matrix + a;
+        for (int32_t b = 0; b < free_count; b++)
+            out[(int64_t)b * free_count] = own[solver->free[b]];
+        out[(int64_t)a * free_count] += spring_of(problem, solution, row);
+        if (i < 0) continue;
         double speed = fabs(solution->velocity[row]);
         double mu = status_direction(solution->status[i]) *
                     friction_coefficient(problem->law, speed);
-        const double *normal_row = problem->schur + (int64_t)interface_normal(i) * count;
+        const double *normal = closed + (int64_t)interface_normal(i) * count;
         for (int32_t b = 0; b < free_count; b++)
-            solver->matrix[(int64_t)b * free_count + a] = schur_row[solver->free[b]] +
-                                                          mu * normal_row[solver->free[b]];
-        solver->matrix[(int64_t)a * free_count + a] += friction_slope(problem->law, speed) *
-                                                       solution->reaction[interface_normal(i)];
+            out[(int64_t)b * free_count] += mu * normal[solver->free[b]];
+        out[(int64_t)a * free_count] += friction_slope(problem->law, speed) *
+                                        solution->reaction[interface_normal(i)];
     }
     solver->factorisations++;
     solver->kept_schur = NULL;
@@ -210,18 +210,48 @@ static bool factor_matrix(ContactSolver *solver, const ContactProblem *problem,
     return true;
 }
 
-// One Newton step on the free unknowns; *reused: with a matrix of an earlier one.
+// pull = closed e_O: what the residual of open nodes, which shall bear nothing, asks of all others
+// and, on O, -S_OO^-1 e_O: how these would move if nothing else did.
+static void find_pull(ContactSolver *solver, const ContactProblem *problem,
+                      const ContactSolution *solution, const double *closed)
+{
+    int32_t count = problem->interface->count;
+    memset(solver->pull, 0, (size_t)count * sizeof(double));
+    for (int32_t k = 0; k < 2 * problem->interface->contact_count; k++) {
+        if (solution->status[k / 2] == CONTACT_OPEN)
+            dense_add_scaled(solution->reaction[k], closed + (int64_t)k * count, count,
+                             solver->pull);
+    }
+}
+
+// One Newton step on the free unknowns and what is open; *reused: with a matrix of an earlier one.
 // false: the matrix is singular. With a kept matrix the step is one of a chord method: right in
 // direction, linear in convergence, and far cheaper than factoring.
 static bool newton_step(ContactSolver *solver, const ContactProblem *problem,
                         ContactSolution *solution, int32_t free_count, bool *reused)
 {
+    int32_t count = problem->interface->count;
+    const double *closed = closed_operator_of(&solver->closed, problem->schur, solution->status);
+    if (!closed) return false;
     *reused = kept_fits(solver, problem, solution, free_count);
-    if (!*reused && !factor_matrix(solver, problem, solution, free_count)) return false;
-    for (int32_t a = 0; a < free_count; a++)
-        solver->step[a] = -equation(problem, solution, solver->free[a]);
+    if (!*reused && !factor_matrix(solver, problem, solution, closed, free_count)) return false;
+    find_pull(solver, problem, solution, closed);
+    for (int32_t a = 0; a < free_count; a++) {
+        int32_t row = solver->free[a], i = slipping_node(problem, solution, row);
+        solver->step[a] = solver->pull[row] - equation(problem, solution, row);
+        if (i < 0) continue;
+        double mu = friction_coefficient(problem->law, fabs(solution->velocity[row]));
+        solver->step[a] += status_direction(solution->status[i]) * mu *
+                           solver->pull[interface_normal(i)];
+    }
     dense_lu_solve(solver->matrix, free_count, solver->pivots, solver->step);
-    for (int32_t a = 0; a < free_count; a++) solution->velocity[solver->free[a]] += solver->step[a];
+    for (int32_t a = 0; a < free_count; a++) {
+        int32_t unknown = solver->free[a];
+        solution->velocity[unknown] += solver->step[a];
+        dense_add_scaled(-solver->step[a], closed + (int64_t)unknown * count, count, solver->pull);
+    }
+    for (int32_t k = 0; k < 2 * problem->interface->contact_count; k++)
+        if (solution->status[k / 2] == CONTACT_OPEN) solution->velocity[k] += solver->pull[k];
     return true;
 }
 
@@ -304,6 +334,9 @@ static double equations_residual(const ContactSolver *solver, const ContactProbl
     double largest = 0;
     for (int32_t a = 0; a < free_count; a++)
         largest = fmax(largest, fabs(equation(problem, solution, solver->free[a])));
+    for (int32_t k = 0; k < 2 * problem->interface->contact_count; k++)
+        if (solution->status[k / 2] == CONTACT_OPEN)
+            largest = fmax(largest, fabs(solution->reaction[k]));
     return largest;
 }
 

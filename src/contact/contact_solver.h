@@ -16,6 +16,7 @@
 #ifndef AMONTONS_CONTACT_CONTACT_SOLVER_H
 #define AMONTONS_CONTACT_CONTACT_SOLVER_H
 
+#include "contact/closed_operator.h"
 #include "contact/contact_path.h"
 #include "contact/contact_problem.h"
 
@@ -36,6 +37,8 @@ typedef struct ContactSolver {
     int32_t *pivots;   // [count] work; owned
     double *matrix;   // [count^2] work; owned
     double *step;   // [count] work; owned
+    double *pull;   // [count] work: of what is open; owned
+    ClosedOperator closed;   // owned
     int32_t *kept_free;   // [count] unknowns `matrix` is factored for; owned
     uint8_t *kept_status;   // [contact_count + rod_count] statuses and touching rod nodes it is
         // factored for; owned
