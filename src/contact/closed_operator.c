@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Rounding of sweeps adds up, to and fro as well, and S itself is at hand: a copy is renewed when it
-// was swept so often that renewing costs less than it has cost already.
+// Rounding of sweeps adds up, to and fro as well, and S itself is at hand: a copy is renewed when
+// it was swept so often that renewing costs less than it has cost already.
 #include "contact/closed_operator.h"
 
 #include "base/dense.h"
 #include "base/memory.h"
 
+#include <math.h>
 #include <string.h>
 
 // Of both unknowns of every node: sweeps after which a copy is made anew.
 static const int32_t SWEEPS_EACH = 8;
+// Of all copies, which take memory as they come into use: every rung of a ladder is asked for in
+// turn where growth is looked for (stepping/step_control), and should then be here still.
+static const double BYTES_MAX = 1e9;
 
 bool closed_operator_create(const Interface *interface, ClosedOperator *closed, Error *err)
 {
@@ -17,8 +21,11 @@ bool closed_operator_create(const Interface *interface, ClosedOperator *closed, 
     *closed =
         (ClosedOperator){.count = interface->count, .contact_count = interface->contact_count};
     closed->work = NEW_ARRAY(double, count, err);
-    for (int32_t k = 0; k < CLOSED_OPERATORS; k++) {
-        closed->kept[k].matrix = NEW_ARRAY(double, count *count, err);
+    double each = 8.0 * (double)count * (double)count;
+    int32_t fitting = each > 0 ? (int32_t)fmin(BYTES_MAX / each, CLOSED_OPERATORS_MAX) : 0;
+    closed->kept_count = fitting > CLOSED_OPERATORS_MIN ? fitting : CLOSED_OPERATORS_MIN;
+    for (int32_t k = 0; k < closed->kept_count; k++) {
+        closed->kept[k].matrix = memory_bytes(8 * count * count, err);
         closed->kept[k].out = NEW_ARRAY(uint8_t, interface->contact_count, err);
     }
     return error_is_clean(err);
@@ -26,7 +33,7 @@ bool closed_operator_create(const Interface *interface, ClosedOperator *closed, 
 
 void closed_operator_destroy(ClosedOperator *closed)
 {
-    for (int32_t k = 0; k < CLOSED_OPERATORS; k++) {
+    for (int32_t k = 0; k < closed->kept_count; k++) {
         memory_free(closed->kept[k].matrix);
         memory_free(closed->kept[k].out);
     }
@@ -47,7 +54,7 @@ static void copy_operator(const ClosedOperator *closed, const double *schur, Swe
 static SweptOperator *find_copy(ClosedOperator *closed, const double *schur)
 {
     SweptOperator *oldest = closed->kept;
-    for (int32_t k = 0; k < CLOSED_OPERATORS; k++) {
+    for (int32_t k = 0; k < closed->kept_count; k++) {
         if (closed->kept[k].schur == schur) return &closed->kept[k];
         if (closed->kept[k].used < oldest->used) oldest = &closed->kept[k];
     }
@@ -70,6 +77,7 @@ static bool sweep_node(ClosedOperator *closed, SweptOperator *swept, int32_t i)
 
 const double *closed_operator_of(ClosedOperator *closed, const double *schur, const uint8_t *status)
 {
+    if (!memchr(status, CONTACT_OPEN, (size_t)closed->contact_count)) return schur;
     SweptOperator *swept = find_copy(closed, schur);
     swept->used = ++closed->clock;
     if (swept->sweeps > 2 * SWEEPS_EACH * closed->contact_count)

@@ -7,13 +7,14 @@
 // is all that the others meet. Blocks on pads have most of their nodes open while few slip, and a
 // node that opens or closes changes S' by two sweeps (base/dense), which cost as much as a few
 // products with S; factoring S_OO in every system costs far more. Some operators are kept swept:
-// those of the rungs in use. Called by contact/contact_solver.
+// those of the rungs in use. Called by contact/contact_solver
+// and stepping/certificate.
 #ifndef AMONTONS_CONTACT_CLOSED_OPERATOR_H
 #define AMONTONS_CONTACT_CLOSED_OPERATOR_H
 
 #include "contact/contact_problem.h"
 
-enum { CLOSED_OPERATORS = 4 };   // kept; steps mostly go to and fro between neighbouring rungs
+enum { CLOSED_OPERATORS_MAX = 48, CLOSED_OPERATORS_MIN = 3 };   // kept, within some memory
 
 typedef struct SweptOperator {
     const double *schur;   // S it was copied from; NULL: none. Not owned
@@ -24,8 +25,8 @@ typedef struct SweptOperator {
 } SweptOperator;
 
 typedef struct ClosedOperator {
-    int32_t count, contact_count;
-    SweptOperator kept[CLOSED_OPERATORS];
+    int32_t count, contact_count, kept_count;
+    SweptOperator kept[CLOSED_OPERATORS_MAX];
     double *work;   // [count]; owned
     int64_t clock, sweeps;   // requests and sweeps, counted
 } ClosedOperator;
@@ -34,8 +35,9 @@ bool closed_operator_create(const Interface *interface, ClosedOperator *closed, 
 void closed_operator_destroy(ClosedOperator *closed);
 
 // `schur` [count^2] swept on the tangents and normals of the nodes that `status` [contact_count]
-// has open, and on nothing else. Belongs to `closed` until its next use. NULL: S_OO is singular to
-// working precision. A `schur` at the same address is taken for the same.
+// has open, and on nothing else: itself where none is. Belongs to `closed`, and stands while fewer
+// than CLOSED_OPERATORS_MIN others are asked for. NULL: S_OO is singular to working precision. A
+// `schur` at the same address is taken for the same.
 const double *closed_operator_of(ClosedOperator *closed, const double *schur,
                                  const uint8_t *status);
 

@@ -27,6 +27,7 @@ bool contact_solver_create(const Interface *interface, ContactSolverDef def, Con
     int64_t count = interface->count;
     *solver = (ContactSolver){.def = def, .count = interface->count, .follows_path = true};
     solver->free = NEW_ARRAY(int32_t, count, err);
+    solver->open = NEW_ARRAY(int32_t, count, err);
     solver->pivots = NEW_ARRAY(int32_t, count, err);
     solver->matrix = NEW_ARRAY(double, count *count, err);
     solver->step = NEW_ARRAY(double, count, err);
@@ -43,6 +44,7 @@ void contact_solver_destroy(ContactSolver *solver)
     contact_path_destroy(&solver->path);
     closed_operator_destroy(&solver->closed);
     memory_free(solver->free);
+    memory_free(solver->open);
     memory_free(solver->pivots);
     memory_free(solver->matrix);
     memory_free(solver->step);
@@ -102,17 +104,23 @@ static void hold_unknowns(const ContactProblem *problem, ContactSolution *soluti
 }
 
 // Into free: tangents of nodes that slip, rod nodes that are soft or have let go. How many they
-// are; ascending. Open nodes are free as well, and condensed out (contact/closed_operator).
-static int32_t list_free(const ContactProblem *problem, const ContactSolution *solution,
-                         int32_t *free)
+// are; ascending. Open nodes are free as well, and condensed out (contact/closed_operator): their
+// unknowns go into solver->open.
+static int32_t list_free(ContactSolver *solver, const ContactProblem *problem,
+                         const ContactSolution *solution)
 {
     const Interface *interface = problem->interface;
     int32_t count = 0;
-    for (int32_t i = 0; i < interface->contact_count; i++)
-        if (status_slips(solution->status[i])) free[count++] = interface_tangent(i);
+    solver->open_count = 0;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        if (status_slips(solution->status[i])) solver->free[count++] = interface_tangent(i);
+        if (solution->status[i] != CONTACT_OPEN) continue;
+        solver->open[solver->open_count++] = interface_tangent(i);
+        solver->open[solver->open_count++] = interface_normal(i);
+    }
     for (int32_t j = 0; j < interface->rod_count; j++) {
         if (!solution->rod_touches[j] || rod_stiffness(problem, j) > 0)
-            free[count++] = interface_rod(interface, j);
+            solver->free[count++] = interface_rod(interface, j);
     }
     return count;
 }
@@ -211,14 +219,16 @@ static bool factor_matrix(ContactSolver *solver, const ContactProblem *problem,
 }
 
 // pull = closed e_O: what the residual of open nodes, which shall bear nothing, asks of all others
-// and, on O, -S_OO^-1 e_O: how these would move if nothing else did.
+// and, on O, -S_OO^-1 e_O: how these would move if nothing else did. Rounding is left as it is.
 static void find_pull(ContactSolver *solver, const ContactProblem *problem,
                       const ContactSolution *solution, const double *closed)
 {
     int32_t count = problem->interface->count;
+    double rounding = 1e-3 * solver->def.tolerance * dense_max_abs(problem->g, count);
     memset(solver->pull, 0, (size_t)count * sizeof(double));
-    for (int32_t k = 0; k < 2 * problem->interface->contact_count; k++) {
-        if (solution->status[k / 2] == CONTACT_OPEN)
+    for (int32_t a = 0; a < solver->open_count; a++) {
+        int32_t k = solver->open[a];
+        if (fabs(solution->reaction[k]) > rounding)
             dense_add_scaled(solution->reaction[k], closed + (int64_t)k * count, count,
                              solver->pull);
     }
@@ -235,11 +245,13 @@ static bool newton_step(ContactSolver *solver, const ContactProblem *problem,
     if (!closed) return false;
     *reused = kept_fits(solver, problem, solution, free_count);
     if (!*reused && !factor_matrix(solver, problem, solution, closed, free_count)) return false;
-    find_pull(solver, problem, solution, closed);
+    bool opens = solver->open_count > 0;
+    if (opens) find_pull(solver, problem, solution, closed);
     for (int32_t a = 0; a < free_count; a++) {
         int32_t row = solver->free[a], i = slipping_node(problem, solution, row);
-        solver->step[a] = solver->pull[row] - equation(problem, solution, row);
-        if (i < 0) continue;
+        solver->step[a] = -equation(problem, solution, row);
+        if (opens) solver->step[a] += solver->pull[row];
+        if (i < 0 || !opens) continue;
         double mu = friction_coefficient(problem->law, fabs(solution->velocity[row]));
         solver->step[a] += status_direction(solution->status[i]) * mu *
                            solver->pull[interface_normal(i)];
@@ -248,10 +260,11 @@ static bool newton_step(ContactSolver *solver, const ContactProblem *problem,
     for (int32_t a = 0; a < free_count; a++) {
         int32_t unknown = solver->free[a];
         solution->velocity[unknown] += solver->step[a];
+        if (!opens) continue;
         dense_add_scaled(-solver->step[a], closed + (int64_t)unknown * count, count, solver->pull);
     }
-    for (int32_t k = 0; k < 2 * problem->interface->contact_count; k++)
-        if (solution->status[k / 2] == CONTACT_OPEN) solution->velocity[k] += solver->pull[k];
+    for (int32_t a = 0; a < solver->open_count; a++)
+        solution->velocity[solver->open[a]] += solver->pull[solver->open[a]];
     return true;
 }
 
@@ -334,9 +347,8 @@ static double equations_residual(const ContactSolver *solver, const ContactProbl
     double largest = 0;
     for (int32_t a = 0; a < free_count; a++)
         largest = fmax(largest, fabs(equation(problem, solution, solver->free[a])));
-    for (int32_t k = 0; k < 2 * problem->interface->contact_count; k++)
-        if (solution->status[k / 2] == CONTACT_OPEN)
-            largest = fmax(largest, fabs(solution->reaction[k]));
+    for (int32_t a = 0; a < solver->open_count; a++)
+        largest = fmax(largest, fabs(solution->reaction[solver->open[a]]));
     return largest;
 }
 
@@ -473,7 +485,7 @@ static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
     hold_unknowns(problem, solution);
     compute_reaction(problem, solution);
     while (may_go_on(solver, &course)) {
-        int32_t free_count = list_free(problem, solution, solver->free);
+        int32_t free_count = list_free(solver, problem, solution);
         solver->iterations++;
         bool reused = false;
         if (!newton_step(solver, problem, solution, free_count, &reused)) break;

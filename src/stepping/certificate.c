@@ -2,7 +2,7 @@
 // DESIGN 4.5: a large implicit step damps what grows in place of showing it, so that truncation
 // error alone would step over the instability; these are the tests that say where that cannot
 // happen. Each comes down to one Cholesky or LU factorisation of a matrix of |F| rows, F the
-// unknowns that move,. The header has the derivations.
+// unknowns that move. The header has the derivations.
 #include "stepping/certificate.h"
 
 #include "base/clock.h"
@@ -22,10 +22,11 @@ static const double START_PART = 1e-6;
 
 // block is borrowed. S_C is condensed from C alone, lifted as C may be singular in the interface's
 // own motion (bulk/interface_operator), once for all states.
-bool certificate_create(const Block *block, Certificate *certificate, Error *err)
+bool certificate_create(const Block *block, ClosedOperator *closed, Certificate *certificate,
+                        Error *err)
 {
-    *certificate =
-        (Certificate){.interface = block->interface, .law = block->law, .rod = block->rod};
+    *certificate = (Certificate){
+        .interface = block->interface, .law = block->law, .rod = block->rod, .closed = closed};
     int64_t count = block->interface->count;
     certificate->matrix = NEW_ARRAY(double, count *count, err);
     certificate->weakening = NEW_ARRAY(double, count, err);
@@ -54,8 +55,8 @@ void certificate_destroy(Certificate *certificate)
 }
 
 // Fills F, W and the dampers; says whether anything weakens at all.
-// moving [*moving_count] in the interface's order; W and dampers beside it. weakening of an open
-// node or of the rod is 0.
+// moving [*moving_count] in the interface's order; W and dampers beside it. weakening of the rod is
+// 0.
 static bool list_moving(Certificate *certificate, const State *state, int32_t *moving_count)
 {
     const Interface *interface = certificate->interface;
@@ -63,19 +64,13 @@ static bool list_moving(Certificate *certificate, const State *state, int32_t *m
     bool weakens = false;
     for (int32_t i = 0; i < interface->contact_count; i++) {
         int32_t t = interface_tangent(i), n = interface_normal(i);
-        if (state->status[i] == CONTACT_STICK) continue;
-        double weakening = 0;
-        if (status_slips(state->status[i]))
-            weakening = -friction_slope(certificate->law, fabs(state->slip_rate[t])) *
-                        state->reaction[n];
+        if (!status_slips(state->status[i])) continue;
+        double weakening = -friction_slope(certificate->law, fabs(state->slip_rate[t])) *
+                           state->reaction[n];
         certificate->damper[count] = 0;
         certificate->moving[count] = t;
         certificate->weakening[count++] = weakening;
         if (weakening > 0) weakens = true;
-        if (state->status[i] != CONTACT_OPEN) continue;
-        certificate->damper[count] = 0;
-        certificate->moving[count] = n;
-        certificate->weakening[count++] = 0;
     }
     for (int32_t j = 0; j < interface->rod_count; j++) {
         double softness = certificate->rod->softness[j];
@@ -88,25 +83,37 @@ static bool list_moving(Certificate *certificate, const State *state, int32_t *m
     return weakens;
 }
 
+// S with open nodes condensed out; NULL where S is, or they alone are singular in it.
+static const double *close_operator(Certificate *certificate, const State *state,
+                                    const double *schur)
+{
+    return schur ? closed_operator_of(certificate->closed, schur, state->status) : NULL;
+}
+
 // part S + (1 - part) S_C - W on F; schur: S. S_C is NULL where C itself is singular.
 // true: positive definite. Only lower triangles are filled, as Cholesky reads no more. Where
-// nothing weakens no factorisation is done, nor counted.
+// nothing weakens no factorisation is done, nor counted. Parts of condensed operators are less than
+// their parts condensed: with open nodes the test is a little stricter between its ends.
 static bool is_definite(Certificate *certificate, const State *state, const double *schur,
                         double part)
 {
     int32_t count = 0;
     if (!list_moving(certificate, state, &count)) return true;   // S itself is never indefinite
-    const double *damping = certificate->damping ? interface_operator_schur(certificate->damping)
-                                                 : NULL;
-    if (part < 1 && !damping) return false;
+    const double *damping = NULL, *own = NULL;
+    if (part < 1 && certificate->damping)
+        damping =
+            close_operator(certificate, state, interface_operator_schur(certificate->damping));
+    if (part > 0) own = close_operator(certificate, state, schur);
+    if ((part < 1 && !damping) || (part > 0 && !own)) return false;
     int64_t size = certificate->interface->count;
     for (int32_t b = 0; b < count; b++) {
         int64_t column = size * certificate->moving[b];
         double *out = certificate->matrix + (int64_t)count * b;
-        const double *own = (part > 0 ? schur : damping) + column;
-        for (int32_t a = b; a < count; a++) out[a] = own[certificate->moving[a]];
-        for (int32_t a = b; part > 0 && part < 1 && a < count; a++)
-            out[a] = part * out[a] + (1 - part) * damping[column + certificate->moving[a]];
+        for (int32_t a = b; a < count; a++) {
+            int64_t entry = column + certificate->moving[a];
+            out[a] = (part > 0 ? part * own[entry] : 0) +
+                     (part < 1 ? (1 - part) * damping[entry] : 0);
+        }
         out[b] += certificate->damper[b] - certificate->weakening[b];
     }
     certificate->checks++;
@@ -121,23 +128,25 @@ bool certificate_holds(Certificate *certificate, const State *state)
     return holds;
 }
 
-// matrix = (S_t + sign(v) mu S_n)[F,F], the pressure that follows slip included; returns |F|.
+// matrix = (S_t + sign(v) mu S_n)[F,F], the pressure that follows slip included; returns |F|, or -1
+// where there is no such matrix.
 // Unsymmetric: row of a slipping tangent plus s mu times the row of its normal; W is left for the
 // caller to subtract, who may need the matrix without it.
 static int32_t fill_coupled(Certificate *certificate, const State *state, const double *schur)
 {
     int32_t count = 0;
+    const double *closed = close_operator(certificate, state, schur);
+    if (!closed) return -1;
     list_moving(certificate, state, &count);
     int64_t size = certificate->interface->count;
     for (int32_t a = 0; a < count; a++) {
         int32_t row = certificate->moving[a];
-        const double *own = schur + size * row, *normal = own;   // symmetric
+        const double *own = closed + size * row, *normal = own;   // symmetric
         double mu = 0;
-        bool contact = row < 2 * certificate->interface->contact_count;
-        if (contact && row % 2 == 0 && status_slips(state->status[row / 2])) {
+        if (row < 2 * certificate->interface->contact_count) {
             mu = status_direction(state->status[row / 2]) *
                  friction_coefficient(certificate->law, fabs(state->slip_rate[row]));
-            normal = schur + size * interface_normal(row / 2);
+            normal = closed + size * interface_normal(row / 2);
         }
         for (int32_t b = 0; b < count; b++) {
             int32_t column = certificate->moving[b];
@@ -155,6 +164,7 @@ static int32_t fill_coupled(Certificate *certificate, const State *state, const 
 static bool coupled_is_positive(Certificate *certificate, const State *state, const double *schur)
 {
     int32_t count = fill_coupled(certificate, state, schur);
+    if (count < 0) return false;
     for (int64_t a = 0; a < count; a++)
         certificate->matrix[a * count + a] -= certificate->weakening[a];
     return dense_lu(certificate->matrix, count, certificate->pivots) &&
@@ -183,7 +193,7 @@ static double largest_load(Certificate *certificate, const State *state, const d
     enum { POWERS_MAX = 200 };
     int32_t count = fill_coupled(certificate, state, schur);
     double *x = certificate->vector, load = INFINITY;
-    if (!dense_lu(certificate->matrix, count, certificate->pivots)) return INFINITY;
+    if (count < 0 || !dense_lu(certificate->matrix, count, certificate->pivots)) return INFINITY;
     for (int32_t a = 0; a < count; a++) x[a] = certificate->weakening[a] > 0 ? 1 : 0;
     double norm = sqrt(dense_dot(x, x, count)), logarithm = 0;   // of |x_n|/|x_0|
     if (norm == 0) return 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // When may inertia's time scale be skipped? Let F be the interface unknowns that can move (slipping
-// tangents, open nodes, rod nodes let go), J the slipping nodes on the weakening branch and
+// tangents, rod nodes let go; open nodes are condensed out of every S below, which changes neither
+// what is definite nor a sign of det J), J the slipping nodes on the weakening branch and
 //
 //     W = diag(-mu'(|v_i|) r_n,i) on J, 0 elsewhere     (linear law: (mu_S - mu_K) p_i w_i / v_c).
 //
@@ -35,6 +36,7 @@
 #ifndef AMONTONS_STEPPING_CERTIFICATE_H
 #define AMONTONS_STEPPING_CERTIFICATE_H
 
+#include "contact/closed_operator.h"
 #include "stepping/ladder.h"
 #include "stepping/state.h"
 
@@ -43,6 +45,7 @@ typedef struct Certificate {
     const FrictionLaw *law;
     const Rod *rod;
     InterfaceOperator *damping;   // holds S_C; owned
+    ClosedOperator *closed;   // S_C and rungs, open nodes condensed out; not owned
     double *matrix;   // [count^2] work; owned
     double *weakening;   // [count] work: W's diagonal; owned
     double *damper;   // [count] work: of soft rod nodes, added to all S; owned
@@ -53,7 +56,9 @@ typedef struct Certificate {
     double seconds;   // wall time spent
 } Certificate;
 
-bool certificate_create(const Block *block, Certificate *certificate, Error *err);
+// closed: that of the contact solver, whose rungs it asks for; it must not move.
+bool certificate_create(const Block *block, ClosedOperator *closed, Certificate *certificate,
+                        Error *err);
 void certificate_destroy(Certificate *certificate);
 
 // The slip set of `state` cannot gain energy.

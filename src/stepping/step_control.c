@@ -42,7 +42,7 @@ bool step_control_create(const Block *block, const StepControlDef *def, StepCont
     while (longest < def->relax_step) longest *= 2;   // so that step_max is a rung
     ladder_init(block->system, longest, def->step_min, &control->ladder);
     TRY(sdirk_create(block, def->scheme, &control->ladder, &control->scheme, err));
-    TRY(certificate_create(block, &control->certificate, err));
+    TRY(certificate_create(block, &control->scheme.solver.closed, &control->certificate, err));
     TRY(watch_create(block, def->watch_time, &control->watch, err));
     TRY(state_create(block->system, block->interface, &control->now, err));
     TRY(state_create(block->system, block->interface, &control->next, err));

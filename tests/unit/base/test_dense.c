@@ -142,6 +142,36 @@ static void test_one_thread(void **state)
     assert_int_equal(thread_count(), 1);
 }
 
+// Swept on every entry a matrix is minus its inverse, swept back on all it is what it was, and on
+// one of two as if the other had been swept alone.
+static void test_sweep(void **state)
+{
+    (void)state;
+    enum { N = 7 };
+    double a[N * N], swept[N * N], work[N];
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < N; j++) a[j * N + i] = (i == j) * 3 + 1 / (1.0 + i + j);
+    memcpy(swept, a, sizeof a);
+    for (int k = 0; k < N; k++) assert_true(dense_sweep(swept, N, (3 * k) % N, false, work));
+    for (int i = 0; i < N; i++) {
+        for (int j = 0; j < N; j++) {
+            double sum = 0;
+            for (int k = 0; k < N; k++) sum -= a[k * N + i] * swept[j * N + k];
+            assert_near("inverse", sum, i == j, 1e-13);
+        }
+    }
+    for (int k = 0; k < N; k++) assert_true(dense_sweep(swept, N, k, true, work));
+    for (int k = 0; k < N * N; k++) assert_near("back", swept[k], a[k], 1e-13);
+    double alone[N * N];
+    memcpy(alone, a, sizeof a);
+    memcpy(swept, a, sizeof a);
+    assert_true(dense_sweep(alone, N, 4, false, work) && dense_sweep(swept, N, 4, false, work));
+    assert_true(dense_sweep(swept, N, 2, false, work) && dense_sweep(swept, N, 2, true, work));
+    for (int k = 0; k < N * N; k++) assert_near("one back", swept[k], alone[k], 1e-13);
+    a[0] = 0;
+    assert_false(dense_sweep(a, N, 0, false, work));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -150,6 +180,7 @@ int main(void)
         cmocka_unit_test(test_lu),
         cmocka_unit_test(test_vectors),
         cmocka_unit_test(test_one_thread),
+        cmocka_unit_test(test_sweep),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,6 +9,7 @@
 
 typedef struct CertificateRig {
     BlockRig rig;
+    ClosedOperator closed;
     Certificate certificate;
     State seen;   // at first all stick
     Ladder ladder;
@@ -20,7 +21,8 @@ static inline void certificate_rig_build(const RigDef *def, double longest, doub
 {
     Error err = {0};
     rig_build(def, &built->rig);
-    assert_true(certificate_create(&built->rig.block, &built->certificate, &err));
+    assert_true(closed_operator_create(&built->rig.interface, &built->closed, &err));
+    assert_true(certificate_create(&built->rig.block, &built->closed, &built->certificate, &err));
     assert_true(state_create(&built->rig.system, &built->rig.interface, &built->seen, &err));
     ladder_init(&built->rig.system, longest, shortest, &built->ladder);
 }
@@ -30,6 +32,7 @@ static inline void certificate_rig_destroy(CertificateRig *built)
     ladder_destroy(&built->ladder);
     state_destroy(&built->seen);
     certificate_destroy(&built->certificate);
+    closed_operator_destroy(&built->closed);
     rig_destroy(&built->rig);
 }
 

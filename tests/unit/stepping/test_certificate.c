@@ -6,19 +6,14 @@
 #include "certificate_rig.h"
 
 typedef struct Fixture {
-    BlockRig rig;
-    Certificate certificate;
-    State seen;
+    CertificateRig built;
     double *schur;   // [count^2] of C alone
 } Fixture;
 
 static void fixture_build(const RigDef *def, Fixture *fixture)
 {
-    Error err = {0};
-    rig_build(def, &fixture->rig);
-    BlockRig *rig = &fixture->rig;
-    assert_true(certificate_create(&rig->block, &fixture->certificate, &err));
-    assert_true(state_create(&rig->system, &rig->interface, &fixture->seen, &err));
+    certificate_rig_build(def, 1, 0.01, &fixture->built);
+    BlockRig *rig = &fixture->built.rig;
     double *c = rig_dense(rig, rig->bulk.damping);
     fixture->schur = hand_matrix(rig->interface.count, rig->interface.count);
     hand_schur(c, rig->bulk.dof_count, rig->interface.dofs, rig->interface.count, fixture->schur);
@@ -28,16 +23,14 @@ static void fixture_build(const RigDef *def, Fixture *fixture)
 static void fixture_destroy(Fixture *fixture)
 {
     free(fixture->schur);
-    state_destroy(&fixture->seen);
-    certificate_destroy(&fixture->certificate);
-    rig_destroy(&fixture->rig);
+    certificate_rig_destroy(&fixture->built);
 }
 
 // The least eigenvalue of (schur - W) on the moving unknowns; *weakening: whether W is not 0.
 static double least_eigenvalue(const Fixture *fixture, const double *schur, bool *weakening)
 {
-    const Interface *interface = &fixture->rig.interface;
-    const State *seen = &fixture->seen;
+    const Interface *interface = &fixture->built.rig.interface;
+    const State *seen = &fixture->built.seen;
     double a[32 * 32], values[32], w[32] = {0};
     int32_t moving[32], count = 0, size = interface->count;
     *weakening = false;
@@ -48,8 +41,8 @@ static double least_eigenvalue(const Fixture *fixture, const double *schur, bool
         if (!contact && seen->rod_touches[k - 2 * interface->contact_count]) continue;
         if (status == CONTACT_STICK || (status != CONTACT_OPEN && !tangent)) continue;
         double speed = fabs(seen->slip_rate[k]);
-        if (status != CONTACT_OPEN && speed < fixture->rig.law.critical_velocity) {
-            const FrictionLaw *law = &fixture->rig.law;
+        if (status != CONTACT_OPEN && speed < fixture->built.rig.law.critical_velocity) {
+            const FrictionLaw *law = &fixture->built.rig.law;
             w[count] = (law->mu_static - law->mu_kinetic) / law->critical_velocity *
                        seen->reaction[k + 1];
             *weakening = true;
@@ -66,9 +59,9 @@ static double least_eigenvalue(const Fixture *fixture, const double *schur, bool
 
 static void random_state(Random *random, double pressure, Fixture *fixture)
 {
-    const Interface *interface = &fixture->rig.interface;
-    State *seen = &fixture->seen;
-    double v_c = fixture->rig.law.critical_velocity;
+    const Interface *interface = &fixture->built.rig.interface;
+    State *seen = &fixture->built.seen;
+    double v_c = fixture->built.rig.law.critical_velocity;
     for (int32_t i = 0; i < interface->contact_count; i++) {
         seen->status[i] = (uint8_t)random_index(random, 4);
         seen->reaction[interface_normal(i)] =
@@ -91,7 +84,7 @@ static void test_random_states(void **state)
     Fixture fixture;
     fixture_build(&def, &fixture);
     Ladder ladder;
-    ladder_init(&fixture.rig.system, 1, 1e-3, &ladder);
+    ladder_init(&fixture.built.rig.system, 1, 1e-3, &ladder);
     int32_t held = 0, resolved = 0, cases = 0;
     for (int32_t trial = 0; trial < 300; trial++) {
         // k p around eta: both answers are common.
@@ -99,11 +92,12 @@ static void test_random_states(void **state)
         random_state(&random, scale * random_between(&random, 0.1, 3), &fixture);
         bool weakens;
         double least = least_eigenvalue(&fixture, fixture.schur, &weakens);
-        bool holds = certificate_holds(&fixture.certificate, &fixture.seen);
+        bool holds = certificate_holds(&fixture.built.certificate, &fixture.built.seen);
         assert_int_equal(holds, !weakens || least > 0);
         InterfaceOperator *rung = ladder_rung(&ladder, trial % ladder.rung_count, &err);
         least = least_eigenvalue(&fixture, interface_operator_schur(rung), &weakens);
-        bool resolves = certificate_step_resolves(&fixture.certificate, &fixture.seen, rung);
+        bool resolves =
+            certificate_step_resolves(&fixture.built.certificate, &fixture.built.seen, rung);
         if (!weakens || least > 0) assert_true(resolves);   // else the coupled test decides
         if (holds) assert_true(resolves);   // S(dt) is S_C and more
         held += weakens && holds;
@@ -111,7 +105,7 @@ static void test_random_states(void **state)
         cases += weakens;
     }
     assert_true(cases > 200 && held > 40 && held < cases - 40 && resolved > held + 20);
-    assert_true(fixture.certificate.checks > 2 * 200);
+    assert_true(fixture.built.certificate.checks > 2 * 200);
     ladder_destroy(&ladder);
     fixture_destroy(&fixture);
 }
@@ -124,22 +118,22 @@ static void test_one_node(void **state)
     def.rod_width = 0;
     Fixture fixture;
     fixture_build(&def, &fixture);
-    State *seen = &fixture.seen;
-    int32_t size = fixture.rig.interface.count;
+    State *seen = &fixture.built.seen;
+    int32_t size = fixture.built.rig.interface.count;
     for (int32_t i = 0; i < 5; i++) {
         int32_t t = interface_tangent(i);
         double limit = fixture.schur[t * size + t] * def.law.critical_velocity / 0.28;
         seen->status[i] = CONTACT_SLIP_BACKWARD;
         seen->slip_rate[t] = -0.5 * def.law.critical_velocity;
         seen->reaction[t + 1] = limit * (1 - 1e-9);
-        assert_true(certificate_holds(&fixture.certificate, seen));
+        assert_true(certificate_holds(&fixture.built.certificate, seen));
         seen->reaction[t + 1] = limit * (1 + 1e-9);
-        assert_false(certificate_holds(&fixture.certificate, seen));
+        assert_false(certificate_holds(&fixture.built.certificate, seen));
         seen->slip_rate[t] = -1.1 * def.law.critical_velocity;   // past the weakening branch
-        assert_true(certificate_holds(&fixture.certificate, seen));
+        assert_true(certificate_holds(&fixture.built.certificate, seen));
         seen->slip_rate[t] = 0;
         seen->status[i] = CONTACT_STICK;
-        assert_true(certificate_holds(&fixture.certificate, seen));
+        assert_true(certificate_holds(&fixture.built.certificate, seen));
     }
     fixture_destroy(&fixture);
 }

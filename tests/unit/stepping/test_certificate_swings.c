@@ -3,15 +3,12 @@
 // lambda^2 M + lambda (C - W) + K on what moves, written out and handed to LAPACK.
 #include "stepping/certificate.h"
 
-#include "block_rig.h"
+#include "certificate_rig.h"
 
 enum { DOFS_MAX = 64 };
 
 typedef struct Fixture {
-    BlockRig rig;
-    Certificate certificate;
-    State seen;
-    Ladder ladder;
+    CertificateRig built;
     double *damping, *stiffness;   // dense, of the mesh
 } Fixture;
 
@@ -22,48 +19,42 @@ static void fixture_build(double length, Fixture *fixture)
     def.block.length = length;
     def.block.height = 0.5 * length;
     def.rod_width = 0;
-    rig_build(&def, &fixture->rig);
-    BlockRig *rig = &fixture->rig;
-    assert_true(certificate_create(&rig->block, &fixture->certificate, &err));
-    assert_true(state_create(&rig->system, &rig->interface, &fixture->seen, &err));
+    certificate_rig_build(&def, 400 * length, 4e-4 * length, &fixture->built);
+    BlockRig *rig = &fixture->built.rig;
     fixture->damping = rig_dense(rig, rig->bulk.damping);
     fixture->stiffness = rig_dense(rig, rig->bulk.stiffness);
-    ladder_init(&rig->system, 400 * length, 4e-4 * length, &fixture->ladder);
-    for (int32_t k = 0; k < fixture->ladder.rung_count; k++)
-        assert_non_null(ladder_rung(&fixture->ladder, k, &err));
+    for (int32_t k = 0; k < fixture->built.ladder.rung_count; k++)
+        assert_non_null(ladder_rung(&fixture->built.ladder, k, &err));
 }
 
 static void fixture_destroy(Fixture *fixture)
 {
     free(fixture->damping);
     free(fixture->stiffness);
-    ladder_destroy(&fixture->ladder);
-    state_destroy(&fixture->seen);
-    certificate_destroy(&fixture->certificate);
-    rig_destroy(&fixture->rig);
+    certificate_rig_destroy(&fixture->built);
 }
 
 // Nodes 0 to `last` slip; the weakening of each is `weak`.
 static void slip_up_to(Fixture *fixture, int32_t last, double weak)
 {
-    const FrictionLaw *law = &fixture->rig.law;
+    const FrictionLaw *law = &fixture->built.rig.law;
     double slope = (law->mu_static - law->mu_kinetic) / law->critical_velocity;
-    for (int32_t i = 0; i < fixture->seen.contact_count; i++) {
-        fixture->seen.status[i] = i <= last ? CONTACT_SLIP_FORWARD : CONTACT_STICK;
-        fixture->seen.slip_rate[interface_tangent(i)] = i <= last ? 0.1 * law->critical_velocity
-                                                                  : 0;
-        fixture->seen.reaction[interface_normal(i)] = weak / slope;
+    for (int32_t i = 0; i < fixture->built.seen.contact_count; i++) {
+        fixture->built.seen.status[i] = i <= last ? CONTACT_SLIP_FORWARD : CONTACT_STICK;
+        fixture->built.seen.slip_rate[interface_tangent(i)] =
+            i <= last ? 0.1 * law->critical_velocity : 0;
+        fixture->built.seen.reaction[interface_normal(i)] = weak / slope;
     }
 }
 
 // The largest Re lambda/|lambda| there is, from the companion matrix.
 static double least_angle(const Fixture *fixture, double weak)
 {
-    const BlockRig *rig = &fixture->rig;
+    const BlockRig *rig = &fixture->built.rig;
     int32_t n = rig->bulk.dof_count, moving[DOFS_MAX], count = 0;
     bool held[DOFS_MAX] = {false}, slips[DOFS_MAX] = {false};
     for (int32_t i = 0; i < rig->interface.contact_count; i++) {
-        bool slipping = fixture->seen.status[i] != CONTACT_STICK;
+        bool slipping = fixture->built.seen.status[i] != CONTACT_STICK;
         held[rig->interface.dofs[2 * i + 1]] = true;
         held[rig->interface.dofs[2 * i]] = !slipping;
         slips[rig->interface.dofs[2 * i]] = slipping;
@@ -96,9 +87,9 @@ static double least_angle(const Fixture *fixture, double weak)
 
 static bool swings_less(Fixture *fixture, double growth)
 {
-    for (int32_t k = 0; k < fixture->ladder.rung_count; k++)
-        if (!certificate_swings_less(&fixture->certificate, &fixture->seen, fixture->ladder.rung[k],
-                                     growth))
+    for (int32_t k = 0; k < fixture->built.ladder.rung_count; k++)
+        if (!certificate_swings_less(&fixture->built.certificate, &fixture->built.seen,
+                                     fixture->built.ladder.rung[k], growth))
             return false;
     return true;
 }
@@ -112,7 +103,7 @@ static void test_against_eigenvalues(void **state)
         Fixture fixture;
         fixture_build(length, &fixture);
         double unit = fixture.damping[0];
-        for (int32_t last = 1; last < fixture.seen.contact_count; last++) {
+        for (int32_t last = 1; last < fixture.built.seen.contact_count; last++) {
             for (double weak = 0.02 * unit; weak < 5 * unit; weak *= 1.1) {
                 slip_up_to(&fixture, last, weak);
                 double angle = least_angle(&fixture, weak);

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// S with open nodes condensed out, however it was reached, against an elimination from S itself.
+#include "contact/closed_operator.h"
+
+#include "base/memory.h"
+#include "contact_by_hand.h"
+
+enum { NODES = 9, RODS = 2, COUNT = 2 * NODES + RODS, OPERATORS = 60 };
+
+static double schur[OPERATORS][COUNT * COUNT];
+
+static void make_operators(HandContact *hand)
+{
+    Random random = {.state = 5};
+    hand_contact_size(hand, NODES, RODS);
+    for (int k = 0; k < OPERATORS; k++) {
+        hand_random_schur(&random, 0.2, 1, hand);
+        memcpy(schur[k], hand->schur, sizeof schur[k]);
+    }
+}
+
+// Gaussian elimination of the open unknowns, one after the other, in a copy.
+static void expect_closed(const double *found, const double *s, const uint8_t *status)
+{
+    double a[COUNT * COUNT];
+    memcpy(a, s, sizeof a);
+    for (int k = 0; k < 2 * NODES; k++) {
+        if (status[k / 2] != CONTACT_OPEN) continue;
+        for (int i = 0; i < COUNT; i++) {
+            double factor = a[k * COUNT + i] / a[k * COUNT + k];
+            for (int j = 0; j < COUNT && i != k; j++) a[j * COUNT + i] -= factor * a[j * COUNT + k];
+        }
+    }
+    for (int i = 0; i < COUNT; i++) {
+        bool open = i < 2 * NODES && status[i / 2] == CONTACT_OPEN;
+        for (int j = 0; j < COUNT && !open; j++) {
+            if (j < 2 * NODES && status[j / 2] == CONTACT_OPEN) continue;
+            assert_near("S'", found[j * COUNT + i], a[j * COUNT + i], 1e-10);
+            assert_near("symmetric", found[i * COUNT + j], a[j * COUNT + i], 1e-10);
+        }
+    }
+}
+
+// More operators than are kept, nodes that open and close at random, for long.
+static void test_any_order(void **state)
+{
+    (void)state;
+    Error err = {0};
+    HandContact hand;
+    ClosedOperator closed;
+    Random random = {.state = 8};
+    make_operators(&hand);
+    assert_true(closed_operator_create(&hand.interface, &closed, &err));
+    int64_t allocations = memory_counters().allocations;
+    for (int trial = 0; trial < 4000; trial++) {
+        double *s = schur[random_index(&random, trial % 2 ? 3 : OPERATORS)];
+        uint8_t *status = &hand.status[random_index(&random, NODES)];
+        *status = (uint8_t)random_index(&random, 4);
+        expect_closed(closed_operator_of(&closed, s, hand.status), s, hand.status);
+    }
+    memset(hand.status, CONTACT_STICK, sizeof hand.status);
+    assert_ptr_equal(closed_operator_of(&closed, schur[0], hand.status), schur[0]);
+    assert_int_equal(memory_counters().allocations, allocations);
+    closed_operator_destroy(&closed);
+}
+
+// One node more costs two sweeps, and three operators stand side by side.
+static void test_sweeps_little(void **state)
+{
+    (void)state;
+    Error err = {0};
+    HandContact hand;
+    ClosedOperator closed;
+    const double *found[CLOSED_OPERATORS_MIN];
+    make_operators(&hand);
+    assert_true(closed_operator_create(&hand.interface, &closed, &err));
+    memset(hand.status, CONTACT_SLIP_FORWARD, sizeof hand.status);
+    for (int i = 0; i < 4; i++) {
+        hand.status[2 * i] = CONTACT_OPEN;
+        for (int k = 0; k < CLOSED_OPERATORS_MIN; k++)
+            found[k] = closed_operator_of(&closed, schur[k], hand.status);
+        assert_int_equal(closed.sweeps, 2 * CLOSED_OPERATORS_MIN * (i + 1));
+    }
+    for (int k = 0; k < CLOSED_OPERATORS_MIN; k++) expect_closed(found[k], schur[k], hand.status);
+    memset(schur[0], 0, sizeof schur[0]);
+    closed_operator_destroy(&closed);
+    assert_true(closed_operator_create(&hand.interface, &closed, &err));
+    assert_null(closed_operator_of(&closed, schur[0], hand.status));
+    closed_operator_destroy(&closed);
+}
+
+static void test_memory(void **state)
+{
+    (void)state;
+    Error err = {0};
+    HandContact hand;
+    ClosedOperator closed;
+    hand_contact_size(&hand, NODES, RODS);
+    int64_t live = memory_counters().live;
+    bool done = false;
+    for (int32_t k = 0; !done; k += 5) {
+        memory_fail_after(k);
+        error_clear(&err);
+        done = closed_operator_create(&hand.interface, &closed, &err);
+        memory_fail_after(-1);
+        assert_int_equal(err.code, done ? ERROR_NONE : ERROR_MEMORY);
+        closed_operator_destroy(&closed);
+        assert_int_equal(memory_counters().live, live);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_any_order),
+        cmocka_unit_test(test_sweeps_little),
+        cmocka_unit_test(test_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
