@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What our writers store, read by programs that are not ours: VTK's Python reader, meshio, h5py.
 

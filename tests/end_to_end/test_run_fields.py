@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
 """One run's fields, history and report against each other, read by VTK, h5py and json.
 
