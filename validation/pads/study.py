@@ -74,7 +74,8 @@ class Study:
         subprocess.run([self.program, "sweep", HERE / f"{name}.yaml", "-o", out, "-j", str(self.jobs),
                         "--quiet"], check=False)   # 1: some points failed, and the table says which
         with open(out / "sweep.csv", encoding="utf-8") as file:
-            return [Point(out, row) for row in csv.DictReader(file) if row["status"] == "done"]
+            points = [Point(out, row) for row in csv.DictReader(file) if row["status"] == "done"]
+        return sorted(points, key=lambda p: (p.P, p.n))
 
     def stability(self, scene, sets):
         """results and pads of `amontons stability`; None where it failed."""
@@ -125,9 +126,9 @@ def of_pressure(points, P):
 
 
 def curve(label, points, x, color, **more):
-    """mu to trust against x, bars up to the highest fall."""
+    """mu to trust against x, bars up to the highest fall where falls repeat."""
     return {"label": label, "x": [x(p) for p in points], "y": [p.trusted for p in points],
-            "low": [p.trusted for p in points], "high": [p.high or p.trusted for p in points],
+            "low": [p.trusted for p in points], "high": [p.high if p.high and p.period else p.trusted for p in points],
             "color": color, "marker": "circle", "line": "thin", **more}
 
 
