@@ -217,24 +217,11 @@ double certificate_load(Certificate *certificate, const State *state, const Inte
     return load;
 }
 
-// First the symmetric test, which is cheaper and sufficient; where that fails the exact sign of det
-// J decides.
 bool certificate_step_resolves(Certificate *certificate, const State *state,
                                const InterfaceOperator *rung)
 {
-    const double *schur = interface_operator_schur(rung);
     double started = clock_seconds();
-    bool resolves = is_definite(certificate, state, schur, 1) ||
-                    coupled_is_positive(certificate, state, schur);
+    bool resolves = coupled_is_positive(certificate, state, interface_operator_schur(rung));
     certificate->seconds += clock_seconds() - started;
     return resolves;
-}
-
-bool certificate_no_single_rate(Certificate *certificate, const State *state,
-                                const InterfaceOperator *rung)
-{
-    double started = clock_seconds();
-    bool none = coupled_is_positive(certificate, state, interface_operator_schur(rung));
-    certificate->seconds += clock_seconds() - started;
-    return none;
 }

@@ -11,28 +11,27 @@
 //   * S_C[F,F] - W positive definite, S_C the Schur complement of the damping C alone: viscosity
 //     takes more out of any slip than weakening puts in. No perturbation can gain energy, and any
 //     step that accuracy allows may be taken. First lost at about l_sc.
-//   * S(dt)[F,F] - W positive definite for a rung's S(dt) = (M s + C + K/s) condensed, with s =
-//     1/(gamma dt): nothing grows faster than s. Lost: there may be a real growth rate above s,
-//     which the step would hide.
+//   * det J(s) > 0, s = 1/(gamma dt) of a rung. J, the rows of slipping nodes with the pressure that
+//     follows slip,
 //
-// Between them, where slip swings: an exp(lambda t) of the shape u has lambda^2 m + lambda c + k =
-// 0 with m = u* M u, c = u* (C - W) u, k = u* K u; hence -Re lambda/|lambda| = c/(2 sqrt(m k)), and
-// 2 sqrt(m k) is the least of s m + k/s over s > 0. So
+//         J(s) = (S(s)_t + sign(v) mu S(s)_n)[F,F] - W,    S(s) = (M s + C + K/s) condensed,
+//
+//     is singular exactly at real growth rates, and det J > 0 for s to infinity, where M decides:
+//     det J < 0 tells of a rate above s, which the step would hide. (Two of them it does not show.
+//     S(s) - W definite would exclude every rate but those that only pressure gives: a corner that
+//     carries a pad may run away at a rate far above s where S - W is definite; and with mu_S =
+//     1.2 slip is steady for long while it is not.)
+//
+// Where slip swings and the first test fails: an exp(lambda t) of the shape u has lambda^2 m +
+// lambda c + k = 0 with m = u* M u, c = u* (C - W) u, k = u* K u; hence -Re lambda/|lambda| = c/(2
+// sqrt(m k)), and 2 sqrt(m k) is the least of s m + k/s over s > 0. So
 //
 //   * S_C + a (S(s) - S_C) - W positive definite for all s: Re lambda < a |lambda| for all that
 //     grows. (The Schur complement of C + a (s M + K/s) is larger, as Schur complements are
 //     concave.) With a = cos(arctan(pi/log g)) what swings grows by less than g in half a period.
 //
-// a = 0 is the first test and a = 1 the second.
-//
-// All leave out that pressure follows slip. The rows of slipping nodes with it,
-//
-//     J(s) = S_t + sign(v) mu S_n - W,
-//
-// are singular exactly at real growth rates, and det J > 0 for s to infinity, where M decides. So
-// where the second test fails, det J > 0 still clears the step: no single rate lies above s; where
-// it holds, det J < 0 tells of one that only pressure gives. (With mu_S = 1.2 slip is steady for
-// long while S - W is indefinite.) Called by stepping/step_control.
+// a = 0 is the first test. Both leave out that pressure follows slip. Called by
+// stepping/step_control.
 #ifndef AMONTONS_STEPPING_CERTIFICATE_H
 #define AMONTONS_STEPPING_CERTIFICATE_H
 
@@ -52,7 +51,7 @@ typedef struct Certificate {
     double *vector;   // [count] work; owned
     int32_t *moving;   // [count] work: F; owned
     int32_t *pivots;   // [count] work; owned
-    int64_t checks;   // counted: Cholesky factorisations
+    int64_t checks;   // counted: factorisations
     double seconds;   // wall time spent
 } Certificate;
 
@@ -64,15 +63,9 @@ void certificate_destroy(Certificate *certificate);
 // The slip set of `state` cannot gain energy.
 bool certificate_holds(Certificate *certificate, const State *state);
 
-// Nothing grows faster than 1/(gamma dt), dt that of `rung`; where pressure follows slip no single
-// rate does, either test being enough.
+// det J > 0: no single real rate of growth lies above 1/(gamma dt), dt that of `rung`.
 bool certificate_step_resolves(Certificate *certificate, const State *state,
                                const InterfaceOperator *rung);
-
-// The same by det J > 0 alone. A corner that carries a pad may weaken faster than it bears only as
-// pressure follows its slip, at a rate far above 1/(gamma dt) where S - W is definite already.
-bool certificate_no_single_rate(Certificate *certificate, const State *state,
-                                const InterfaceOperator *rung);
 
 // A disturbance that swings grows by less than `growth` > 1 in half a period. To be asked on all
 // rungs that are built.

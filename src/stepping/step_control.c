@@ -167,16 +167,6 @@ static bool resolves_waves(const StepControl *control, int32_t k)
     return ladder_step(&control->ladder, k) <= control->def.wave_step * (1 + 1e-12);
 }
 
-// Where longer steps have been refused over and over while slip stays what it is, the step may be
-// hiding a growth far above its rate, which would have changed it: then det J > 0 alone counts.
-static bool growth_is_resolved(StepControl *control, int32_t k)
-{
-    const InterfaceOperator *rung = control->ladder.rung[k];
-    if (control->hold >= HOLD_MAX)
-        return certificate_no_single_rate(&control->certificate, &control->next, rung);
-    return certificate_step_resolves(&control->certificate, &control->next, rung);
-}
-
 // Cheapest first. *certified: of the state the step leads to; true, without a look, where the
 // certificate is switched off.
 static Verdict judge_step(StepControl *control, int32_t k, const StepOutcome *outcome,
@@ -193,7 +183,9 @@ static Verdict judge_step(StepControl *control, int32_t k, const StepOutcome *ou
     if (*certified) return STEP_ACCEPTED;
     if (!resolves_waves(control, k))
         return may_skip_waves(control, &control->next) ? STEP_ACCEPTED : STEP_UNCERTIFIED;
-    return growth_is_resolved(control, k) ? STEP_ACCEPTED : STEP_UNCERTIFIED;
+    bool resolved =
+        certificate_step_resolves(&control->certificate, &control->next, control->ladder.rung[k]);
+    return resolved ? STEP_ACCEPTED : STEP_UNCERTIFIED;
 }
 
 // Of the local error in dt: one more than the scheme's.
