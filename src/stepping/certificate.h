@@ -11,8 +11,8 @@
 //   * S_C[F,F] - W positive definite, S_C the Schur complement of the damping C alone: viscosity
 //     takes more out of any slip than weakening puts in. No perturbation can gain energy, and any
 //     step that accuracy allows may be taken. First lost at about l_sc.
-//   * det J(s) > 0, s = 1/(gamma dt) of a rung. J, the rows of slipping nodes with the pressure that
-//     follows slip,
+//   * det J(s) > 0, s = 1/(gamma dt) of a rung. J, the rows of slipping nodes with the pressure
+//     that follows slip,
 //
 //         J(s) = (S(s)_t + sign(v) mu S(s)_n)[F,F] - W,    S(s) = (M s + C + K/s) condensed,
 //
