@@ -68,6 +68,20 @@ class PadsStudy(unittest.TestCase):
             self.assertAlmostEqual(mu[n] / table["5.75e-5", str(n)], 1, delta=0.01)
         self.assertGreater(mu[4], 1.15 * mu[2])
 
+    def test_height_in_set_b(self):
+        """Taller pads hold a sixth less where slow slip takes most of the block, and let go by turns."""
+        with open(os.path.join(STUDY, "tables.md"), encoding="utf-8") as file:
+            text = next(t for t in file.read().split("### ") if t.startswith("Varied: pad_height (set B)"))
+        table = {key: float(mu) for key, mu in re.findall(r"^\| 1.5e-5 \| 2 \| (\S+) \| ([\d.]+)", text, re.M)}
+        mu = {}
+        for height, falls in (("0.0005", [2]), ("0.004", [1, 2])):
+            run = self.run_program("run", "pads-b.yaml", "run.json", P=1.5e-5, n=2, **{
+                "mesh.set.pad_height": height, "time.until.U": 1.5 * 1.5e-5})["results"]
+            self.assertEqual([branch["pads"] for branch in run["falls"]["branches"]], falls)
+            mu[height] = run["mu_trusted"]
+            self.assertAlmostEqual(mu[height] / table[height], 1, delta=0.01)
+        self.assertLess(mu["0.004"], 5 / 6 * mu["0.0005"])
+
     def test_falls_that_do_not_repeat(self):
         """Mean, decile and errors of a real run's falls, by numpy; too few of them are said to be."""
         run = self.run_program("run", "pads-b.yaml", "run.json", P=1.5e-5, n=8, **{

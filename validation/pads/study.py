@@ -155,7 +155,7 @@ def study_count(study, name, points, plain, pressures, title):
     study.table(f"Number of pads, equal contact length 0.6 L ({title}); none: the block without gaps",
                 ["P", "n", "mu to trust", "mean of falls", "falls", "period", "mu_M", "first whole pad",
                  "falls (pads that slide)", "l_c/L"], rows)
-    low, high = (0.2, 0.4) if name == "count" else (0.4, 1.3)
+    low, high = (0.2, 0.4) if name == "count" else (0.4, 1.1)
     study.plot(name, title=f"mu against the number of pads, {title}", height=0.8,
                x={"label": "pads ~{n}", "range": [0.4, 12.6]}, y={"label": MU, "range": [low, high]},
                series=content)
