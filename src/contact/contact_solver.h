@@ -6,13 +6,14 @@
 //
 //     row of a slipping tangent:   S_t + s mu S_n + mu'(|v_t|) r_n e_t,     s = sign of slip,
 //
-// then every status is checked against its own conditions and changed where it breaks them. The
-// linear system is dense and unsymmetric; its factors are kept and used again (by the next
-// iteration, stage or step) while operator and statuses stay and they still gain a digit a step.
-// When statuses cycle, only the worst one is changed at a time; when that does not settle either,
-// a path to a solution is followed (contact/contact_path): there is one, as S is positive definite
-// and mu bounded and continuous. Where even that is not found the problem counts as unsolved and
-// the caller must take a smaller step. Called by stepping/sdirk.
+// then every status is checked against its own conditions and changed where it breaks them. Open
+// nodes are condensed out (contact/closed_operator). The linear system is dense and unsymmetric;
+// its factors are kept and used again (by the next iteration, stage or step) while operator and
+// statuses stay and they still gain a digit a step. When statuses cycle, only the worst one is
+// changed at a time; when that does not settle either, or equations come no nearer, a path to a
+// solution is followed (contact/contact_path): there is one, as S is positive definite and mu
+// bounded and continuous. Where even that is not found, or the caller would rather not wait for it,
+// the problem counts as unsolved and the caller must take a smaller step. Called by stepping/sdirk.
 #ifndef AMONTONS_CONTACT_CONTACT_SOLVER_H
 #define AMONTONS_CONTACT_CONTACT_SOLVER_H
 

@@ -20,7 +20,7 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 SWEEPS = ("count-b", "fine-b", "plain-b", "height-b", "gap-b", "check-b",   # long points first
           "plain", "count", "height", "gap", "fill", "grooves", "check")
-FIGURES = ("count", "count-b", "load", "drag", "transfer", "shape")
+FIGURES = ("count", "count-b", "load", "drag", "transfer", "shape", "shape-b")
 SET_A, SET_B = (0.001, 0.003, 0.006, 0.012), (1.5e-5, 5.75e-5, 2.3e-4)   # pressures
 COUNTS = range(1, 13)
 MU = "~{\u03bc}"
@@ -297,6 +297,23 @@ def shape_table(study, points, key, title):
                                              "mu_M", "first whole pad", "falls (pads that slide)", "l_c/L"], rows)
 
 
+def study_heights_b(study, heights, plain):
+    """mu to trust over that of the plain block, set B."""
+    content, color = [], 0
+    for P in (SET_B[0], SET_B[2]):
+        whole = of_pressure(plain, P)[0].trusted
+        for n in (2, 4):
+            here = sorted((p for p in of_pressure(heights, P) if p.n == n), key=lambda p: p.mesh["pad_height"])
+            color += 1
+            content.append({"label": f"~{{P}} = {stress(P)}, {n} pads", "y": [p.trusted / whole for p in here],
+                            "x": [p.mesh["pad_height"] / p.mesh["length"] for p in here], "color": color,
+                            "marker": "circle" if n == 2 else "square", "line": "thin", "filled": P < 1e-4})
+    study.plot("shape-b", title="mu to trust over that of the block without gaps, set B", height=0.7,
+               x={"label": "height of pads / ~{L}", "range": [0, 0.16]},
+               y={"label": f"{MU} / {MU} without gaps", "range": [0.7, 1.05]},
+               series=content + [level(1, [0, 0.155], 0)])
+
+
 def study_shapes(study, points, plain):
     for name, key in (("height", "pad_height"), ("gap", "gap"), ("fill", "fill")):
         shape_table(study, points[name], key, "set A")
@@ -411,6 +428,7 @@ def main():
     study_loads(study, points["count"])
     study_transfer(study)
     study_shapes(study, points, points["plain"])
+    study_heights_b(study, points["height-b"], points["plain-b"])
     study_check(study, points["check"], "Set A")
     study_check(study, points["count-b"] + points["check-b"] + points["fine-b"], "Set B")
     (words.output / "tables.md").write_text("\n".join(study.lines), encoding="utf-8")
