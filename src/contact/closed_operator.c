@@ -11,6 +11,9 @@
 
 // Of both unknowns of every node: sweeps after which a copy is made anew.
 static const int32_t SWEEPS_EACH = 8;
+// Part of its diagonal entry that is left of an unknown when the others of O are held, at least: a
+// body that floats has 0, up to rounding; one that a step's mass holds has far more.
+static const double SINGULAR = 1e-8;
 // Of all copies, which take memory as they come into use: every rung of a ladder is asked for in
 // turn where growth is looked for (stepping/step_control), and should then be here still.
 static const double BYTES_MAX = 1e9;
@@ -62,12 +65,22 @@ static SweptOperator *find_copy(ClosedOperator *closed, const double *schur)
     return oldest;
 }
 
+// A pivot below its part of S's own entry would leave, swept back, only the digits that it has more
+// than rounding: false, and the copy is of no more use.
+static bool sweep_unknown(ClosedOperator *closed, SweptOperator *swept, int32_t k, bool back)
+{
+    int64_t entry = (int64_t)k * (closed->count + 1);
+    double pivot = swept->matrix[entry];
+    if (back ? !(pivot < 0) : !(pivot > SINGULAR * swept->schur[entry])) return false;
+    return dense_sweep(swept->matrix, closed->count, k, back, closed->work);
+}
+
 // Both unknowns of node i.
 static bool sweep_node(ClosedOperator *closed, SweptOperator *swept, int32_t i)
 {
     bool back = swept->out[i];
-    if (!dense_sweep(swept->matrix, closed->count, interface_tangent(i), back, closed->work) ||
-        !dense_sweep(swept->matrix, closed->count, interface_normal(i), back, closed->work))
+    if (!sweep_unknown(closed, swept, interface_tangent(i), back) ||
+        !sweep_unknown(closed, swept, interface_normal(i), back))
         return false;
     swept->out[i] = !back;
     swept->sweeps += 2;

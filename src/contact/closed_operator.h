@@ -6,9 +6,8 @@
 //
 // is all that the others meet. Blocks on pads have most of their nodes open while few slip, and a
 // node that opens or closes changes S' by two sweeps (base/dense), which cost as much as a few
-// products with S; factoring S_OO in every system costs far more. Some operators are kept swept:
-// those of the rungs in use. Called by contact/contact_solver
-// and stepping/certificate.
+// products with S; factoring S_OO in every system costs far more. Operators are kept swept: those
+// of the rungs in use. Called by contact/contact_solver and stepping/certificate.
 #ifndef AMONTONS_CONTACT_CLOSED_OPERATOR_H
 #define AMONTONS_CONTACT_CLOSED_OPERATOR_H
 
@@ -35,9 +34,9 @@ bool closed_operator_create(const Interface *interface, ClosedOperator *closed, 
 void closed_operator_destroy(ClosedOperator *closed);
 
 // `schur` [count^2] swept on the tangents and normals of the nodes that `status` [contact_count]
-// has open, and on nothing else: itself where none is. Belongs to `closed`, and stands while fewer
-// than CLOSED_OPERATORS_MIN others are asked for. NULL: S_OO is singular to working precision. A
-// `schur` at the same address is taken for the same.
+// has open, and on nothing else: itself where none is. Belongs to `closed`, and stands until the
+// same `schur` is asked for with other statuses, or CLOSED_OPERATORS_MIN others are. NULL: S_OO is
+// nearly singular, what is open floats. A `schur` at the same address is taken for the same.
 const double *closed_operator_of(ClosedOperator *closed, const double *schur,
                                  const uint8_t *status);
 

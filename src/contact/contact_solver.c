@@ -25,7 +25,7 @@ bool contact_solver_create(const Interface *interface, ContactSolverDef def, Con
                            Error *err)
 {
     int64_t count = interface->count;
-    *solver = (ContactSolver){.def = def, .count = interface->count, .follows_path = true};
+    *solver = (ContactSolver){.def = def, .follows_path = true};
     solver->free = NEW_ARRAY(int32_t, count, err);
     solver->open = NEW_ARRAY(int32_t, count, err);
     solver->pivots = NEW_ARRAY(int32_t, count, err);
@@ -238,11 +238,10 @@ static void find_pull(ContactSolver *solver, const ContactProblem *problem,
 // false: the matrix is singular. With a kept matrix the step is one of a chord method: right in
 // direction, linear in convergence, and far cheaper than factoring.
 static bool newton_step(ContactSolver *solver, const ContactProblem *problem,
-                        ContactSolution *solution, int32_t free_count, bool *reused)
+                        ContactSolution *solution, const double *closed, int32_t free_count,
+                        bool *reused)
 {
     int32_t count = problem->interface->count;
-    const double *closed = closed_operator_of(&solver->closed, problem->schur, solution->status);
-    if (!closed) return false;
     *reused = kept_fits(solver, problem, solution, free_count);
     if (!*reused && !factor_matrix(solver, problem, solution, closed, free_count)) return false;
     bool opens = solver->open_count > 0;
@@ -340,15 +339,17 @@ static Violation update_statuses(const ContactSolver *solver, const ContactProbl
     return found;
 }
 
-// Force per width; NaN where a velocity is not finite.
+// Force per width; infinite where a number is not finite.
 static double equations_residual(const ContactSolver *solver, const ContactProblem *problem,
                                  const ContactSolution *solution, int32_t free_count)
 {
     double largest = 0;
-    for (int32_t a = 0; a < free_count; a++)
-        largest = fmax(largest, fabs(equation(problem, solution, solver->free[a])));
-    for (int32_t a = 0; a < solver->open_count; a++)
-        largest = fmax(largest, fabs(solution->reaction[solver->open[a]]));
+    for (int32_t a = 0; a < free_count + solver->open_count; a++) {
+        double left = a < free_count ? equation(problem, solution, solver->free[a])
+                                     : solution->reaction[solver->open[a - free_count]];
+        if (!isfinite(left)) return INFINITY;
+        largest = fmax(largest, fabs(left));
+    }
     return largest;
 }
 
@@ -392,10 +393,11 @@ typedef struct Course {
     int32_t iterations, limit;
     bool change_all;
     int32_t changes, anchored;   // status sets met; the one that solver->anchor holds
-    double least;   // residual with these statuses, over the scale of force
+    double least;   // residual so far with these statuses, over the scale of force
     int32_t stalled;   // steps of Newton's own in a row that did not halve it
     double before;   // residual of the step before, where its matrix was reused
     int32_t started;   // node set slipping alone, by the last change; -1: none
+    bool landed;   // what floated was put on the plane, once
 } Course;
 
 // Only the worst status is changed from here on.
@@ -472,6 +474,22 @@ static bool starts_fast(ContactSolver *solver, const ContactProblem *problem,
     return true;
 }
 
+// S with what is open condensed out. Where that floats, nothing holding it but what lands, all of it
+// is put on the plane, once: what then pulls there opens again. NULL: it floats again.
+static const double *close_open(ContactSolver *solver, const ContactProblem *problem,
+                                ContactSolution *solution, Course *course)
+{
+    const double *closed = closed_operator_of(&solver->closed, problem->schur, solution->status);
+    if (closed || course->landed) return closed;
+    course->landed = true;
+    for (int32_t i = 0; i < problem->interface->contact_count; i++)
+        if (solution->status[i] == CONTACT_OPEN) solution->status[i] = CONTACT_STICK;
+    note_statuses(solver, problem, solution, course);
+    hold_unknowns(problem, solution);
+    compute_reaction(problem, solution);
+    return problem->schur;
+}
+
 // true: equations and all statuses hold, reactions of open nodes are 0 to the bit. false: `limit`
 // steps were not enough, Newton stalled, a matrix was singular or a number not finite; *solution
 // then has no meaning.
@@ -485,10 +503,12 @@ static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
     hold_unknowns(problem, solution);
     compute_reaction(problem, solution);
     while (may_go_on(solver, &course)) {
+        const double *closed = close_open(solver, problem, solution, &course);
+        if (!closed) break;
         int32_t free_count = list_free(solver, problem, solution);
         solver->iterations++;
         bool reused = false;
-        if (!newton_step(solver, problem, solution, free_count, &reused)) break;
+        if (!newton_step(solver, problem, solution, closed, free_count, &reused)) break;
         compute_reaction(problem, solution);
         if (starts_fast(solver, problem, solution, &course)) continue;
         Scales scales = problem_scales(problem, solution);

@@ -33,9 +33,8 @@ ContactSolverDef contact_solver_def(void);
 
 typedef struct ContactSolver {
     ContactSolverDef def;
-    int32_t count;   // interface unknowns
     int32_t *free;   // [count] work: the unknowns solved for; owned
-    int32_t *open;   // [open_count] work: unknowns of open nodes; owned
+    int32_t *open;   // [count] work, open_count of them used: unknowns of open nodes; owned
     int32_t open_count;
     int32_t *pivots;   // [count] work; owned
     double *matrix;   // [count^2] work; owned

@@ -90,7 +90,7 @@ static const double *close_operator(Certificate *certificate, const State *state
     return schur ? closed_operator_of(certificate->closed, schur, state->status) : NULL;
 }
 
-// part S + (1 - part) S_C - W on F; schur: S. S_C is NULL where C itself is singular.
+// part S + (1 - part) S_C - W on F, part < 1; schur: S. S_C is NULL where C itself is singular.
 // true: positive definite. Only lower triangles are filled, as Cholesky reads no more. Where
 // nothing weakens no factorisation is done, nor counted. Parts of condensed operators are less than
 // their parts condensed: with open nodes the test is a little stricter between its ends.
@@ -100,19 +100,18 @@ static bool is_definite(Certificate *certificate, const State *state, const doub
     int32_t count = 0;
     if (!list_moving(certificate, state, &count)) return true;   // S itself is never indefinite
     const double *damping = NULL, *own = NULL;
-    if (part < 1 && certificate->damping)
+    if (certificate->damping)
         damping =
             close_operator(certificate, state, interface_operator_schur(certificate->damping));
     if (part > 0) own = close_operator(certificate, state, schur);
-    if ((part < 1 && !damping) || (part > 0 && !own)) return false;
+    if (!damping || (part > 0 && !own)) return false;
     int64_t size = certificate->interface->count;
     for (int32_t b = 0; b < count; b++) {
         int64_t column = size * certificate->moving[b];
         double *out = certificate->matrix + (int64_t)count * b;
         for (int32_t a = b; a < count; a++) {
             int64_t entry = column + certificate->moving[a];
-            out[a] = (part > 0 ? part * own[entry] : 0) +
-                     (part < 1 ? (1 - part) * damping[entry] : 0);
+            out[a] = (1 - part) * damping[entry] + (part > 0 ? part * own[entry] : 0);
         }
         out[b] += certificate->damper[b] - certificate->weakening[b];
     }

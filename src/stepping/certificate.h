@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // When may inertia's time scale be skipped? Let F be the interface unknowns that can move (slipping
 // tangents, rod nodes let go; open nodes are condensed out of every S below, which changes neither
-// what is definite nor a sign of det J), J the slipping nodes on the weakening branch and
+// what is definite nor a sign of det J), and at nodes that slip on the weakening branch
 //
-//     W = diag(-mu'(|v_i|) r_n,i) on J, 0 elsewhere     (linear law: (mu_S - mu_K) p_i w_i / v_c).
+//     W = diag(-mu'(|v_i|) r_n,i), 0 elsewhere     (linear law: (mu_S - mu_K) p_i w_i / v_c).
 //
 // Soft rod nodes that touch (contact/rod) are in F, their dampers in C; their springs are left out,
 // which only makes the tests stricter.
@@ -51,7 +51,7 @@ typedef struct Certificate {
     double *vector;   // [count] work; owned
     int32_t *moving;   // [count] work: F; owned
     int32_t *pivots;   // [count] work; owned
-    int64_t checks;   // counted: factorisations
+    int64_t checks;   // counted, factorisations
     double seconds;   // wall time spent
 } Certificate;
 

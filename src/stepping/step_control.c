@@ -25,7 +25,9 @@ enum { HOLD_FIRST = 4, HOLD_MAX = 256 };
 // Rungs down from a long step into a state that is not certified, at most as far as waves are
 // resolved: where slip first goes too far is closed in on by eighths.
 enum { UNCERTIFIED_DROP = 3 };
-// Steps in a row without a solution before the contact solver follows its path.
+// Steps in a row without a solution before the contact solver follows its path: Newton gives up
+// after some 20 steps, a path takes thousands where weakening folds it (set B on pads; with 8 it
+// cost more than all else there).
 enum { SHORTER_FIRST = 16 };
 
 // Part of v_c that swings may reach to be stepped over unseen. 0.01 keeps a rod at v_c/30, as in
@@ -154,7 +156,7 @@ static bool swings_stay_small(StepControl *control, const State *state)
 }
 
 // May `state` be left or reached by a step that does not resolve waves? What swings on is small,
-// by the second certificate or by what was seen of it, and nothing grows without swinging.
+// by the certificate of swings or by what was seen of it, and nothing grows without swinging.
 static bool may_skip_waves(StepControl *control, const State *state)
 {
     return control->watch.duration > 0 &&

@@ -4,9 +4,9 @@
 //   2. the estimated local error is within tolerance,
 //   3. its energies balance: numerics take or give only a small part of what the step turned over,
 //   4. its end state is certified dissipative, or the step resolves waves (dt <= wave_step) and no
-//      growth faster than 1/(gamma dt) is left in the slip set (stepping/certificate), or what
-//      swings there stays small, by certificate or by what was seen of it (stepping/watch), and
-//      nothing grows without swinging.
+//      single real rate of growth lies above 1/(gamma dt) (stepping/certificate), or what swings
+//      there stays small, by certificate or by what was seen of it (stepping/watch), and nothing
+//      grows without swinging.
 // Otherwise it goes back to the old state with a smaller rung. Used by stepping/relaxation and
 // run/simulation.
 #ifndef AMONTONS_STEPPING_STEP_CONTROL_H

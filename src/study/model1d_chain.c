@@ -9,8 +9,8 @@
 //
 // The rod's unknown U is led by it and its reaction is F_T. The pressure is given, so the normals
 // n_i have nothing to say: each stands on a spring of its own, never moves, and is pressed with
-// p_i = integral of p times the shape function. Nothing couples pressure to slip, so the symmetric
-// tests of stepping/certificate are exact here.
+// p_i = integral of p times the shape function. Nothing couples pressure to slip, so that
+// S_C - W of stepping/certificate is the exact balance of powers here.
 #include "study/model1d.h"
 
 #include "base/memory.h"

@@ -255,7 +255,6 @@ static void test_gives_up_soon(void **state)
         else
             iterations += solver.iterations;
         unsolved += solver.unsolved;
-        assert_true(solver.iterations <= solver.def.iterations_all + solver.def.iterations_short);
         contact_solver_destroy(&solver);
     }
     print_message("%d problems given up after %.1f iterations\n", (int)unsolved,

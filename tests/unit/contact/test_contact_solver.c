@@ -131,6 +131,29 @@ static void test_strong_weakening(void **state)
     }
 }
 
+// Three nodes that only the plane holds up, S n = 0 for their normals: started as if all were open,
+// they land, and each bears what presses it.
+static void test_floating_start(void **state)
+{
+    (void)state;
+    HandContact hand;
+    hand_contact_size(&hand, 3, 0);
+    hand.law = COULOMB;
+    for (int i = 0; i < 3; i++) {
+        hand.schur[2 * i * 6 + 2 * i] = 1;
+        for (int j = 0; j < 3; j++) hand.schur[(2 * j + 1) * 6 + 2 * i + 1] = (i == j) - 1.0 / 3;
+        hand.g[2 * i + 1] = -1 - i;
+        hand.status[i] = CONTACT_OPEN;
+    }
+    assert_true(hand_contact_solve(&hand));
+    for (int i = 0; i < 3; i++) {
+        assert_int_equal(hand.status[i], CONTACT_STICK);
+        assert_near("r_n", hand.reaction[2 * i + 1], 1 + i, 1e-14);
+    }
+    hand.g[1] = hand.g[3] = hand.g[5] = 1;   // lifted, and nothing holds it
+    assert_false(hand_contact_solve(&hand));
+}
+
 // The rod beside one contact node that sticks: S couples them.
 static void test_rod(void **state)
 {
@@ -309,10 +332,15 @@ static void test_soft_rod(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_stick_and_open),    cmocka_unit_test(test_soft_rod),
-        cmocka_unit_test(test_coulomb_slip),      cmocka_unit_test(test_weakening_slip),
-        cmocka_unit_test(test_strong_weakening),  cmocka_unit_test(test_rod),
-        cmocka_unit_test(test_two_nodes),         cmocka_unit_test(test_rough_friction),
+        cmocka_unit_test(test_stick_and_open),
+        cmocka_unit_test(test_soft_rod),
+        cmocka_unit_test(test_coulomb_slip),
+        cmocka_unit_test(test_weakening_slip),
+        cmocka_unit_test(test_strong_weakening),
+        cmocka_unit_test(test_floating_start),
+        cmocka_unit_test(test_rod),
+        cmocka_unit_test(test_two_nodes),
+        cmocka_unit_test(test_rough_friction),
         cmocka_unit_test(test_allocates_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -12,7 +12,7 @@ typedef struct Fixture {
 
 static void fixture_build(const RigDef *def, Fixture *fixture)
 {
-    certificate_rig_build(def, 1, 0.01, &fixture->built);
+    certificate_rig_build(def, 1, 1e-3, &fixture->built);
     BlockRig *rig = &fixture->built.rig;
     double *c = rig_dense(rig, rig->bulk.damping);
     fixture->schur = hand_matrix(rig->interface.count, rig->interface.count);
@@ -77,15 +77,12 @@ static void random_state(Random *random, double pressure, Fixture *fixture)
 static void test_random_states(void **state)
 {
     (void)state;
-    Error err = {0};
     Random random = {.state = 41};
     RigDef def = rig_def();
     def.rod_width = 0.5;   // two rod nodes
     Fixture fixture;
     fixture_build(&def, &fixture);
-    Ladder ladder;
-    ladder_init(&fixture.built.rig.system, 1, 1e-3, &ladder);
-    int32_t held = 0, resolved = 0, cases = 0;
+    int32_t held = 0, cases = 0;
     for (int32_t trial = 0; trial < 300; trial++) {
         // k p around eta: both answers are common.
         double scale = def.law.critical_velocity / 0.28;
@@ -94,16 +91,11 @@ static void test_random_states(void **state)
         double least = least_eigenvalue(&fixture, fixture.schur, &weakens);
         bool holds = certificate_holds(&fixture.built.certificate, &fixture.built.seen);
         assert_int_equal(holds, !weakens || least > 0);
-        InterfaceOperator *rung = ladder_rung(&ladder, trial % ladder.rung_count, &err);
-        bool resolves =
-            certificate_step_resolves(&fixture.built.certificate, &fixture.built.seen, rung);
         held += weakens && holds;
-        resolved += weakens && resolves;
         cases += weakens;
     }
-    assert_true(cases > 200 && held > 40 && held < cases - 40 && resolved > held + 20);
-    assert_true(fixture.built.certificate.checks > 2 * 200);
-    ladder_destroy(&ladder);
+    assert_true(cases > 200 && held > 40 && held < cases - 40);
+    assert_true(fixture.built.certificate.checks > 200);
     fixture_destroy(&fixture);
 }
 

@@ -55,7 +55,7 @@ static void check_rules(double wave_step, double tolerance)
 }
 
 // Every accepted step keeps every rule, and the counters add up. A wave step far too long leaves it
-// to the second certificate to find what grows faster than the step.
+// to the sign of det J to find what grows faster than the step.
 static void test_rules(void **state)
 {
     (void)state;
