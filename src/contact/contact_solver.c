@@ -474,8 +474,8 @@ static bool starts_fast(ContactSolver *solver, const ContactProblem *problem,
     return true;
 }
 
-// S with what is open condensed out. Where that floats, nothing holding it but what lands, all of it
-// is put on the plane, once: what then pulls there opens again. NULL: it floats again.
+// S with what is open condensed out. Where that floats, nothing holding it but what lands, all of
+// it is put on the plane, once: what then pulls there opens again. NULL: it floats again.
 static const double *close_open(ContactSolver *solver, const ContactProblem *problem,
                                 ContactSolution *solution, Course *course)
 {

@@ -45,7 +45,8 @@ static void list_phases(const Simulation *simulation, RunSummary *summary)
               "factorisations, each when first used");
     add_phase(summary, "contact", solver->seconds, solver->iterations, "Newton steps");
     add_phase(summary, "certificate", certificate->seconds, certificate->checks,
-              simulation->scene.time.certificate ? "factorisations to judge states" : "skipped: switched off");
+              simulation->scene.time.certificate ? "small factorisations"
+                                                 : "skipped: switched off");
     add_phase(summary, "bulk", fmax(timing->solve + timing->relax - inside, 0),
               simulation->system.solves, "stages: products and substitutions");
     add_phase(summary, "history", simulation->history.seconds, simulation->history.rows,
