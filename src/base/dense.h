@@ -39,8 +39,9 @@ bool dense_invert_factored(double *a, int32_t n);
 
 // Sweep of a symmetric `a` [n * n], both triangles, on its k-th diagonal entry d, or back: a_kk :=
 // -1/d, a_ik := a_ik/d (back: -a_ik/d), the rest less a_ik a_kj/d. Swept on a set O, what is left
-// of a matrix is -A_OO^-1 on O, A_OO^-1 A_O. in its rows, and the Schur complement of A_OO elsewhere
-// (Goodnight, The American Statistician 33, 1979). work: [n]. false, and nothing is done: d is 0.
+// of a matrix is -A_OO^-1 on O, A_OO^-1 A_O. in its rows, and the Schur complement of A_OO
+// elsewhere (Goodnight, The American Statistician 33, 1979). work: [n]. false, and nothing is done:
+// d is 0.
 bool dense_sweep(double *a, int32_t n, int32_t k, bool back, double *work);
 
 // y += factor x
