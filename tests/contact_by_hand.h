@@ -4,6 +4,7 @@
 #ifndef AMONTONS_TESTS_CONTACT_BY_HAND_H
 #define AMONTONS_TESTS_CONTACT_BY_HAND_H
 
+#include "base/memory.h"
 #include "contact/contact_check.h"
 #include "contact/contact_solver.h"
 #include "near.h"
@@ -44,21 +45,37 @@ static inline ContactProblem hand_problem(const HandContact *hand)
                             .bound = hand->bound};
 }
 
-// Solves with a solver of its own, from the statuses that stand there and from rest.
-static inline bool hand_contact_solve(HandContact *hand)
+// What a solver counted in one solve.
+typedef struct HandCounts {
+    int64_t iterations, rescued, path_steps;
+} HandCounts;
+
+// Solves with a solver of its own, from the statuses that stand there and from rest, allocating
+// nothing.
+static inline bool hand_contact_solve_by(HandContact *hand, bool follows_path, HandCounts *counts)
 {
     Error err = {0};
     ContactSolver solver;
     assert_true(contact_solver_create(&hand->interface, contact_solver_def(), &solver, &err));
+    solver.follows_path = follows_path;
     memset(hand->velocity, 0, sizeof hand->velocity);
     memset(hand->reaction, 0, sizeof hand->reaction);
     ContactSolution solution = {hand->velocity, hand->reaction, hand->status, hand->rod_touches};
     ContactProblem problem = hand_problem(hand);
+    int64_t allocations = memory_counters().allocations;
     bool solved = contact_solve(&solver, &problem, &solution);
+    assert_int_equal(memory_counters().allocations, allocations);
     assert_int_equal(solver.solves, 1);
     assert_int_equal(solver.unsolved, !solved);
+    *counts = (HandCounts){solver.iterations, solver.rescued, solver.path.steps};
     contact_solver_destroy(&solver);
     return solved;
+}
+
+static inline bool hand_contact_solve(HandContact *hand)
+{
+    HandCounts counts;
+    return hand_contact_solve_by(hand, true, &counts);
 }
 
 // The largest violation, and of S v = g + r, relative to the forces there are.

@@ -212,24 +212,16 @@ static void hard_problem(Random *random, int32_t trial)
 static void test_hard_problems(void **state)
 {
     (void)state;
-    Error err = {0};
     Random random = {.state = 33};
     int64_t rescued = 0, steps = 0;
     for (int32_t trial = 0; trial < 600; trial++) {
         hard_problem(&random, trial);
-        ContactSolver solver;
-        ContactSolution solution = {hand.velocity, hand.reaction, hand.status, hand.rod_touches};
-        ContactProblem problem = hand_problem(&hand);
-        assert_true(contact_solver_create(&hand.interface, contact_solver_def(), &solver, &err));
-        int64_t allocations = memory_counters().allocations;
-        if (!contact_solve(&solver, &problem, &solution))
+        HandCounts counts;
+        if (!hand_contact_solve_by(&hand, true, &counts))
             fail_msg("trial %d with %d nodes is not solved", trial, hand.interface.contact_count);
         assert_near("judged", hand_contact_error(&hand), 0, 1e-9);
-        assert_int_equal(memory_counters().allocations, allocations);
-        assert_int_equal(solver.solves, 1);
-        rescued += solver.rescued;
-        steps += solver.path.steps;
-        contact_solver_destroy(&solver);
+        rescued += counts.rescued;
+        steps += counts.path_steps;
     }
     print_message("%d problems solved by the path in %d steps\n", (int)rescued, (int)steps);
     assert_true(rescued > 50);
@@ -240,22 +232,17 @@ static void test_hard_problems(void **state)
 static void test_gives_up_soon(void **state)
 {
     (void)state;
-    Error err = {0};
     Random random = {.state = 33};
     int64_t unsolved = 0, iterations = 0;
     for (int32_t trial = 0; trial < 600; trial++) {
         hard_problem(&random, trial);
-        ContactSolver solver;
-        ContactSolution solution = {hand.velocity, hand.reaction, hand.status, hand.rod_touches};
-        ContactProblem problem = hand_problem(&hand);
-        assert_true(contact_solver_create(&hand.interface, contact_solver_def(), &solver, &err));
-        solver.follows_path = false;
-        if (contact_solve(&solver, &problem, &solution))
+        HandCounts counts;
+        if (hand_contact_solve_by(&hand, false, &counts)) {
             assert_near("judged", hand_contact_error(&hand), 0, 1e-9);
-        else
-            iterations += solver.iterations;
-        unsolved += solver.unsolved;
-        contact_solver_destroy(&solver);
+            continue;
+        }
+        iterations += counts.iterations;
+        unsolved++;
     }
     print_message("%d problems given up after %.1f iterations\n", (int)unsolved,
                   (double)iterations / (double)unsolved);

@@ -106,7 +106,6 @@ static void test_weakening_slip(void **state)
 static void test_strong_weakening(void **state)
 {
     (void)state;
-    Error err = {0};
     FrictionLaw law = {.mu_static = 0.5, .mu_kinetic = 0.1, .critical_velocity = 0.1};
     OneNode numbers = {.s_t = 3, .s_n = 3, .g_n = -10};
     for (double above = 1e-9; above < 0.3; above *= 10) {
@@ -115,16 +114,9 @@ static void test_strong_weakening(void **state)
             HandContact hand;
             one_node(numbers, law, &hand);
             hand.status[0] = guess;
-            ContactSolver solver;
-            ContactSolution solution = {hand.velocity, hand.reaction, hand.status,
-                                        hand.rod_touches};
-            ContactProblem problem = hand_problem(&hand);
-            assert_true(
-                contact_solver_create(&hand.interface, contact_solver_def(), &solver, &err));
-            solver.follows_path = false;
-            assert_true(contact_solve(&solver, &problem, &solution));
-            assert_true(solver.iterations <= 12);   // a cycle seen, two looked at alone
-            contact_solver_destroy(&solver);
+            HandCounts counts;
+            assert_true(hand_contact_solve_by(&hand, false, &counts));
+            assert_true(counts.iterations <= 12);   // a cycle seen, two looked at alone
             assert_near("v_t", hand.velocity[0], (numbers.g_t - 1) / 3, 1e-12);
             assert_near("judged", hand_contact_error(&hand), 0, 1e-10);
         }
@@ -136,29 +128,23 @@ static void test_strong_weakening(void **state)
 static void test_floating_start(void **state)
 {
     (void)state;
-    Error err = {0};
     HandContact hand;
-    ContactSolver solver;
     hand_contact_size(&hand, 3, 0);
     hand.law = COULOMB;
     for (int i = 0; i < 3; i++) {
         hand.schur[2 * i * 6 + 2 * i] = 1;
         for (int j = 0; j < 3; j++) hand.schur[(2 * j + 1) * 6 + 2 * i + 1] = (i == j) - 1.0 / 3;
     }
-    assert_true(contact_solver_create(&hand.interface, contact_solver_def(), &solver, &err));
-    solver.follows_path = false;
     for (int lifted = 0; lifted < 2; lifted++) {
-        ContactSolution solution = {hand.velocity, hand.reaction, hand.status, hand.rod_touches};
-        ContactProblem problem = hand_problem(&hand);
+        HandCounts counts;
         for (int i = 0; i < 3; i++) hand.g[2 * i + 1] = lifted ? 1 : -1 - i;
         memset(hand.status, CONTACT_OPEN, 3);
-        assert_int_equal(contact_solve(&solver, &problem, &solution), !lifted);
+        assert_int_equal(hand_contact_solve_by(&hand, false, &counts), !lifted);
         for (int i = 0; i < 3 && !lifted; i++) {
             assert_int_equal(hand.status[i], CONTACT_STICK);
             assert_near("r_n", hand.reaction[2 * i + 1], 1 + i, 1e-14);
         }
     }
-    contact_solver_destroy(&solver);
 }
 
 // The rod beside one contact node that sticks: S couples them.
