@@ -56,10 +56,10 @@ typedef struct RunCounters {
 
 // One phase of a run, for --profile.
 typedef struct RunPhase {
-    const char *name;       // "contact"; static storage
-    double seconds;         // wall time
-    int64_t count;          // of what `note` names
-    char note[96];          // "Newton steps"; or why it was skipped
+    const char *name;   // "contact"; static storage
+    double seconds;   // wall time
+    int64_t count;   // of what `note` names
+    char note[96];   // "Newton steps"; or why it was skipped
 } RunPhase;
 
 enum { RUN_PHASES_MAX = 16, RUN_WARNINGS_MAX = 4, RUN_WARNING_SIZE = 400 };
@@ -70,8 +70,8 @@ typedef struct RunWarnings {   // what makes an answer doubtful, a sentence each
 
 // What a run came to, for the closing lines; run.json holds more.
 typedef struct RunSummary {
-    double mu_low, mu_high;        // smallest and largest peak, the first left out
-    int32_t period;                // peaks repeat after so many slidings; 0: they do not
+    double mu_low, mu_high;   // smallest and largest peak, the first left out
+    int32_t period;   // peaks repeat after so many slidings; 0: they do not
     double mu_M, mu_M_spread;   // of the periodic peaks; NaN: no peak seen
     double mu_trusted;   // of falls of the force, all sliding or not: the lowest that repeats, or
         // where none does the lowest decile; NaN: no fall
@@ -112,7 +112,7 @@ bool amontons_scene_read(const char *path, const char *const *overrides, int32_t
                          Scene **scene, Error *err);
 void amontons_scene_destroy(Scene *scene);   // NULL is fine
 const char *amontons_scene_title(const Scene *scene);   // owned by the scene
-const char *amontons_scene_warning(const Scene *scene);       // NULL: none; static storage
+const char *amontons_scene_warning(const Scene *scene);   // NULL: none; static storage
 bool amontons_scene_reference(FILE *out, Error *err);   // every key, as Markdown
 
 // --- one simulation -----------------------------------------------------------------------------
@@ -151,30 +151,30 @@ bool amontons_static(const Scene *scene, const char *folder, bool overwrite, Sta
 // --- sweeps -------------------------------------------------------------------------------------
 // One point that ended, or was found finished.
 typedef struct SweepView {
-    const char *words;             // "load.pressure=0.003 ...": what tells it from the others
-    const char *message;           // why it failed; NULL: it did not
-    double mu_M;                   // NaN: none
-    double seconds;                // of this point
-    double seconds_left;           // for the whole sweep, estimated; NaN: not yet
+    const char *words;   // "load.pressure=0.003 ...": what tells it from the others
+    const char *message;   // why it failed; NULL: it did not
+    double mu_M;   // NaN: none
+    double seconds;   // of this point
+    double seconds_left;   // for the whole sweep, estimated; NaN: not yet
     int32_t finished, failed, points;   // so far, among them, and in all
-    bool reused;                   // from an earlier sweep
+    bool reused;   // from an earlier sweep
 } SweepView;
 typedef void (*SweepCallback)(const SweepView *view, void *context);
 
 typedef struct SweepOptions {
-    const char *folder;            // for sweep.csv, sweep.h5 and points/; created
-    const char *const *overrides;  // "key=value", for every point
+    const char *folder;   // for sweep.csv, sweep.h5 and points/; created
+    const char *const *overrides;   // "key=value", for every point
     int32_t override_count;
-    int32_t jobs;                  // processes at a time; 0: as many as there are cores
-    const char *slurm;             // points run as Slurm job arrays, each `THIS PROGRAM sweep
-                                   // --element FILE`; more words for sbatch, or ""; NULL: here
-    bool retry;                    // compute failed points again
-    bool fresh;                    // compute all points again
-    SweepCallback on_point;        // NULL: none
+    int32_t jobs;   // processes at a time; 0: as many as there are cores
+    const char *slurm;   // points run as Slurm job arrays, each `THIS PROGRAM sweep
+        // --element FILE`; more words for sbatch, or ""; NULL: here
+    bool retry;   // compute failed points again
+    bool fresh;   // compute all points again
+    SweepCallback on_point;   // NULL: none
     void *context;
-    FILE *out;                     // for the ranked table that the study asks for; NULL: not shown
+    FILE *out;   // for the ranked table that the study asks for; NULL: not shown
     const volatile sig_atomic_t *stop;   // non-zero: stop the points under way; they count as not
-                                         // begun when the sweep is taken up again
+        // begun when the sweep is taken up again
 } SweepOptions;
 
 typedef struct SweepSummary {

@@ -8,13 +8,13 @@
 // One position of the quasi-static front in theory, and in the simulation when its rod has gone
 // as far (NaN where it had slid by then).
 typedef struct Model1dPoint {
-    double front;                  // l, length
-    double U;                      // displacement of the rod since sliding stopped, length
-    double mu, mu_line;            // F_T / F_N: exactly; and mu_K + (mu_S - mu_K) l/L
-    double omega_re, omega_im;     // omega_0 of the paper, off-diagonal terms neglected, 1/time
-    double rate_re, rate_im;       // the rightmost rate with all terms, 1/time
-    int32_t growing;               // how many omega_n have a positive real part
-    double front_seen, mu_seen;    // simulated, at the same U
+    double front;   // l, length
+    double U;   // displacement of the rod since sliding stopped, length
+    double mu, mu_line;   // F_T / F_N: exactly; and mu_K + (mu_S - mu_K) l/L
+    double omega_re, omega_im;   // omega_0 of the paper, off-diagonal terms neglected, 1/time
+    double rate_re, rate_im;   // the rightmost rate with all terms, 1/time
+    int32_t growing;   // how many omega_n have a positive real part
+    double front_seen, mu_seen;   // simulated, at the same U
 } Model1dPoint;
 
 // Lengths are over L. NaN: not found; a length of the paper's formulas may be above 1.
@@ -25,14 +25,14 @@ typedef struct Model1dSummary {
     // all terms kept; l_rod: an oscillation grows from V to v_c within half a period
     double l_sc_full, l_c_full, l_rod_full;
     double mu_c_full, mu_rod_full;   // the exact mu there (mu_S where there is no such l)
-    bool simulated;                  // what follows is set
+    bool simulated;   // what follows is set
     // the first peak: it starts from tau = mu_K p, as the theory does; and the periodic ones
     double first_mu, first_l_sc, first_l_c;
     double mu_M, mu_M_spread, l_sc_seen, l_c_seen;
     int32_t period, peaks, peaks_counted, bounded, leading;
-    double quasi_static_error;       // |mu - theory| before anything was rapid, largest
+    double quasi_static_error;   // |mu - theory| before anything was rapid, largest
     double energy_error, contact_error;   // relative, largest
-    int64_t accepted, rejected;      // steps
+    int64_t accepted, rejected;   // steps
     double seconds;
     char folder[AMONTONS_PATH_SIZE];
 } Model1dSummary;
@@ -40,14 +40,14 @@ typedef struct Model1dSummary {
 typedef void (*Model1dCallback)(const Model1dPoint *point, void *context);
 
 typedef struct Model1dOptions {
-    double alpha;                  // part of H over which the shear stress varies: the paper's 0.2
-    int32_t nodes;                 // of the simulated line, 3 to 2000
+    double alpha;   // part of H over which the shear stress varies: the paper's 0.2
+    int32_t nodes;   // of the simulated line, 3 to 2000
     bool theory_only;
-    const char *folder;            // for model1d.json, model1d.h5, history.h5; NULL: none
+    const char *folder;   // for model1d.json, model1d.h5, history.h5; NULL: none
     bool overwrite;
-    StepCallback on_step;          // of the simulation; NULL: none
-    Model1dCallback on_point;      // of the finished table; NULL: none
-    void *context;                 // handed to both
+    StepCallback on_step;   // of the simulation; NULL: none
+    Model1dCallback on_point;   // of the finished table; NULL: none
+    void *context;   // handed to both
     const volatile sig_atomic_t *stop;   // as in RunOptions
 } Model1dOptions;
 Model1dOptions amontons_model1d_options(void);   // alpha 0.2, 81 nodes, simulated, no folder

@@ -7,15 +7,15 @@
 
 // One state of the quasi-static path, and how small disturbances of it grow.
 typedef struct StabilityPoint {
-    double front;                  // l, length
-    int32_t slipping;              // contact nodes that slip: more than front says where slip has
-                                   // begun in several places
-    double U, mu;                  // displacement of the rod, length; F_T / F_N
-    double rate_re, rate_im;       // the rightmost lambda of exp(lambda t), 1/time
-    double real_rate;              // the largest real one above 0, 1/time; 0: none
-    double load;                   // weakening over what viscosity, inertia and elasticity bear,
-                                   // pressure held fixed; from 1 on slip runs away
-    bool certified;                // viscosity alone bears the weakening
+    double front;   // l, length
+    int32_t slipping;   // contact nodes that slip: more than front says where slip has
+        // begun in several places
+    double U, mu;   // displacement of the rod, length; F_T / F_N
+    double rate_re, rate_im;   // the rightmost lambda of exp(lambda t), 1/time
+    double real_rate;   // the largest real one above 0, 1/time; 0: none
+    double load;   // weakening over what viscosity, inertia and elasticity bear,
+        // pressure held fixed; from 1 on slip runs away
+    bool certified;   // viscosity alone bears the weakening
 } StabilityPoint;
 
 // Where something is first lost, over L, between two positions of the front; NaN: nowhere. l_c and
@@ -26,33 +26,33 @@ enum { STABILITY_PADS_MAX = 64 };
 // stiffness of the pad alone, everything else held.
 typedef struct StabilityPad {
     char name[64];
-    double length;                 // sum of its nodes' weights
-    double pressure;               // its load over its length, stress
-    double slipping;               // how much of it slips, length
-    double mode;                   // how much it takes part: mean |slip| of the mode that grows,
-                                   // over the largest of all pads
-    double load;                   // when all of it slips: weakening over what it bears; below 1 it
-                                   // cannot run away alone
-    double l_c;                    // how much of it, from its trailing edge on, may slip before it
-                                   // runs away alone, length; NaN: all of it
-    double drag;                   // viscous shear of its softest slip over the slip rate,
-                                   // stress / velocity: eta1/2 over H for a layer of height H
-    double stiffness;              // elastic shear of its softest slip over the slip, stress/length
+    double length;   // sum of its nodes' weights
+    double pressure;   // its load over its length, stress
+    double slipping;   // how much of it slips, length
+    double mode;   // how much it takes part: mean |slip| of the mode that grows,
+        // over the largest of all pads
+    double load;   // when all of it slips: weakening over what it bears; below 1 it
+        // cannot run away alone
+    double l_c;   // how much of it, from its trailing edge on, may slip before it
+        // runs away alone, length; NaN: all of it
+    double drag;   // viscous shear of its softest slip over the slip rate,
+        // stress / velocity: eta1/2 over H for a layer of height H
+    double stiffness;   // elastic shear of its softest slip over the slip, stress/length
 } StabilityPad;
 
 typedef struct StabilitySummary {
-    double l_sc_certificate;       // the certificate of time stepping; at a contact node
-    double l_sc;                   // Re lambda > 0: oscillations grow
-    double l_c_scan;               // real growth, pressure held fixed
-    double l_c;                    // real growth: slow slip turns into sliding however slow the rod
-    double l_c_rod;                // at the scene's V already: an oscillation grows from V to v_c
-                                   // within half a period, pi Re/Im > ln(v_c/V)
-    double mu_sc;                  // mu at l_sc; NaN: nothing swings
-    double mu_snap;                // where a node first jumps instead of slipping on; NaN: none
-    double mu_c, mu_rod;           // mu at l_c and at l_c_rod: mu_M for V -> 0, and for V
-    double U_c, U_rod;             // U there, length
-    double frequency;              // Im lambda at l_sc, 1/time
-    double element;                // mean distance of contact nodes, over L
+    double l_sc_certificate;   // the certificate of time stepping; at a contact node
+    double l_sc;   // Re lambda > 0: oscillations grow
+    double l_c_scan;   // real growth, pressure held fixed
+    double l_c;   // real growth: slow slip turns into sliding however slow the rod
+    double l_c_rod;   // at the scene's V already: an oscillation grows from V to v_c
+        // within half a period, pi Re/Im > ln(v_c/V)
+    double mu_sc;   // mu at l_sc; NaN: nothing swings
+    double mu_snap;   // where a node first jumps instead of slipping on; NaN: none
+    double mu_c, mu_rod;   // mu at l_c and at l_c_rod: mu_M for V -> 0, and for V
+    double U_c, U_rod;   // U there, length
+    double frequency;   // Im lambda at l_sc, 1/time
+    double element;   // mean distance of contact nodes, over L
     int32_t points;
     int32_t pad_count;
     StabilityPad pads[STABILITY_PADS_MAX];   // [pad_count] by number of the contact curve
@@ -64,15 +64,15 @@ typedef struct StabilitySummary {
 typedef void (*StabilityCallback)(const StabilityPoint *point, void *context);
 
 typedef struct StabilityOptions {
-    int32_t slidings;              // the path begins when so many slidings, computed by time
-                                   // stepping, have ended; 0: at the relaxed start
-    bool whole;                    // follow the front to the end, also beyond l_c
-    bool at_end;                   // no path: the one state in which the scene's run ends
-    const char *folder;            // for stability.json and stability.h5; NULL: none
+    int32_t slidings;   // the path begins when so many slidings, computed by time
+        // stepping, have ended; 0: at the relaxed start
+    bool whole;   // follow the front to the end, also beyond l_c
+    bool at_end;   // no path: the one state in which the scene's run ends
+    const char *folder;   // for stability.json and stability.h5; NULL: none
     bool overwrite;
-    StepCallback on_step;          // of the time stepping before the path; NULL: none
-    StabilityCallback on_point;    // of the path; NULL: none
-    void *context;                 // handed to both
+    StepCallback on_step;   // of the time stepping before the path; NULL: none
+    StabilityCallback on_point;   // of the path; NULL: none
+    void *context;   // handed to both
     const volatile sig_atomic_t *stop;   // as in RunOptions
 } StabilityOptions;
 

@@ -5,8 +5,8 @@
 #define AMONTONS_TESTS_SEEN_BY_HAND_H
 
 #include "near.h"
-#include "run/events.h"
-#include "run/recorder.h"
+#include "record/events.h"
+#include "record/recorder.h"
 
 enum { SEEN_NODES = 5 };
 
@@ -55,7 +55,7 @@ static inline void hand_seen_init(HandSeen *hand)
 }
 
 // At time t and U = t/10: nodes slip at these rates, 0 means they stick; front and largest rate as
-// run/observation defines them.
+// record/observation defines them.
 static inline const Observation *hand_seen(HandSeen *hand, double t, const double rate[SEEN_NODES])
 {
     bool together = true;

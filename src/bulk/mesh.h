@@ -17,16 +17,16 @@ enum { MESH_PATH_SIZE = 1024 };
 typedef struct Mesh {
     char path[MESH_PATH_SIZE];   // of the file, for messages
     int32_t node_count;
-    double *position;            // [node_count * 2] (x, z), length; owned
-    int64_t *node_number;        // [node_count] gmsh's node tags, for messages; owned
+    double *position;   // [node_count * 2] (x, z), length; owned
+    int64_t *node_number;   // [node_count] gmsh's node tags, for messages; owned
     int32_t element_count;
-    int64_t *element_number;     // [element_count] gmsh's element tags, for messages; owned
-    uint8_t *kind;               // [element_count] ElementKind; owned
-    int32_t *first_node;         // [element_count + 1] offsets into element_nodes; owned
-    int32_t *element_nodes;      // [first_node[element_count]] corners, mid-sides, centre; owned
+    int64_t *element_number;   // [element_count] gmsh's element tags, for messages; owned
+    uint8_t *kind;   // [element_count] ElementKind; owned
+    int32_t *first_node;   // [element_count + 1] offsets into element_nodes; owned
+    int32_t *element_nodes;   // [first_node[element_count]] corners, mid-sides, centre; owned
     int32_t group_count;
-    MeshGroup *groups;           // [group_count]; nodes of curves by ascending x, then z; owned
-    double x_min, x_max;         // extent, length
+    MeshGroup *groups;   // [group_count]; nodes of curves by ascending x, then z; owned
+    double x_min, x_max;   // extent, length
     double z_min, z_max;
 } Mesh;
 
@@ -37,10 +37,10 @@ void mesh_sort_nodes(const Mesh *mesh, int32_t *nodes, int32_t count);
 typedef struct MeshCurve {
     const char *name;
     int32_t edge_count;
-    int32_t nodes_per_edge;      // 2, or 3 (end, end, middle)
+    int32_t nodes_per_edge;   // 2, or 3 (end, end, middle)
     const int32_t *edge_nodes;   // [edge_count * nodes_per_edge]
     int32_t node_count;
-    const int32_t *nodes;        // [node_count] each once, by ascending x, then z
+    const int32_t *nodes;   // [node_count] each once, by ascending x, then z
 } MeshCurve;
 
 // Several contact curves as one line of nodes. A node that ends one curve and begins the next is
@@ -49,7 +49,7 @@ typedef struct MeshContact {
     int32_t curve_count;
     MeshCurve *curves;   // [curve_count] in the order of the names; owned
     int32_t node_count;
-    int32_t *nodes;      // [node_count] ascending x; owned
+    int32_t *nodes;   // [node_count] ascending x; owned
     int32_t *curve_of;   // [node_count] index into curves; owned
 } MeshContact;
 
@@ -74,10 +74,10 @@ void mesh_contact_destroy(MeshContact *contact);
 // What `amontons info` says of a mesh.
 typedef struct MeshSummary {
     int32_t element_counts[ELEMENT_KIND_COUNT];   // by ElementKind
-    double area;                                  // length^2
-    double edge_min, edge_max;                    // straight distances between corners, length
-    double aspect_max;                            // longest over shortest edge of one element
-    int32_t aspect_worst;                         // the element that has it
+    double area;   // length^2
+    double edge_min, edge_max;   // straight distances between corners, length
+    double aspect_max;   // longest over shortest edge of one element
+    int32_t aspect_worst;   // the element that has it
 } MeshSummary;
 MeshSummary mesh_summarise(const Mesh *mesh);
 

@@ -9,17 +9,17 @@
 #include <stdint.h>
 
 typedef struct MeshEdge {
-    int32_t high;            // the end with the larger index; the smaller one is the bucket
-    int32_t middle;          // mid-side node, -1: none
-    int32_t elements;        // on how many elements
-    int32_t element;         // one of them
+    int32_t high;   // the end with the larger index; the smaller one is the bucket
+    int32_t middle;   // mid-side node, -1: none
+    int32_t elements;   // on how many elements
+    int32_t element;   // one of them
 } MeshEdge;
 
 // Edges in buckets by their lower end: those of node i are edges[first[i] .. last[i] - 1].
 typedef struct MeshEdges {
-    int32_t *first;          // [node_count + 1]; owned
-    int32_t *last;           // [node_count]; owned
-    MeshEdge *edges;         // [first[node_count]]; owned
+    int32_t *first;   // [node_count + 1]; owned
+    int32_t *last;   // [node_count]; owned
+    MeshEdge *edges;   // [first[node_count]]; owned
 } MeshEdges;
 
 // ERROR_INPUT where an edge is on three elements or has two different mid-side nodes.

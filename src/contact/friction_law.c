@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The law, its slope and the density it stands for, each a switch over the kinds: a new law adds a
-// kind to the header, a case to the two functions below and its name to run/scene_keys; the solver
+// kind to the header, a case to the two functions below and its name to scene/keys; the solver
 // asks for nothing more, contact/contact_path only whether it has a kink. DESIGN section 3 has the
 // paper's linear law; the slope is what Newton's derivative (contact/contact_solver) and the
 // certificate (W in DESIGN 4.5) need. tests/unit/contact/test_friction_law.c compares slopes with

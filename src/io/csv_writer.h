@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Writes rows of comma-separated values (RFC 4180) into a file, atomically: the final name appears
-// when all is on disk. Called by study/sweep_table and study/sweep_rank.
+// when all is on disk. Called by study/sweep/table and study/sweep/rank.
 #ifndef AMONTONS_IO_CSV_WRITER_H
 #define AMONTONS_IO_CSV_WRITER_H
 

@@ -14,7 +14,7 @@ typedef bool (*FieldSink)(void *context, const char *bytes, int64_t size, Error 
 typedef struct FieldOutput {
     FieldFormat format;
     FieldSink sink;
-    void *context;      // handed to sink
+    void *context;   // handed to sink
 } FieldOutput;
 
 // The module's one entry, "amontons_vtk_encode". The grid must be valid (io/field_file checks).

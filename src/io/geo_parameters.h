@@ -11,12 +11,12 @@
 
 typedef struct GeoParameter {
     char name[GROUP_NAME_SIZE];
-    bool is_text;            // its default is a string
+    bool is_text;   // its default is a string
 } GeoParameter;
 
 typedef struct GeoParameters {
     int32_t count;
-    GeoParameter *items;     // [count] in the order of the file; owned
+    GeoParameter *items;   // [count] in the order of the file; owned
 } GeoParameters;
 
 // Reads `path` and the files it includes (`Include "other.geo";`). *known is destroyed by the

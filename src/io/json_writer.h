@@ -21,6 +21,6 @@ void json_number(JsonWriter *json, const char *key, double value);
 void json_integer(JsonWriter *json, const char *key, int64_t value);
 void json_boolean(JsonWriter *json, const char *key, bool value);
 bool json_finish(JsonWriter *json, Error *err);   // flush, fsync, rename; frees `json` either way
-void json_abandon(JsonWriter *json);              // removes what was written; NULL is fine
+void json_abandon(JsonWriter *json);   // removes what was written; NULL is fine
 
 #endif

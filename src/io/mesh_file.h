@@ -28,26 +28,26 @@ enum { GROUP_NAME_SIZE = 64, ELEMENT_NODES_MAX = 9, EDGE_NODES_MAX = 3 };
 // are listed, but without their elements.
 typedef struct MeshGroup {
     char name[GROUP_NAME_SIZE];   // where the mesh gives none: the physical number in decimal
-    int32_t dimension;            // 0, 1 or 2
-    int32_t number;               // gmsh's physical tag
-    int32_t edge_count;           // 0 unless dimension is 1
-    int32_t nodes_per_edge;       // 2 or 3 (end, end, middle)
-    int32_t *edge_nodes;          // [edge_count * nodes_per_edge] node indices; owned
+    int32_t dimension;   // 0, 1 or 2
+    int32_t number;   // gmsh's physical tag
+    int32_t edge_count;   // 0 unless dimension is 1
+    int32_t nodes_per_edge;   // 2 or 3 (end, end, middle)
+    int32_t *edge_nodes;   // [edge_count * nodes_per_edge] node indices; owned
     int32_t node_count;
-    int32_t *nodes;               // [node_count] ascending, each once; empty for surfaces; owned
+    int32_t *nodes;   // [node_count] ascending, each once; empty for surfaces; owned
 } MeshGroup;
 
 typedef struct MeshFile {
     int32_t node_count;
-    double *position;             // [node_count * 2] (x, z): gmsh's x and y; length; owned
-    int64_t *node_number;         // [node_count] gmsh's node tags, for messages; owned
+    double *position;   // [node_count * 2] (x, z): gmsh's x and y; length; owned
+    int64_t *node_number;   // [node_count] gmsh's node tags, for messages; owned
     int32_t element_count;
-    int64_t *element_number;      // [element_count] gmsh's element tags, for messages; owned
-    uint8_t *kind;                // [element_count] ElementKind; owned
-    int32_t *first_node;          // [element_count + 1] offsets into element_nodes; owned
-    int32_t *element_nodes;       // [first_node[element_count]] node indices; owned
+    int64_t *element_number;   // [element_count] gmsh's element tags, for messages; owned
+    uint8_t *kind;   // [element_count] ElementKind; owned
+    int32_t *first_node;   // [element_count + 1] offsets into element_nodes; owned
+    int32_t *element_nodes;   // [first_node[element_count]] node indices; owned
     int32_t group_count;
-    MeshGroup *groups;            // [group_count] by dimension, then by number; owned
+    MeshGroup *groups;   // [group_count] by dimension, then by number; owned
 } MeshFile;
 
 // A value for one name of a .geo: `DefineConstant[ nx = 80 ]` takes what is given here instead.

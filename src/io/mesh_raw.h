@@ -11,39 +11,39 @@
 
 // The elements of one type on one geometrical entity (a point, curve, surface or volume).
 typedef struct RawBlock {
-    int32_t dimension, entity;           // of the entity; its tag
-    int32_t gmsh_type;                   // 3 quad4, ...
+    int32_t dimension, entity;   // of the entity; its tag
+    int32_t gmsh_type;   // 3 quad4, ...
     int32_t nodes_per_element;
-    char type_name[GROUP_NAME_SIZE];     // gmsh's: "Quadrilateral 4"
+    char type_name[GROUP_NAME_SIZE];   // gmsh's: "Quadrilateral 4"
     int64_t count;
-    int64_t *number;                     // [count] element tags; owned
-    int64_t *nodes;                      // [count * nodes_per_element] node tags; owned
+    int64_t *number;   // [count] element tags; owned
+    int64_t *nodes;   // [count * nodes_per_element] node tags; owned
 } RawBlock;
 
 typedef struct RawGroup {
-    int32_t dimension, number;           // physical tag
-    char name[GROUP_NAME_SIZE];          // empty: none
+    int32_t dimension, number;   // physical tag
+    char name[GROUP_NAME_SIZE];   // empty: none
     int32_t entity_count;
-    int32_t *entities;                   // [entity_count] tags of entities of that dimension; owned
+    int32_t *entities;   // [entity_count] tags of entities of that dimension; owned
 } RawGroup;
 
 typedef struct MeshRaw {
-    double version;                      // of the .msh format, 2.2 or 4.1; 0: a .geo
+    double version;   // of the .msh format, 2.2 or 4.1; 0: a .geo
     int64_t node_count;
-    int64_t *node_number;                // [node_count] tags; owned
-    uint8_t *node_dimension;             // [node_count] of the entity the node is on; owned
-    double *node_position;               // [node_count * 3]; owned
+    int64_t *node_number;   // [node_count] tags; owned
+    uint8_t *node_dimension;   // [node_count] of the entity the node is on; owned
+    double *node_position;   // [node_count * 3]; owned
     int32_t block_count;
-    RawBlock *blocks;                    // [block_count]; owned
+    RawBlock *blocks;   // [block_count]; owned
     int32_t group_count;
-    RawGroup *groups;                    // [group_count]; owned
+    RawGroup *groups;   // [group_count]; owned
 } MeshRaw;
 
 // What the module is asked for.
 typedef struct MeshRawRequest {
     const char *path;
-    bool generate;                       // a .geo: mesh it in 2D
-    const MeshParameter *parameters;     // [parameter_count] all known to the .geo
+    bool generate;   // a .geo: mesh it in 2D
+    const MeshParameter *parameters;   // [parameter_count] all known to the .geo
     int32_t parameter_count;
 } MeshRawRequest;
 

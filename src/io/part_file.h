@@ -14,11 +14,11 @@
 #include <stdint.h>
 
 typedef struct PartFile {
-    bool open;                   // false: zeroed, committed or discarded
-    bool taken;                  // another process is writing it: why create failed
-    int descriptor;              // for reading and writing; valid while open
-    char path[PATH_MAX];         // the final name
-    char part[PATH_MAX + 8];     // the name until then
+    bool open;   // false: zeroed, committed or discarded
+    bool taken;   // another process is writing it: why create failed
+    int descriptor;   // for reading and writing; valid while open
+    char path[PATH_MAX];   // the final name
+    char part[PATH_MAX + 8];   // the name until then
 } PartFile;
 
 // `path`.part into `part`, of PATH_MAX + 8 bytes; false when `path` is empty or too long.
@@ -32,6 +32,6 @@ bool part_file_write(PartFile *file, const void *bytes, int64_t size, Error *err
 // Onto the disk (fsync), then under the final name. A failure leaves it open, to discard or leave.
 bool part_file_commit(PartFile *file, Error *err);
 void part_file_discard(PartFile *file);   // closes and removes; fine when not open
-void part_file_leave(PartFile *file);     // closes and keeps `path`.part; fine when not open
+void part_file_leave(PartFile *file);   // closes and keeps `path`.part; fine when not open
 
 #endif

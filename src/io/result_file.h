@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a result folder holds, written and read by the names of io/result_tables. run/history writes
-// by it, render/ reads by it.
+// What a result folder holds, written and read by the names of io/result_tables. record/history
+// writes by it, render/ reads by it.
 //
 //   RESULT/run.json        one object, written last (run/simulation)
 //   RESULT/history.h5      the arrays and attributes below

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A YAML text as a tree whose every node knows its line and column, so that an error can show the
-// place. libfyaml reads the syntax behind it. Called by run/scene for scene files and `--set`.
+// place. libfyaml reads the syntax behind it. Called by scene/scene for scene files and `--set`.
 //
 // Stricter than YAML, because a scene has no use for more: one document, keys are plain words,
 // no key twice in a map, no anchors, aliases or merge keys, at most YAML_DEPTH_MAX levels.

@@ -43,7 +43,7 @@ cleanup:
 }
 
 // One record: explicit_steps steps. The contact conditions of its last step are copied to where
-// run/observation looks for those of an implicit stage.
+// record/observation looks for those of an implicit stage.
 bool explicit_loop_advance(Simulation *simulation, Error *err)
 {
     StepControl *control = &simulation->control;

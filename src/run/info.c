@@ -4,8 +4,8 @@
 
 #include "amontons.h"
 #include "base/memory.h"
-#include "run/model.h"
-#include "run/scene_keys.h"
+#include "model/model.h"
+#include "scene/keys.h"
 
 #include <errno.h>
 #include <string.h>

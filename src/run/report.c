@@ -7,7 +7,7 @@
 #include "run/report.h"
 
 #include "io/json_writer.h"
-#include "run/scene_keys.h"
+#include "scene/keys.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -5,11 +5,11 @@
 #define AMONTONS_RUN_REPORT_H
 
 #include "amontons.h"
-#include "run/falls.h"
-#include "run/peaks.h"
-#include "run/scene.h"
+#include "record/falls.h"
+#include "record/peaks.h"
+#include "scene/scene.h"
 
-// The largest of each kind of error over a run's accepted steps, relative (run/observation).
+// The largest of each kind of error over a run's accepted steps, relative (record/observation).
 typedef struct RunErrors {
     double energy, complementarity, moment, equation;
     double penetration;   // of a contact node into the plane, length

@@ -6,7 +6,7 @@
 #include "base/dense.h"
 #include "base/memory.h"
 #include "run/explicit_loop.h"
-#include "run/model.h"
+#include "model/model.h"
 #include "run/output.h"
 #include "run/result_folder.h"
 #include "run/step_view.h"

@@ -5,14 +5,14 @@
 #define AMONTONS_RUN_SIMULATION_H
 
 #include "amontons.h"
-#include "run/falls.h"
-#include "run/fields.h"
-#include "run/history.h"
+#include "record/falls.h"
+#include "record/fields.h"
+#include "record/history.h"
 #include "run/pace.h"
-#include "run/recorder.h"
+#include "record/recorder.h"
 #include "run/report.h"
-#include "run/scene.h"
-#include "run/shape_cache.h"
+#include "scene/scene.h"
+#include "model/shape_cache.h"
 #include "stepping/explicit_reference.h"
 
 struct Simulation {

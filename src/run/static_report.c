@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "io/array_file.h"
 #include "io/json_writer.h"
-#include "run/scene_keys.h"
+#include "scene/keys.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -12,7 +12,7 @@
 #define AMONTONS_RUN_STATIC_SOLVE_H
 
 #include "contact/contact_solver.h"
-#include "run/model.h"
+#include "model/model.h"
 
 typedef struct StaticSolution {
     double *displacement;   // u [dof_count]; owned, like all that follows

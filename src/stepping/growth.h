@@ -19,7 +19,7 @@
 //                 of real rates is born as a double root between two s, so the largest load is
 //                 interpolated in log s.
 //
-// Called by study/stability.
+// Called by study/stability/stability.
 #ifndef AMONTONS_STEPPING_GROWTH_H
 #define AMONTONS_STEPPING_GROWTH_H
 

@@ -22,8 +22,8 @@ typedef struct State {
     double *displacement;   // u [dof_count]; owned, like all that follows
     double *velocity;   // v [dof_count]
     double *elastic_force;   // K u [dof_count]
-    double *momentum;            // [dof_count] M v
-    double *inertia;             // [dof_count] M a of the last stage
+    double *momentum;   // [dof_count] M v
+    double *inertia;   // [dof_count] M a of the last stage
     double *slip_rate;   // [interface_count] v on the interface, exact where it is held
     double *reaction;   // [interface_count] on the block, force/width
     uint8_t *status;   // [contact_count] ContactStatus

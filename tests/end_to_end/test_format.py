@@ -78,7 +78,7 @@ def faults(path):
 
 # What no file of the library does, and the one place that may.
 HABITS = [
-    ("prints or ends the program", r"src/cli/|src/study/sweep_pool\.c",   # there: a forked child
+    ("prints or ends the program", r"src/cli/|src/study/sweep/pool\.c",   # there: a forked child
      r"\b(printf|puts|putchar|perror|exit|_exit|abort)\(|\bfprintf\(\s*(stderr|stdout)"),
     ("allocates by itself", r"src/base/memory\.c",
      r"\b(malloc|calloc|realloc|aligned_alloc|strdup|strndup|asprintf)\("),

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The folders of src are layers: a file includes its own folder and those above it in the list.
 
-Also: nothing below run/ knows a scene or the public header, render/ sees base/ and the result
+Also: nothing below scene/ knows a scene or the public header, no study knows another, render/ sees base/ and the result
 format only, cli/ sees the public header only, and modules export amontons_ symbols only.
 """
 import os
@@ -14,13 +14,16 @@ from pathlib import Path
 SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
 MODULES = Path(os.environ.get("AMONTONS_MODULES", SOURCE / "build/bin"))
 
-LAYERS = ["base", "io", "bulk", "contact", "stepping", "run", "study", "cli"]
+LAYERS = ["base", "io", "bulk", "contact", "stepping", "record", "scene", "model", "run", "study", "cli"]
+BELOW_SCENE = LAYERS[:LAYERS.index("scene")]
+STUDIES = ["study/stability", "study/line", "study/sweep"]
 OWN_INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
 
 
 def allowed(folder, include):
     """Whether a file in `folder` ("bulk", "render", "" for amontons.h) may include `include`."""
-    if include in ("amontons.h", "run/scene.h", "render/render.h") and folder in LAYERS[:5]:
+    layer = folder.split("/")[0]
+    if include in ("amontons.h", "render/render.h") and layer in BELOW_SCENE:
         return False
     if folder == "":
         return include.startswith(("base/", "amontons"))   # the public header and its parts
@@ -31,8 +34,10 @@ def allowed(folder, include):
         return include == "amontons.h" or include.startswith("cli/")
     if include in ("amontons.h", "render/render.h"):
         return True
-    target = include.split("/")[0]
-    return target in LAYERS and LAYERS.index(target) <= LAYERS.index(folder)
+    target, *inner = include.split("/")[:-1]
+    if target == layer == "study" and inner != folder.split("/")[1:]:
+        return False   # one kind of study knows nothing of another
+    return target in LAYERS and LAYERS.index(target) <= LAYERS.index(layer)
 
 
 def violations(root):
@@ -42,7 +47,7 @@ def violations(root):
     for path in sorted(f for f in files if f.suffix in (".c", ".h", ".cc")):
         place = path.relative_to(root).parts
         folder = "render" if place[0] == "render" else "/".join(place[1:-1])
-        if folder not in [*LAYERS, "render", ""]:
+        if folder not in [*LAYERS, *STUDIES, "render", ""] or folder == "study":
             found.append(f"{'/'.join(place)}: {folder} is not a layer")
             continue
         for include in OWN_INCLUDE.findall(path.read_text()):
@@ -70,19 +75,22 @@ class Layers(unittest.TestCase):
         faults = {
             "src/base/a.c": "io/array_file.h",
             "src/bulk/a.c": "contact/rod.h",
-            "src/stepping/a.h": "run/scene.h",
+            "src/stepping/a.h": "scene/scene.h",
             "src/contact/a.c": "amontons.h",
             "src/run/a.c": "cli/options.h",
-            "src/cli/a.c": "run/scene.h",
+            "src/cli/a.c": "scene/scene.h",
+            "src/study/line/a.c": "study/sweep/sweep.h",
+            "src/record/a.c": "scene/scene.h",
             "src/io/a.cc": "render/render.h",
             "src/run/b.c": "utils/list.h",
-            "src/amontons.h": "run/scene.h",
-            "render/a.c": "run/history.h",
+            "src/amontons.h": "scene/scene.h",
+            "render/a.c": "record/history.h",
             "render/b.c": "io/field_file.h",
         }
         good = {
             "src/bulk/good.c": ["bulk/mesh.h", "io/mesh_file.h", "base/error.h"],
-            "src/run/good.c": ["amontons.h", "run/scene.h", "stepping/state.h", "render/render.h"],
+            "src/study/line/good.c": ["study/line/model1d.h", "run/simulation.h"],
+            "src/run/good.c": ["amontons.h", "scene/scene.h", "stepping/state.h", "render/render.h"],
             "src/cli/good.c": ["amontons.h", "cli/options.h"],
             "render/good.c": ["render/render.h", "io/result_file.h", "base/memory.h"],
         }

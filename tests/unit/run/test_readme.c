@@ -2,7 +2,7 @@
 // The README's two tables are what the tables of the code say. When one differs, this writes the
 // README with the right tables beside it in the build folder, so that mending is one copy.
 #include "io/result_file.h"
-#include "run/scene_keys.h"
+#include "scene/keys.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -3,7 +3,7 @@
 // rod that slides the block, a base that lifts; and what happens when memory or the disk fails.
 #include "amontons.h"
 #include "base/memory.h"
-#include "run/scene.h"
+#include "scene/scene.h"
 #include "run/static_solve.h"
 
 #include <math.h>

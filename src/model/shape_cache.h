@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The interface and sizes of a shape as a scene describes it (mesh file and its parameters, groups,
+// rod strip, Poisson's ratio, eta2/eta1, the pattern of the loads, tolerance), kept on disk
+// together with the name of its basis (model/basis_cache): the second run needs neither gmsh nor a
+// factorisation. Pressure, velocities, density, friction law and units of stress are not in the
+// key. Called by model/model_shape.
+//
+//     CACHE/<key>.shape     (io/cache_file says where CACHE is)
+#ifndef AMONTONS_MODEL_SHAPE_CACHE_H
+#define AMONTONS_MODEL_SHAPE_CACHE_H
+
+#include "base/hash.h"
+#include "contact/interface.h"
+#include "scene/scene.h"
+
+enum { CACHE_NOTE_SIZE = 256 };
+
+// Sizes that a run needs beside the arrays.
+typedef struct ShapeSizes {
+    double length, height;   // L, H, length
+    double area;   // length^2
+    double elements;   // of the mesh
+    double full_dofs;   // unknowns of the mesh
+    double load_size;   // largest nodal load per unit of load_reference()
+    double load_resultant;   // F_N per unit of load_reference()
+} ShapeSizes;
+
+typedef struct Shape {
+    ShapeSizes sizes;
+    Interface interface;
+    double *rotation;   // [interface.count] of the unit rotation, length; owned
+    char basis[HASH_TEXT_SIZE];   // its name; empty: none
+} Shape;
+
+// The stress the loads are measured with: the pressure, else the largest traction.
+double load_reference(const Scene *scene);
+
+// The key of the scene's shape; empty where it cannot be told without meshing (a .geo that includes
+// others) or the scene wants no cache.
+bool shape_key(const Scene *scene, double tolerance, char key[HASH_TEXT_SIZE], Error *err);
+
+// Fills `shape`, arrays owned by it. *found: false when there is nothing, or nothing to be trusted:
+// `note` then says why.
+bool shape_cache_load(const char *key, Shape *shape, bool *found, char note[CACHE_NOTE_SIZE],
+                      Error *err);
+
+// Never an error: what could not be stored is told in `note`.
+void shape_cache_store(const char *key, const Shape *shape, char note[CACHE_NOTE_SIZE]);
+
+void shape_destroy(Shape *shape);
+
+#endif

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A driven model needs no step longer than the rod takes to move a part of the slip that the drop
+// of friction drives. Rungs are halvings of the longest step: it is raised so that the wave step,
+// at which most steps are taken, is a rung and not up to twice as long as the next one.
+#include "model/step_rule.h"
+
+#include <math.h>
+
+static const double STEP_MAX_SLIP = 0.2;   // rung 0: the rod moves this part of that slip
+static const double STEPS_AT_LEAST = 50;   // without a rod a run has at least so many
+static const double STEP_RANGE = 1e-10;   // step_min over step_max
+static const double GROWTH_MAX = 2;   // of a step over the one before
+
+// Before an explicit run the block relaxes by SDIRK2; the line knows no explicit steps.
+static const TableauKind TABLEAUS[] = {[SCHEME_SDIRK2] = TABLEAU_SDIRK2,
+                                       [SCHEME_EXPLICIT] = TABLEAU_SDIRK2,
+                                       [SCHEME_EULER] = TABLEAU_EULER,
+                                       [SCHEME_SDIRK3] = TABLEAU_SDIRK3};
+
+// Time; 0 where the scene says neither.
+double step_rule_end(const Scene *scene)
+{
+    double by_rod = scene->time.until_U > 0 ? scene->time.until_U / scene->rod.velocity : 0;
+    double by_time = scene->time.until_t;
+    if (by_rod > 0 && by_time > 0) return fmin(by_rod, by_time);
+    return by_rod > 0 ? by_rod : by_time;
+}
+
+// relax_step is 0: it is the caller's. Keys of the scene replace what follows from sizes, for
+// implicit schemes.
+StepControlDef step_rule(const Scene *scene, const StepSizes *sizes)
+{
+    bool driven = scene->rod.kind != ROD_NONE;
+    bool implicit = scene->time.scheme != SCHEME_EXPLICIT;   // the keys mean the scheme named
+    double tolerance = scene->time.tolerance > 0 ? scene->time.tolerance : sizes->tolerance;
+    StepControlDef def = {.scheme = TABLEAUS[scene->time.scheme],
+                          .tolerance = tolerance * sizes->slip,
+                          .step_max = step_rule_end(scene) / STEPS_AT_LEAST,
+                          .wave_step = scene->time.wave_step * sizes->crossing,
+                          .watch_time = scene->time.watch * sizes->crossing,
+                          .growth_max = GROWTH_MAX,
+                          .energy_tolerance = scene->time.energy_tolerance,
+                          .use_certificate = scene->time.certificate};
+    if (driven) {
+        double longest = STEP_MAX_SLIP * sizes->slip / scene->rod.velocity;
+        def.step_max = def.wave_step * exp2(ceil(log2(longest / def.wave_step)));
+    }
+    if (implicit && scene->time.step_max > 0) def.step_max = scene->time.step_max;
+    def.step_min = STEP_RANGE * fmin(def.step_max, def.wave_step);
+    if (implicit && scene->time.step_min > 0) def.step_min = scene->time.step_min;
+    return def;
+}

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Precursors, told apart while the run goes on. Quasi-static slip goes at about the rod's velocity
+// or below; a rapid event begins when some contact node slips faster than `rate_start` and ends
+// when all are below `rate_stop`. It is leading when it carried the whole interface (every node
+// slipped from the trailing to the leading edge), bounded otherwise. Between slidings the slow
+// growth of the front is one quasi-static event. Read by record/peaks, record/fields and
+// run/report.
+#ifndef AMONTONS_RECORD_EVENTS_H
+#define AMONTONS_RECORD_EVENTS_H
+
+#include "record/front_path.h"
+
+// symbol, name; the numbers stand in history.h5 (io/result_file)
+#define EVENT_KINDS(X)                                                                             \
+    X(EVENT_QUASI_STATIC, "quasi-static")                                                          \
+    X(EVENT_BOUNDED, "bounded rapid")                                                              \
+    X(EVENT_LEADING, "leading rapid")
+
+typedef enum EventKind {
+#define X(symbol, name) symbol,
+    EVENT_KINDS(X)
+#undef X
+} EventKind;
+
+typedef struct Event {
+    EventKind kind;
+    double U_start, U_stop;   // length
+    double t_start, t_stop;   // time
+    double front_start;   // front when it began, length
+    double reach;   // largest x that slipped, without a gap, length
+    double peak_slip_rate;   // velocity
+    double front_speed;   // mean, of the fast front where rapid; NaN: it did not move
+    double
+        front_times[FRONT_STATIONS];   // rapid: when its front came to each station, from t_start
+} Event;
+
+typedef struct Events {
+    double rate_start, rate_stop;   // velocity
+    int32_t count, room;
+    Event *list;   // [count] in order of their starts; owned
+    int32_t kinds[3];   // counted, by kind
+    int32_t rapid;   // index of the rapid event under way; -1: none
+    int32_t slow;   // index of the quasi-static event under way; -1: none
+    double front_before;   // front in the step seen before, length
+    bool began, ended, crossed;   // of a rapid event, in the step seen last; crossed: it became
+        // leading in this step
+    uint8_t *slipped;   // [contact_count] in the rapid event under way; owned
+    double fast_front_start;   // where and when its fast front was first seen
+    double fast_t_start;
+    FrontPath path;   // of the rapid event under way
+} Events;
+
+const char *event_name(EventKind kind);   // static storage
+
+// rate_scale: the rod's velocity, or what else quasi-static slip goes at; rapid is twice that.
+bool events_create(const Interface *interface, double rate_scale, Events *events, Error *err);
+void events_destroy(Events *events);
+bool events_record(void *self, const Observation *seen, Error *err);   // a Recorder
+void events_close(Events *events, const Observation *last);   // ends what is under way
+
+#endif

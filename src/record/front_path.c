@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Arrival times as seismology takes them: the first passage of a threshold. With |v| known at both
+// ends of a step the moment is found by linear interpolation, so that speeds are better than the
+// contact's spacing over the step.
+#include "record/front_path.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+
+bool front_path_create(const Interface *interface, double threshold, FrontPath *path, Error *err)
+{
+    *path = (FrontPath){.threshold = threshold, .t_before = NAN};
+    path->rate_before = NEW_ARRAY(double, interface->contact_count, err);
+    path->arrival = NEW_ARRAY(double, interface->contact_count, err);
+    if (error_is_clean(err)) front_path_restart(interface, path);
+    return error_is_clean(err);
+}
+
+void front_path_destroy(FrontPath *path)
+{
+    memory_free(path->rate_before);
+    memory_free(path->arrival);
+    *path = (FrontPath){0};
+}
+
+void front_path_restart(const Interface *interface, FrontPath *path)
+{
+    for (int32_t i = 0; i < interface->contact_count; i++) path->arrival[i] = NAN;
+}
+
+// When the rate passed the threshold on its way from `before` (at t_before) to `now` (at t).
+static double passage(const FrontPath *path, double before, double now, double t)
+{
+    if (isnan(path->t_before) || before >= path->threshold) return t;
+    double part = (path->threshold - before) / (now - before);
+    return path->t_before + part * (t - path->t_before);
+}
+
+void front_path_follow(FrontPath *path, const Observation *seen)
+{
+    for (int32_t i = 0; i < seen->interface->contact_count; i++) {
+        double rate = fabs(seen->state->slip_rate[interface_tangent(i)]);
+        if (rate > path->threshold && isnan(path->arrival[i]))
+            path->arrival[i] = passage(path, path->rate_before[i], rate, seen->t);
+    }
+}
+
+// Called in every step, also in those without a rapid event, so that its first step can be
+// interpolated.
+void front_path_keep(FrontPath *path, const Observation *seen)
+{
+    for (int32_t i = 0; i < seen->interface->contact_count; i++)
+        path->rate_before[i] = fabs(seen->state->slip_rate[interface_tangent(i)]);
+    path->t_before = seen->t;
+}
+
+// Where one of two neighbours was never reached, stations between them are NaN.
+void front_path_stations(const FrontPath *path, const Interface *interface, double origin,
+                         double times[FRONT_STATIONS])
+{
+    int32_t last = interface->contact_count - 1, i = 0;
+    double start = interface->x[0], length = interface->x[last] - start;
+    for (int32_t k = 0; k < FRONT_STATIONS; k++) {
+        double x = start + length * k / (FRONT_STATIONS - 1);
+        while (i < last - 1 && interface->x[i + 1] <= x) i++;   // x within [x_i, x_i+1]
+        double part = last > 0 ? (x - interface->x[i]) / (interface->x[i + 1] - interface->x[i])
+                               : 0;
+        // At a node its neighbour has no say: the front may have stopped there.
+        if (part < 1e-6)
+            times[k] = path->arrival[i] - origin;
+        else if (part > 1 - 1e-6)
+            times[k] = path->arrival[i + 1] - origin;
+        else
+            times[k] = (1 - part) * path->arrival[i] + part * path->arrival[i + 1] - origin;
+    }
+}
+
+double front_path_speed(const double times[FRONT_STATIONS], double length, int32_t k)
+{
+    double elapsed = times[k + 1] - times[k];
+    return elapsed != 0 ? length / (FRONT_STATIONS - 1) / elapsed : NAN;
+}

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A recorder: every accepted step becomes a row of each series in history.h5. Which series there
+// are, their names, units and kinds stands in io/result_tables.h; the switches below say where a
+// value comes from. io/array_file gathers rows into chunks and compresses those.
+#include "record/history.h"
+
+#include "base/clock.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double FLUSH_EVERY = 2.0;   // s; what a kill -9 may cost
+
+// head: title, units and numbers are set; what belongs to the nodes is added here and points into
+// `history` and `interface`, which must outlive the call. law is borrowed for good.
+bool history_create(const char *folder, ResultHead *head, const Interface *interface,
+                    const FrictionLaw *law, History *history, Error *err)
+{
+    int32_t count = interface->contact_count;
+    *history =
+        (History){.law = law, .flushed_at = clock_seconds(), .pad_count = interface->pad_count};
+    history->row = NEW_ARRAY(double, count, err);
+    history->pad = NEW_ARRAY(double, count, err);
+    history->slip_origin = NEW_ARRAY(double, count, err);
+    history->pad_row = NEW_ARRAY(double, interface->pad_count, err);
+    history->pad_length = NEW_ARRAY(double, interface->pad_count, err);
+    if (!error_is_clean(err)) return false;
+    for (int32_t i = 0; i < count; i++) {
+        history->pad[i] = interface->pad[i];
+        history->pad_length[interface->pad[i]] += interface->weight[i];
+    }
+    head->contact_count = count;
+    head->nodes[NODES_X] = interface->x;
+    head->nodes[NODES_WEIGHT] = interface->weight;
+    head->nodes[NODES_PAD] = history->pad;
+    history->file = result_file_create(folder, head, err);
+    return history->file != NULL;
+}
+
+// A file that was not finished stays as history.h5.part, which render and info can read.
+void history_destroy(History *history)
+{
+    memory_free(history->row);
+    memory_free(history->pad);
+    memory_free(history->pad_row);
+    memory_free(history->pad_length);
+    memory_free(history->slip_origin);
+    array_file_abandon(history->file);
+    *history = (History){0};
+}
+
+// Of the whole block; NaN for a series that is not of that kind.
+static double series_value(const Observation *seen, ResultSeries series)
+{
+    switch (series) {
+    case SERIES_TIME:
+        return seen->t;
+    case SERIES_ROD:
+        return seen->U;
+    case SERIES_MU:
+        return seen->mu;
+    case SERIES_ROD_FORCE:
+        return seen->rod_force;
+    case SERIES_NORMAL_FORCE:
+        return seen->normal_force;
+    case SERIES_STEP:
+        return seen->step_size;
+    case SERIES_FRONT:
+        return seen->front;
+    case SERIES_MAX_SLIP_RATE:
+        return seen->max_slip_rate;
+    case SERIES_CERTIFIED:
+        return seen->certified;
+    case SERIES_ENERGY_ERROR:
+        return seen->energy_imbalance;
+    default:
+        return NAN;
+    }
+}
+
+// Stored statuses: 0 open, 1 stick, 2 slip where friction weakens, 3 slip where it does not.
+static double stored_status(const History *history, const State *state, int32_t i)
+{
+    if (!status_slips(state->status[i])) return state->status[i];
+    double speed = fabs(state->slip_rate[interface_tangent(i)]);
+    return friction_weakens(history->law, speed) ? 2 : 3;
+}
+
+// At contact node i. Forces of nodes become stresses by the node's weight (contact/interface): p =
+// r_n / w, and shear positive where the plane drags the block back, tau = -r_t / w. Slip is counted
+// from the first row, so that it is 0 when the rod starts.
+static double node_value(const History *history, const Observation *seen, ResultSeries series,
+                         int32_t i)
+{
+    const State *state = seen->state;
+    int32_t t = interface_tangent(i), n = interface_normal(i);
+    switch (series) {
+    case SERIES_SLIP_RATE:
+        return state->slip_rate[t];
+    case SERIES_SLIP:
+        return state->displacement[seen->system->interface_dofs[t]] - history->slip_origin[i];
+    case SERIES_PRESSURE:
+        return state->reaction[n] / seen->interface->weight[i];
+    case SERIES_SHEAR:
+        return -state->reaction[t] / seen->interface->weight[i];
+    case SERIES_STATUS:
+        return stored_status(history, state, i);
+    default:
+        return NAN;
+    }
+}
+
+// Sums over the nodes of each pad, into pad_row.
+// pad_row: [pad_count]. Forces are sums of stress times weight; slip is the mean along the pad; the
+// last series, by default, the length of it that slips.
+static void sum_pads(History *history, const Observation *seen, ResultSeries series)
+{
+    const Interface *interface = seen->interface;
+    double *row = history->pad_row;
+    for (int32_t p = 0; p < history->pad_count; p++) row[p] = 0;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        int32_t p = interface->pad[i];
+        double weight = interface->weight[i];
+        switch (series) {
+        case SERIES_PAD_NORMAL:
+            row[p] += weight * node_value(history, seen, SERIES_PRESSURE, i);
+            break;
+        case SERIES_PAD_SHEAR:
+            row[p] += weight * node_value(history, seen, SERIES_SHEAR, i);
+            break;
+        case SERIES_PAD_SLIP:
+            row[p] += weight / history->pad_length[p] * node_value(history, seen, SERIES_SLIP, i);
+            break;
+        default:
+            if (status_slips(seen->state->status[i])) row[p] += weight;
+        }
+    }
+}
+
+// One series of one step.
+// `row` has as many entries as the series has columns: 1, the contact nodes or the pads.
+static bool append(History *history, const Observation *seen, ResultSeries series, Error *err)
+{
+    const double *row = history->row;
+    switch (result_series_columns(series)) {
+    case COLUMNS_ONE:
+        history->row[0] = series_value(seen, series);
+        break;
+    case COLUMNS_NODES:
+        for (int32_t i = 0; i < seen->interface->contact_count; i++)
+            history->row[i] = node_value(history, seen, series, i);
+        break;
+    case COLUMNS_PADS:
+        sum_pads(history, seen, series);
+        row = history->pad_row;
+        break;
+    }
+    return array_file_append(history->file, result_series_name(series), row, 1, err);
+}
+
+// The time of a flush is not counted in `seconds`: it is the disk's.
+bool history_record(void *self, const Observation *seen, Error *err)
+{
+    History *history = self;
+    double started = clock_seconds();
+    int32_t count = seen->interface->contact_count;
+    if (history->rows == 0) {
+        for (int32_t i = 0; i < count; i++)
+            history->slip_origin[i] =
+                seen->state->displacement[seen->system->interface_dofs[interface_tangent(i)]];
+    }
+    for (ResultSeries series = 0; series < RESULT_SERIES_COUNT; series++)
+        TRY(append(history, seen, series, err));
+    history->rows++;
+    double now = clock_seconds();
+    history->seconds += now - started;
+    if (now - history->flushed_at > FLUSH_EVERY) {
+        TRY(array_file_flush(history->file, err));
+        history->flushed_at = now;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// A table is stored a column at a time: entry `table` of one peak; events likewise below.
+static double peak_column(const Peak *peak, ResultTable table)
+{
+    switch (table) {
+    case PEAKS_U:
+        return peak->U;
+    case PEAKS_MU:
+        return peak->mu;
+    default:
+        return peak->counts;
+    }
+}
+
+static double event_column(const Event *event, ResultTable table)
+{
+    switch (table) {
+    case EVENTS_KIND:
+        return event->kind;
+    case EVENTS_U_START:
+        return event->U_start;
+    case EVENTS_U_STOP:
+        return event->U_stop;
+    case EVENTS_T_START:
+        return event->t_start;
+    case EVENTS_T_STOP:
+        return event->t_stop;
+    case EVENTS_REACH:
+        return event->reach;
+    case EVENTS_PEAK_RATE:
+        return event->peak_slip_rate;
+    default:
+        return event->front_speed;
+    }
+}
+
+static bool is_peak_table(ResultTable table)
+{
+    return table == PEAKS_U || table == PEAKS_MU || table == PEAKS_COUNTS;
+}
+
+// Tables of peaks and events, mu_M and l_c where there are any, then the file gets its final name.
+// After a failure the file is no longer `history`'s.
+bool history_finish(History *history, const Peaks *peaks, const Events *events,
+                    const PeaksSummary *summary, Error *err)
+{
+    int32_t longest = peaks->count > events->count ? peaks->count : events->count;
+    double *column = NEW_ARRAY(double, longest, err);
+    if (!column) goto cleanup;
+    for (ResultTable table = 0; table < RESULT_TABLES_COUNT; table++) {
+        int32_t count = is_peak_table(table) ? peaks->count : events->count;
+        for (int32_t k = 0; k < count; k++)
+            column[k] = is_peak_table(table) ? peak_column(&peaks->list[k], table)
+                                             : event_column(&events->list[k], table);
+        TRY(result_file_write_table(history->file, table, column, count, err));
+    }
+    if (!isnan(summary->mu_M))
+        TRY(array_file_set_number(history->file, result_number_name(NUMBER_MU_M), summary->mu_M,
+                                  err));
+    if (!isnan(summary->critical_length))
+        TRY(array_file_set_number(history->file, result_number_name(NUMBER_L_C),
+                                  summary->critical_length, err));
+    ArrayFile *file = history->file;
+    history->file = NULL;
+    TRY(array_file_close(file, err));
+cleanup:
+    memory_free(column);
+    return error_is_clean(err);
+}

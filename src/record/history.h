@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// history.h5: every accepted step, appended as it comes and flushed now and then, so that a killed
+// run leaves what it had. Names and shapes: io/result_file. A Recorder of run/simulation.
+#ifndef AMONTONS_RECORD_HISTORY_H
+#define AMONTONS_RECORD_HISTORY_H
+
+#include "contact/friction_law.h"
+#include "io/result_file.h"
+#include "record/peaks.h"
+
+typedef struct History {
+    ArrayFile *file;   // NULL: no history is kept; owned
+    int64_t rows;   // steps recorded
+    double seconds;   // wall time spent
+    double flushed_at;   // wall time of the last flush, s
+    double *row;   // [contact_count] work; owned
+    double *pad;   // [contact_count] the nodes' pads as stored; owned
+    int32_t pad_count;
+    double *pad_row;   // [pad_count] work; owned
+    double *pad_length;   // [pad_count] sum of the nodes' weights, length; owned
+    double *slip_origin;   // [contact_count] u_x when the rod started, length; owned
+    const FrictionLaw *law;   // not owned
+} History;
+
+// head: numbers and texts of the file; its node arrays are filled here from `interface`.
+bool history_create(const char *folder, ResultHead *head, const Interface *interface,
+                    const FrictionLaw *law, History *history, Error *err);
+// Closes what is open and leaves the .part file when the history was not finished.
+void history_destroy(History *history);
+bool history_record(void *self, const Observation *seen, Error *err);   // a Recorder
+
+// Tables of peaks and events, and what is known only now; then the file gets its final name.
+bool history_finish(History *history, const Peaks *peaks, const Events *events,
+                    const PeaksSummary *summary, Error *err);
+
+#endif

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "record/observation.h"
+
+#include "base/dense.h"
+
+#include <float.h>
+#include <math.h>
+
+// Velocities of contact are judged against the rod's, and this many times what rounding leaves of a
+// displacement divided by the step: less cannot be told from nothing.
+static const double ROUNDINGS = 1e6;
+
+// The velocity that counts as 1 in the conditions of the last stage.
+static double judged_velocity(const StepControl *control, const ObservationScales *scales)
+{
+    const State *state = &control->now;
+    double rounding = DBL_EPSILON * dense_max_abs(state->displacement, state->dof_count) /
+                      control->scheme.reach;
+    return fmax(scales->slip_velocity, ROUNDINGS * rounding);
+}
+
+// x of the last node of the run of nodes from the trailing edge that do not stick: l.
+static double slip_front(const Interface *interface, const State *state)
+{
+    double front = interface->x[0];
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        if (state->status[i] == CONTACT_STICK) break;
+        front = interface->x[i];
+    }
+    return front;
+}
+
+// Moments about the origin, x F_z - z F_x, of everything but inertia; and of inertia.
+typedef struct Moments {
+    double forces, inertia;
+} Moments;
+
+static Moments sum_moments(const StepControl *control)
+{
+    const BulkOperator *system = control->scheme.system;
+    const Interface *interface = control->scheme.interface;
+    const State *state = &control->now;
+    Moments sum = {.forces = dense_dot(system->rotation, system->load, system->dof_count),
+                   .inertia = dense_dot(system->rotation, state->inertia, system->dof_count)};
+    for (int32_t k = 0; k < interface->count; k++)
+        sum.forces += system->rotation[system->interface_dofs[k]] * state->reaction[k];
+    return sum;
+}
+
+Observation observe(const StepControl *control, const ObservationScales *scales)
+{
+    const Sdirk *scheme = &control->scheme;
+    const Interface *interface = scheme->interface;
+    const State *state = &control->now;
+    Observation seen = {.state = state,
+                        .interface = interface,
+                        .system = scheme->system,
+                        .t = state->time,
+                        .U = scheme->rod->velocity * state->time,
+                        .step_size = control->counters.accepted > 0 ? control->last_step : 0,
+                        .rod_force = rod_force(interface, state->reaction),
+                        .front = slip_front(interface, state),
+                        .certified = control->certified,
+                        .grows = control->grows};
+    seen.mu = seen.rod_force / scales->load;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        seen.normal_force += state->reaction[interface_normal(i)];
+        double height = state->displacement[seen.system->interface_dofs[interface_normal(i)]];
+        seen.penetration = fmax(seen.penetration, -height);
+        seen.max_slip_rate = fmax(seen.max_slip_rate, fabs(state->slip_rate[interface_tangent(i)]));
+    }
+    Moments moments = sum_moments(control);
+    double moment_scale = scales->load * scales->length;
+    seen.moment_error = fabs(moments.forces - moments.inertia) / moment_scale;
+    seen.moment_static_error = fabs(moments.forces) / moment_scale;
+    seen.energy_imbalance = energy_imbalance(&control->ledger);
+    // A rod that hits a block at rest turns over more than the ledger holds as yet.
+    double speed = scheme->rod->velocity;
+    double turnover =
+        fmax(energy_turnover(&control->ledger), 0.5 * scheme->system->mass_total * speed * speed);
+    seen.energy_error = turnover > 0 ? fabs(seen.energy_imbalance) / turnover : 0;
+    if (control->counters.accepted > 0) {
+        // The scheme still holds the bounds of the accepted step's last stage.
+        ContactProblem problem = {.interface = interface,
+                                  .law = scheme->law,
+                                  .rod_kind = scheme->rod->kind,
+                                  .rod_softness = scheme->rod->softness,
+                                  .rod_reach = scheme->reach + scheme->rod->lag,
+                                  .bound = scheme->bound};
+        ContactResidual residual = contact_residual(&problem, state->slip_rate, state->reaction,
+                                                    scales->load / interface->contact_count,
+                                                    judged_velocity(control, scales));
+        seen.contact_error = contact_residual_max(&residual);
+        seen.equation_error = control->outcome.residual / scales->load;
+    }
+    return seen;
+}

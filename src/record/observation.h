@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What is read off an accepted step, once, for everybody who records: forces, front, rates, and how
+// well the step keeps its balances. Made by run/simulation, taken by the recorders.
+#ifndef AMONTONS_RECORD_OBSERVATION_H
+#define AMONTONS_RECORD_OBSERVATION_H
+
+#include "contact/contact_check.h"
+#include "stepping/step_control.h"
+
+typedef struct Observation {
+    const State *state;   // not owned
+    const BulkOperator *system;   // not owned: where the interface stands in the state
+    const Interface *interface;   // not owned
+    double t, U;   // time, length
+    double step_size;   // of the step that ended here; 0 at the start
+    double rod_force;   // F_T, force/width
+    double normal_force;   // resultant of the contact pressure, force/width
+    double mu;   // F_T / F_N, F_N the applied load
+    double front;   // x to which slip reaches without a gap from the trailing edge
+    double max_slip_rate;   // velocity
+    bool certified;
+    bool grows;   // slip runs away, as step_control saw it
+    double energy_imbalance;   // energy/width, since the start
+    // The same, relative to the energy turned over, or to the block's kinetic energy at the rod's
+    // speed if that is more.
+    double energy_error;
+    double moment_error;   // of all forces and inertia about the origin, relative to F_N L
+    double moment_static_error;   // the same without inertia
+    double penetration;   // deepest contact node below the plane, length; 0: none
+    double contact_error;   // largest violation of the contact conditions, relative
+    double equation_error;   // largest residual of M a + C v + K u = f + r, relative to F_N
+} Observation;
+
+// What the observation is measured against.
+typedef struct ObservationScales {
+    double load;   // F_N, force/width
+    double length;   // L, length
+    double time;   // wave crossing plus viscous time, time
+    double slip_velocity;   // velocity
+} ObservationScales;
+
+Observation observe(const StepControl *control, const ObservationScales *scales);
+
+#endif

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a pad does is seen from two marks of each contact node: it has stuck since the last sliding,
+// and it has slipped since it stuck. A pad is detached when all of its nodes have; it slips rapidly
+// between the rates at which record/events begins and ends rapid events, so that the same
+// thresholds hold for pads and block.
+#include "record/pads.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const PadCycle NOTHING_YET = {.normal_force = NAN,
+                                     .shear = NAN,
+                                     .U_first_slip = NAN,
+                                     .U_detached = NAN,
+                                     .U_rapid = NAN,
+                                     .t_rapid = NAN,
+                                     .slow_length = NAN};
+
+enum { FIRST_ROOM = 32 };
+
+// interface is read only here and is not kept; events is borrowed. One contact curve is one pad: a
+// plain block has one.
+bool pads_create(const Interface *interface, const Events *events, Pads *pads, Error *err)
+{
+    *pads = (Pads){.events = events,
+                   .contact_count = interface->contact_count,
+                   .mu = -INFINITY,
+                   .rising.mu = -INFINITY,
+                   .sliding_room = FIRST_ROOM};
+    pads->slidings = NEW_ARRAY(PadSliding, FIRST_ROOM, err);
+    pads->list = NEW_ARRAY(Pad, interface->pad_count, err);
+    pads->stuck = NEW_ARRAY(uint8_t, interface->contact_count, err);
+    pads->slipped = NEW_ARRAY(uint8_t, interface->contact_count, err);
+    if (!error_is_clean(err)) return false;
+    pads->count = interface->pad_count;
+    for (int32_t p = 0; p < pads->count; p++) {
+        Pad *pad = &pads->list[p];
+        *pad =
+            (Pad){.x_from = INFINITY, .x_to = -INFINITY, .now = NOTHING_YET, .last = NOTHING_YET};
+        if (interface->pad_name)
+            snprintf(pad->name, sizeof pad->name, "%s", interface->pad_name[p]);
+    }
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        Pad *pad = &pads->list[interface->pad[i]];
+        pad->x_from = fmin(pad->x_from, interface->x[i]);
+        pad->x_to = fmax(pad->x_to, interface->x[i]);
+        pad->length += interface->weight[i];
+        pad->nodes++;
+    }
+    return true;
+}
+
+void pads_destroy(Pads *pads)
+{
+    memory_free(pads->list);
+    memory_free(pads->stuck);
+    memory_free(pads->slipped);
+    memory_free(pads->slidings);
+    *pads = (Pads){0};
+}
+
+// A node counts from when it has stuck: the tail of a sliding is not the next cycle's slip.
+// An open node counts as one that has let go, as it holds nothing.
+static void mark_nodes(Pads *pads, const Observation *seen)
+{
+    for (int32_t i = 0; i < pads->contact_count; i++) {
+        if (seen->state->status[i] == CONTACT_STICK)
+            pads->stuck[i] = 1;
+        else if (pads->stuck[i])
+            pads->slipped[i] = 1;
+    }
+}
+
+typedef struct PadStep {
+    double normal_force, shear;   // force/width
+    double slipping;   // length
+    double fastest;   // |slip rate|, velocity
+    int32_t slipped;   // nodes that have in this cycle
+} PadStep;
+
+// Sums over the nodes of pad p, as the step left them. Shear is positive where the plane holds the
+// block back.
+static PadStep look_at_pad(const Pads *pads, const Observation *seen, int32_t p)
+{
+    PadStep step = {0};
+    const Interface *interface = seen->interface;
+    const State *state = seen->state;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        if (interface->pad[i] != p) continue;
+        step.normal_force += state->reaction[interface_normal(i)];
+        step.shear -= state->reaction[interface_tangent(i)];
+        step.slipped += pads->slipped[i];
+        if (!status_slips(state->status[i])) continue;
+        step.slipping += interface->weight[i];
+        step.fastest = fmax(step.fastest, fabs(state->slip_rate[interface_tangent(i)]));
+    }
+    return step;
+}
+
+// now: loads where mu was largest so far, and the first U of what happens once. *let_go: one more
+// where the pad has just lost its last sticking node; those of one step share their order.
+static void follow_pad(Pads *pads, const Observation *seen, int32_t p, int32_t *let_go)
+{
+    Pad *pad = &pads->list[p];
+    PadCycle *now = &pad->now;
+    PadStep step = look_at_pad(pads, seen, p);
+    if (!pads->started) pad->normal_force_start = step.normal_force;
+    if (seen->mu > pads->mu) {
+        now->normal_force = step.normal_force;
+        now->shear = step.shear;
+    }
+    if (step.slipped > 0 && isnan(now->U_first_slip)) now->U_first_slip = seen->U;
+    if (step.slipped == pad->nodes && isnan(now->U_detached)) {
+        now->U_detached = seen->U;
+        now->order = pads->detached + 1;
+        ++*let_go;
+    }
+    if (!pad->rapid && step.fastest > pads->events->rate_start) {
+        pad->rapid = true;
+        now->U_rapid = seen->U;
+        now->t_rapid = seen->t;
+        now->slow_length = pad->slipping;
+    }
+    if (step.fastest < pads->events->rate_stop) pad->rapid = false;
+    pad->slipping = step.slipping;
+}
+
+// All is forgotten but `last`; called in every step of a sliding, so that a cycle begins with its
+// end.
+static void begin_cycle(Pads *pads)
+{
+    memset(pads->stuck, 0, (size_t)pads->contact_count);
+    memset(pads->slipped, 0, (size_t)pads->contact_count);
+    pads->detached = 0;
+    pads->mu = -INFINITY;
+    for (int32_t p = 0; p < pads->count; p++) pads->list[p].now = NOTHING_YET;
+}
+
+// Pads of which every node slipped in the rapid event that ended in this step.
+static int32_t count_slid(Pads *pads, const Interface *interface)
+{
+    int32_t slid = 0;
+    for (int32_t p = 0; p < pads->count; p++) {
+        int32_t nodes = 0;
+        for (int32_t i = 0; i < interface->contact_count; i++)
+            if (interface->pad[i] == p) nodes += pads->events->slipped[i];
+        if (nodes < pads->list[p].nodes) continue;
+        pads->list[p].slidings++;
+        slid++;
+    }
+    return slid;
+}
+
+// `rising`, the largest mu since the sliding before, joins the list with the number of pads that
+// slid. ERROR_MEMORY leaves the list as it was.
+static bool push_sliding(Pads *pads, int32_t slid, Error *err)
+{
+    PadSliding *list = memory_grow(pads->slidings, pads->sliding_count, &pads->sliding_room,
+                                   sizeof(PadSliding), err);
+    if (!list) return false;
+    pads->slidings = list;
+    pads->rising.pads = slid;
+    list[pads->sliding_count++] = pads->rising;
+    pads->rising = (PadSliding){.mu = -INFINITY};
+    return true;
+}
+
+// Events of one pad or of several, whoever crosses; mu rises only while nothing is rapid.
+static bool follow_slidings(Pads *pads, const Observation *seen, Error *err)
+{
+    const Events *events = pads->events;
+    if (events->ended) {
+        pads->slid = count_slid(pads, seen->interface);
+        if (pads->slid > 0) TRY(push_sliding(pads, pads->slid, err));
+    }
+    if (events->rapid < 0 && seen->mu > pads->rising.mu) {
+        pads->rising.mu = seen->mu;
+        pads->rising.U = seen->U;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// While the block slides as a whole nothing is followed but the step in which it crosses: what pads
+// do then says nothing of how they let go.
+bool pads_record(void *self, const Observation *seen, Error *err)
+{
+    Pads *pads = self;
+    const Events *events = pads->events;
+    bool sliding = events->rapid >= 0 && events->list[events->rapid].kind == EVENT_LEADING;
+    int32_t let_go = 0;
+    TRY(follow_slidings(pads, seen, err));
+    if (!sliding || events->crossed) {
+        mark_nodes(pads, seen);
+        for (int32_t p = 0; p < pads->count; p++) follow_pad(pads, seen, p, &let_go);
+        pads->detached += let_go;
+        pads->mu = fmax(pads->mu, seen->mu);
+        pads->started = true;
+    }
+    if (events->crossed) {
+        pads->cycles++;
+        for (int32_t p = 0; p < pads->count; p++) pads->list[p].last = pads->list[p].now;
+    }
+    if (sliding || (events->ended && events->list[events->count - 1].kind == EVENT_LEADING))
+        begin_cycle(pads);
+cleanup:
+    return error_is_clean(err);
+}
+
+// Of the later half of the slidings: what the start left is gone by then.
+static double lowest_sliding(const Pads *pads)
+{
+    double low = NAN;
+    for (int32_t k = pads->sliding_count / 2; k < pads->sliding_count; k++)
+        low = fmin(low, pads->slidings[k].mu);   // fmin of NaN and a number is the number
+    return low;
+}
+
+void pads_write_json(const Pads *pads, JsonWriter *json)
+{
+    json_number(json, "mu_first_pad", lowest_sliding(pads));
+    json_begin_list(json, "pads");
+    for (int32_t p = 0; p < pads->count; p++) {
+        const Pad *pad = &pads->list[p];
+        const PadCycle *last = &pad->last;
+        json_begin_object(json, NULL);
+        json_text(json, "name", pad->name);
+        json_number(json, "x_from", pad->x_from);
+        json_number(json, "x_to", pad->x_to);
+        json_integer(json, "nodes", pad->nodes);
+        json_number(json, "normal_force_start", pad->normal_force_start);
+        json_number(json, "normal_force_peak", last->normal_force);
+        json_number(json, "shear_peak", last->shear);
+        json_number(json, "U_first_slip", last->U_first_slip);
+        json_number(json, "U_detached", last->U_detached);
+        json_integer(json, "detachment_order", last->order);
+        json_number(json, "U_rapid", last->U_rapid);
+        json_number(json, "t_rapid", last->t_rapid);
+        json_number(json, "l_c", last->slow_length);
+        json_number(json, "l_c_over_length", last->slow_length / pad->length);
+        json_integer(json, "slidings", pad->slidings);
+        json_end(json);
+    }
+    json_end(json);
+    json_begin_list(json, "pad_slidings");
+    for (int32_t k = 0; k < pads->sliding_count; k++) {
+        const PadSliding *sliding = &pads->slidings[k];
+        json_begin_object(json, NULL);
+        json_number(json, "U", sliding->U);
+        json_number(json, "mu", sliding->mu);
+        json_integer(json, "pads", sliding->pads);
+        json_end(json);
+    }
+    json_end(json);
+}

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What each contact curve (pad) does between two slidings: what it carries when mu is largest, when
+// it first slips, when all of it has, in what order pads let go, and how much of a pad slips slowly
+// before its slip turns fast; and every event in which whole pads slid. Fed after record/events;
+// written by run/report, a pad an object of results.pads. The course of loads and slip over all
+// steps is in history.h5 (pads/...).
+#ifndef AMONTONS_RECORD_PADS_H
+#define AMONTONS_RECORD_PADS_H
+
+#include "io/json_writer.h"
+#include "record/events.h"
+
+// From the end of one sliding to the beginning of the next. NaN, order 0: did not happen.
+typedef struct PadCycle {
+    double normal_force, shear;   // where mu was largest, force/width
+    double U_first_slip;   // when some of it slips, length
+    double U_detached;   // when all of it has slipped since the sliding before, length
+    int32_t order;   // of that, from 1; pads that go in the same step share it
+    double U_rapid, t_rapid;   // when it slips rapidly for the last time before sliding
+    double slow_length;   // how much of it slipped just before: l_c of the pad, length
+} PadCycle;
+
+// A rapid event in which some pads slipped over all their length, also where the others held and
+// the force hardly fell (record/falls has those in which it did).
+typedef struct PadSliding {
+    double U, mu;   // the largest mu since the one before, and where it was; length, 1
+    int32_t pads;   // that slid
+} PadSliding;
+
+typedef struct Pad {
+    char name[GROUP_NAME_SIZE];
+    double x_from, x_to;   // length
+    double length;   // sum of its nodes' weights
+    int32_t nodes;
+    double normal_force_start;   // when the rod starts, force/width
+    PadCycle now, last;   // of the cycle under way; of the last one that ended in sliding
+    int32_t slidings;   // rapid events in which all of it slipped
+    double slipping;   // how much of it slips in the step seen last, length
+    bool rapid;   // in the step seen last
+} Pad;
+
+typedef struct Pads {
+    const Events *events;   // not owned
+    int32_t count;
+    Pad *list;   // [count] by number of the contact curve; owned
+    int32_t contact_count;
+    uint8_t *stuck;   // [contact_count] seen sticking since the last sliding; owned
+    uint8_t *slipped;   // [contact_count] slipped since it stuck; owned
+    int32_t detached;   // pads, in this cycle
+    int32_t cycles;   // that ended in sliding
+    double mu;   // the largest of this cycle
+    bool started;   // the first step was seen
+    int32_t slid;   // pads that slid in the rapid event that ended last
+    PadSliding rising;   // the largest mu since the last sliding of any pad
+    int32_t sliding_count, sliding_room;
+    PadSliding *slidings;   // [sliding_count]; owned
+} Pads;
+
+bool pads_create(const Interface *interface, const Events *events, Pads *pads, Error *err);
+void pads_destroy(Pads *pads);
+bool pads_record(void *self, const Observation *seen, Error *err);   // a Recorder
+
+// results.pads, results.pad_slidings; results.mu_first_pad: of their later half, the smallest mu.
+void pads_write_json(const Pads *pads, JsonWriter *json);
+
+#endif

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What keys mean together: each alone was checked when it was set (scene/value). The first
+// contradiction is reported, at the line of the value that is wrong, with what would be right.
+#include "scene/check.h"
+
+#include "amontons.h"
+
+#include <stdarg.h>
+#include <string.h>
+
+// sources: [keys of scene/keys] where each key's value stands, in the file or in a --set; no
+// document: not given.
+typedef struct Check {
+    const Scene *scene;
+    const SceneValue *sources;
+    const YamlDocument *file;
+    Error *err;
+} Check;
+
+// Sets the error at the value of `name`; where that is not given, at the map it belongs to.
+static bool blame(const Check *check, const char *name, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+static bool blame(const Check *check, const char *name, const char *format, ...)
+{
+    char message[600], map[100];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    int32_t index = scene_key_index(name);
+    if (index >= 0 && check->sources[index].document) {
+        const SceneValue *source = &check->sources[index];
+        yaml_error(source->document, source->node, check->err, "%s: %s", name, message);
+        return false;
+    }
+    snprintf(map, sizeof map, "%s", name);
+    YamlNode node = yaml_look_up(check->file, map);
+    while (node == YAML_NO_NODE) {
+        char *dot = strrchr(map, '.');
+        if (dot)
+            *dot = 0;
+        else
+            map[0] = 0;
+        node = yaml_look_up(check->file, map);
+    }
+    yaml_key_error(check->file, node, check->err, "%s: %s", name, message);
+    return false;
+}
+
+static bool is_given(const Check *check, const char *name)
+{
+    return check->scene->given[scene_key_index(name)];
+}
+
+// A scene that says where the rod stands, or has none, and says nothing of time is for `amontons
+// static`; `amontons run` refuses it.
+static bool is_static(const Scene *scene)
+{
+    static const char *const timed[] = {"time.until.U", "time.until.t", "time.until.periodic",
+                                        "rod.velocity"};
+    for (size_t k = 0; k < sizeof timed / sizeof timed[0]; k++)
+        if (scene->given[scene_key_index(timed[k])]) return false;
+    return scene->rod.kind == ROD_NONE || scene->given[scene_key_index("rod.displacement")];
+}
+
+static bool is_needed(const SceneKey *key, const Scene *scene)
+{
+    if (strcmp(key->name, "friction.mu_kinetic") == 0) return scene->friction.law != LAW_COULOMB;
+    if (strcmp(key->name, "rod.velocity") == 0)
+        return scene->rod.kind != ROD_NONE && !is_static(scene);
+    return !key->standard || (key->given_in_si && scene->units == UNITS_SI);
+}
+
+// Keys without a default, and in SI those whose default of 1 would be 1 Pa or 1 kg/m3.
+static bool check_required(const Check *check)
+{
+    int32_t count = 0;
+    const SceneKey *keys = scene_keys(&count);
+    for (int32_t k = 0; k < count; k++) {
+        if (check->scene->given[k] || !is_needed(&keys[k], check->scene)) continue;
+        char allowed[300];
+        scene_key_allowed(&keys[k], allowed, sizeof allowed);
+        return blame(check, keys[k].name, "missing%s; allowed: %s (%s)",
+                     keys[k].standard ? ", which an SI scene must give" : "", allowed,
+                     keys[k].sentence);
+    }
+    return true;
+}
+
+// A law that strengthens with slip rate would need another certificate: mu_K <= mu_S.
+static bool check_friction(const Check *check)
+{
+    const Scene *scene = check->scene;
+    bool coulomb = scene->friction.law == LAW_COULOMB;
+    double mu_static = scene->friction.mu_static, mu_kinetic = scene->friction.mu_kinetic;
+    if (coulomb && is_given(check, "friction.mu_kinetic") && mu_kinetic != mu_static)
+        return blame(check, "friction.mu_kinetic",
+                     "the law `coulomb` has one coefficient, mu_static (%g); leave this key out or "
+                     "make it the same",
+                     mu_static);
+    if (!coulomb && mu_kinetic > mu_static)
+        return blame(check, "friction.mu_kinetic", "%g is more than mu_static (%g)", mu_kinetic,
+                     mu_static);
+    if (!coulomb && !(scene->friction.critical_velocity > 0))
+        return blame(check, "friction.critical_velocity",
+                     "a weakening law needs it; allowed: a number > 0");
+    return true;
+}
+
+// Something must press the block down, hold it, or send it down: else there is no contact to look
+// at.
+static bool check_load(const Check *check)
+{
+    const Scene *scene = check->scene;
+    if (scene->material.plane == PLANE_STRAIN && scene->material.poisson >= 0.5)
+        return blame(check, "material.poisson", "%g; plane strain needs less than 0.5",
+                     scene->material.poisson);
+    bool held = scene->load.support_count > 0 || scene->start.velocity_z < 0;
+    if (scene->load.pressure == 0 && scene->load.traction_count == 0 && !held)
+        return blame(check, "load.pressure",
+                     "0, and no load.tractions: nothing presses the block down");
+    return true;
+}
+
+// One curve, one meaning.
+static bool check_groups(const Check *check)
+{
+    const Scene *scene = check->scene;
+    const char *top = scene->groups.top, *rod = scene->groups.rod;
+    if (strcmp(top, rod) == 0) return blame(check, "groups.rod", "`%s` is groups.top as well", rod);
+    for (int32_t i = 0; i < scene->groups.contact.count; i++) {
+        const char *contact = scene->groups.contact.name[i];
+        if (strcmp(contact, top) == 0 || strcmp(contact, rod) == 0)
+            return blame(check, "groups.contact", "`%s` is groups.%s as well", contact,
+                         strcmp(contact, top) == 0 ? "top" : "rod");
+    }
+    return true;
+}
+
+// time.until: U needs a rod; a scene that is no static one must say when to stop; step_min is at
+// most step_max.
+static bool check_time(const Check *check)
+{
+    const Scene *scene = check->scene;
+    bool moves = scene->rod.kind != ROD_NONE;
+    if (scene->time.until_U > 0 && !moves)
+        return blame(check, "time.until.U", "the scene has no rod (rod.kind: none); give t");
+    if (!(scene->time.until_U > 0) && !(scene->time.until_t > 0) && !is_static(scene))
+        return blame(check, "time.until",
+                     "says not when to stop; allowed: {U: LENGTH}, {t: TIME}, and with either "
+                     "`periodic: true` (stop then at the latest)");
+    if (scene->time.step_max > 0 && scene->time.step_min > scene->time.step_max)
+        return blame(check, "time.step_min", "%g is more than step_max (%g)", scene->time.step_min,
+                     scene->time.step_max);
+    return true;
+}
+
+static bool check_output(const Check *check)
+{
+    const Scene *scene = check->scene;
+    if (scene->output.figures.count > 0 && !scene->output.history)
+        return blame(check, "output.figures",
+                     "pictures are drawn from the history: they need "
+                     "output.history: true");
+    return true;
+}
+
+const char *amontons_scene_warning(const Scene *scene)
+{
+    bool weakens = scene->friction.law != LAW_COULOMB &&
+                   scene->friction.mu_static > scene->friction.mu_kinetic;
+    if (!weakens || scene->material.eta1 > 0) return NULL;
+    return "material.eta1 is 0: with friction that weakens, the shortest wave that the mesh can "
+           "hold "
+           "grows fastest, so the answer has no limit as the mesh gets finer (an ill-posed "
+           "problem)";
+}
+
+// true: the scene can be meshed. Whether the mesh has the groups is not known yet.
+bool scene_check(const Scene *scene, const SceneValue *sources, const YamlDocument *file,
+                 Error *err)
+{
+    Check check = {.scene = scene, .sources = sources, .file = file, .err = err};
+    return check_required(&check) && check_friction(&check) && check_load(&check) &&
+           check_groups(&check) && check_time(&check) && check_output(&check);
+}

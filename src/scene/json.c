@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The "scene" object of run.json. Maps are opened and closed as the key table is gone through.
+// Keys of one map stand together in the table (scene/keys), so that a map that was left is
+// never needed again. What is written can be read as a scene, JSON being YAML.
+#include "scene/keys.h"
+
+#include <string.h>
+
+enum { LEVELS_MAX = 4 };
+
+static void write_parameters(const Scene *scene, JsonWriter *json, const char *name)
+{
+    json_begin_object(json, name);
+    for (int32_t i = 0; i < scene->mesh.parameter_count; i++) {
+        const MeshParameter *parameter = &scene->mesh.parameters[i];
+        if (*parameter->text)
+            json_text(json, parameter->name, parameter->text);
+        else
+            json_number(json, parameter->name, parameter->value);
+    }
+    json_end(json);
+}
+
+static void write_tractions(const Scene *scene, JsonWriter *json, const char *name)
+{
+    json_begin_list(json, name);
+    for (int32_t i = 0; i < scene->load.traction_count; i++) {
+        json_begin_object(json, NULL);
+        json_text(json, "group", scene->load.tractions[i].group);
+        json_number(json, "x", scene->load.tractions[i].x);
+        json_number(json, "z", scene->load.tractions[i].z);
+        json_end(json);
+    }
+    json_end(json);
+}
+
+static const char *support_direction(const SceneSupport *support)
+{
+    return support->x && support->z ? "both" : support->x ? "x" : "z";
+}
+
+static void write_supports(const Scene *scene, JsonWriter *json, const char *name)
+{
+    json_begin_list(json, name);
+    for (int32_t i = 0; i < scene->load.support_count; i++) {
+        json_begin_object(json, NULL);
+        json_text(json, "group", scene->load.supports[i].group);
+        json_text(json, "direction", support_direction(&scene->load.supports[i]));
+        json_end(json);
+    }
+    json_end(json);
+}
+
+static void write_names(const SceneNames *names, JsonWriter *json, const char *name)
+{
+    json_begin_list(json, name);
+    for (int32_t i = 0; i < names->count; i++) json_text(json, NULL, names->name[i]);
+    json_end(json);
+}
+
+// name: the last word of the key. An output.fields that is a map never comes here: its keys follow
+// by themselves.
+static void write_value(const SceneKey *key, const Scene *scene, JsonWriter *json, const char *name)
+{
+    const void *field = (const char *)scene + key->offset;
+    switch (key->type) {
+    case KEY_NUMBER:
+        json_number(json, name, *(const double *)field);
+        return;
+    case KEY_FLAG:
+        json_boolean(json, name, *(const bool *)field);
+        return;
+    case KEY_TEXT:
+    case KEY_NAME:
+        json_text(json, name, field);
+        return;
+    case KEY_CHOICE:
+        json_text(json, name, key->choices[*(const int32_t *)field]);
+        return;
+    case KEY_NAMES:
+        write_names(field, json, name);
+        return;
+    case KEY_PARAMETERS:
+        write_parameters(scene, json, name);
+        return;
+    case KEY_TRACTIONS:
+        write_tractions(scene, json, name);
+        return;
+    case KEY_SUPPORTS:
+        write_supports(scene, json, name);
+        return;
+    case KEY_FIELDS:
+        json_text(json, name, "none");
+        return;
+    }
+}
+
+// A key that may be left out and was has no value to show.
+static bool is_absent(const SceneKey *key, const Scene *scene, bool given)
+{
+    bool part_of_fields = strncmp(key->name, "output.fields.", 14) == 0;
+    if (key->type == KEY_FIELDS) return scene->output.fields;   // its keys follow instead
+    return (part_of_fields && !scene->output.fields) || (!key->standard && !given);
+}
+
+// Walks the keys with a stack of the maps that are open: those the next key does not share are
+// closed, those it has more are opened.
+void scene_write_json(const Scene *scene, JsonWriter *json, const char *name)
+{
+    int32_t count = 0, depth = 0;
+    const SceneKey *keys = scene_keys(&count);
+    char open[LEVELS_MAX][GROUP_NAME_SIZE] = {0};   // names of the maps that are open
+    json_begin_object(json, name);
+    for (int32_t k = 0; k < count; k++) {
+        if (is_absent(&keys[k], scene, scene->given[k])) continue;
+        const char *rest = keys[k].name;
+        int32_t shared = 0;
+        for (; shared < depth; shared++) {
+            size_t length = strlen(open[shared]);
+            if (strncmp(rest, open[shared], length) != 0 || rest[length] != '.') break;
+            rest += length + 1;
+        }
+        for (; depth > shared; depth--) json_end(json);
+        for (const char *dot = strchr(rest, '.'); dot; dot = strchr(rest, '.')) {
+            memset(open[depth], 0, sizeof open[depth]);
+            memcpy(open[depth], rest, (size_t)(dot - rest));
+            json_begin_object(json, open[depth++]);
+            rest = dot + 1;
+        }
+        write_value(&keys[k], scene, json, rest);
+    }
+    for (; depth >= 0; depth--) json_end(json);
+}

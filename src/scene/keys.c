@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The table. A key's place in Scene is an offset, so that one function sets every number and one
+// shows it; choices stand in the order of their enums. A new key needs its line here, a field in
+// scene/scene.h, and somebody who reads it; parsing, --set, run.json and the reference follow by
+// themselves.
+#include "scene/keys.h"
+
+#include "base/text.h"
+#include "render/render.h"
+
+#include <math.h>
+#include <string.h>
+
+// Choices stand in the order of their enums in scene/scene.h.
+static const char *const units_choices[] = {"normalised", "si", NULL};
+static const char *const plane_choices[] = {"stress", "strain", NULL};
+static const char *const law_choices[] = {"coulomb", "linear-weakening", "exponential-weakening",
+                                          NULL};
+static const char *const rod_ends_choices[] = {"exact", "nodes", NULL};
+static const char *const rod_choices[] = {"push", "bonded", "none", NULL};
+static const char *const switch_choices[] = {"off", "on", NULL};
+static const char *const start_rod_choices[] = {"away", "held", NULL};
+static const char *const start_state_choices[] = {"relaxed", "undeformed", NULL};
+static const char *const scheme_choices[] = {"sdirk2", "explicit", "euler", "sdirk3", NULL};
+static const char *const reduce_choices[] = {"auto", "always", "never", NULL};
+static const char *const accuracy_choices[] = {"draft", "standard", "fine", NULL};
+static const char *const figure_choices[] = {
+#define X(symbol, name, title) name,
+    RENDER_FIGURES(X)
+#undef X
+        NULL};
+
+// Keys of one map stand together: the writers open and close maps as they go along.
+static const SceneKey keys[] = {
+    {"title", KEY_TEXT, offsetof(Scene, title), "1", RANGE_ANY, "\"\"",
+     .sentence = "What the scene is, in a line; shown in pictures and results."},
+    {"units", KEY_CHOICE, offsetof(Scene, units), "1", RANGE_ANY, "normalised",
+     .sentence = "`normalised`: plain numbers; density, Young's modulus and eta1 usually 1. "
+                 "`si`: numbers in SI base units, or with a unit (10 um/s, 3 kPa).",
+     .choices = units_choices},
+    {"mesh.file", KEY_TEXT, offsetof(Scene, mesh.file), "1", RANGE_ANY, NULL,
+     .sentence =
+         "The mesh: a .msh file, or a .geo that gmsh meshes; relative to the scene's folder."},
+    {"mesh.set", KEY_PARAMETERS, offsetof(Scene, mesh), "length", RANGE_ANY, "{}",
+     .sentence =
+         "Parameters of a .geo file, each a number or a word; which there are, the file says."},
+    {"groups.top", KEY_NAME, offsetof(Scene, groups.top), "1", RANGE_ANY, "top",
+     .sentence = "The physical group that carries load.pressure."},
+    {"groups.rod", KEY_NAME, offsetof(Scene, groups.rod), "1", RANGE_ANY, "rod",
+     .sentence = "The physical group of the trailing face, which the rod touches."},
+    {"groups.contact", KEY_NAMES, offsetof(Scene, groups.contact), "1", RANGE_ANY, "[]",
+     .sentence = "The physical groups that lie on the substrate; none named: every curve called "
+                 "`contact` or `contact_...`."},
+    {"material.young", KEY_NUMBER, offsetof(Scene, material.young), "stress", RANGE_POSITIVE, "1",
+     .sentence = "Young's modulus E.", .given_in_si = true},
+    {"material.poisson", KEY_NUMBER, offsetof(Scene, material.poisson), "1", RANGE_POISSON, NULL,
+     .sentence = "Poisson's ratio; below 0.5 in plane strain."},
+    {"material.density", KEY_NUMBER, offsetof(Scene, material.density), "density", RANGE_POSITIVE,
+     "1", .sentence = "Mass density rho.", .given_in_si = true},
+    {"material.eta1", KEY_NUMBER, offsetof(Scene, material.eta1), "viscosity", RANGE_NOT_NEGATIVE,
+     "1", .sentence = "Viscosity of the strain rate: stress eta1 eps'.", .given_in_si = true},
+    {"material.eta2", KEY_NUMBER, offsetof(Scene, material.eta2), "viscosity", RANGE_NOT_NEGATIVE,
+     "1", .sentence = "Viscosity of the volume rate: stress eta2 tr(eps') I.", .given_in_si = true},
+    {"material.plane", KEY_CHOICE, offsetof(Scene, material.plane), "1", RANGE_ANY, "stress",
+     .sentence = "Plane stress (a thin plate) or plane strain (a wide block).",
+     .choices = plane_choices},
+    {"friction.law", KEY_CHOICE, offsetof(Scene, friction.law), "1", RANGE_ANY, "linear-weakening",
+     .sentence = "How the local coefficient falls with slip rate.", .choices = law_choices},
+    {"friction.mu_static", KEY_NUMBER, offsetof(Scene, friction.mu_static), "1", RANGE_NOT_NEGATIVE,
+     NULL, .sentence = "Local coefficient mu_S at rest."},
+    {"friction.mu_kinetic", KEY_NUMBER, offsetof(Scene, friction.mu_kinetic), "1",
+     RANGE_NOT_NEGATIVE, NULL,
+     .sentence =
+         "Local coefficient mu_K of fast slip, at most mu_static; not needed with `coulomb`."},
+    {"friction.critical_velocity", KEY_NUMBER, offsetof(Scene, friction.critical_velocity),
+     "velocity", RANGE_NOT_NEGATIVE, "0",
+     .sentence = "Slip rate v_c over which friction weakens; needed by the weakening laws."},
+    {"contact.radius", KEY_NUMBER, offsetof(Scene, contact.radius), "length", RANGE_NOT_NEGATIVE,
+     "0",
+     .sentence = "The substrate falls away from the middle of the block as x^2 / (2 radius); 0: it "
+                 "is flat. Read by `amontons static` only."},
+    {"load.pressure", KEY_NUMBER, offsetof(Scene, load.pressure), "stress", RANGE_NOT_NEGATIVE,
+     NULL, .sentence = "Uniform pressure P_ext on groups.top."},
+    {"load.tractions", KEY_TRACTIONS, offsetof(Scene, load), "stress", RANGE_ANY, "[]",
+     .sentence = "Further tractions, a list of {group, x, z}: a stress vector on a curve group."},
+    {"load.supports", KEY_SUPPORTS, offsetof(Scene, load.supports), "1", RANGE_ANY, "[]",
+     .sentence = "Where the block is held, a list of {group, direction}: nodes of a curve group "
+                 "that do not move along `x`, `z` or `both`."},
+    {"rod.velocity", KEY_NUMBER, offsetof(Scene, rod.velocity), "velocity", RANGE_POSITIVE, NULL,
+     .sentence = "Speed V of the rod along x; not needed with kind `none`, nor by `amontons "
+                 "static`."},
+    {"rod.displacement", KEY_NUMBER, offsetof(Scene, rod.displacement), "length", RANGE_ANY, "0",
+     .sentence = "How far the rod stands inside the undeformed block; read by `amontons static` "
+                 "only."},
+    {"rod.height", KEY_NUMBER, offsetof(Scene, rod.height), "length", RANGE_NOT_NEGATIVE, "0",
+     .sentence = "Height of the strip's centre over the substrate; 0: half the block's height."},
+    {"rod.width", KEY_NUMBER, offsetof(Scene, rod.width), "length", RANGE_NOT_NEGATIVE, "0",
+     .sentence = "Extent of the driven strip; 0: a tenth of the block's height."},
+    {"rod.kind", KEY_CHOICE, offsetof(Scene, rod.kind), "1", RANGE_ANY, "push",
+     .sentence = "`push`: can lose contact, never pulls. `bonded`: glued on. `none`: no rod.",
+     .choices = rod_choices},
+    {"rod.ends", KEY_CHOICE, offsetof(Scene, rod.ends), "1", RANGE_ANY, "exact",
+     .sentence = "`exact`: the strip ends where height and width say, also within a cell. `nodes`: "
+                 "it is the nodes inside, and its width changes with the mesh.",
+     .choices = rod_ends_choices},
+    {"start.friction", KEY_CHOICE, offsetof(Scene, start.friction), "1", RANGE_ANY, "on",
+     .sentence = "Whether friction acts while the block relaxes under its load.",
+     .choices = switch_choices},
+    {"start.rod", KEY_CHOICE, offsetof(Scene, start.rod), "1", RANGE_ANY, "away",
+     .sentence = "`away`: the rod touches the relaxed face at t = 0. `held`: it stands there while "
+                 "the block "
+                 "relaxes.",
+     .choices = start_rod_choices},
+    {"start.state", KEY_CHOICE, offsetof(Scene, start.state), "1", RANGE_ANY, "relaxed",
+     .sentence = "The block at t = 0: `relaxed` under its load, or `undeformed`, the load put on "
+                 "at once.",
+     .choices = start_state_choices},
+    {"start.velocity_x", KEY_NUMBER, offsetof(Scene, start.velocity_x), "velocity", RANGE_ANY, "0",
+     .sentence = "Velocity of the whole block at t = 0, along x."},
+    {"start.velocity_z", KEY_NUMBER, offsetof(Scene, start.velocity_z), "velocity", RANGE_ANY, "0",
+     .sentence = "The same along z; towards the substrate where negative."},
+    {"start.tolerance", KEY_NUMBER, offsetof(Scene, start.tolerance), "1", RANGE_PART, "1e-6",
+     .sentence = "The block is relaxed when every speed is below this times the rod's."},
+    {"start.duration_max", KEY_NUMBER, offsetof(Scene, start.duration_max), "1", RANGE_POSITIVE,
+     "1e4", .sentence = "Longest relaxation allowed, in viscous times eta1/E."},
+    {"time.until.U", KEY_NUMBER, offsetof(Scene, time.until_U), "length", RANGE_NOT_NEGATIVE, "0",
+     .sentence = "Stop when the rod has moved this far; 0: not by U."},
+    {"time.until.t", KEY_NUMBER, offsetof(Scene, time.until_t), "time", RANGE_NOT_NEGATIVE, "0",
+     .sentence = "Stop at this time after the rod's start; 0: not by time."},
+    {"time.until.periodic", KEY_FLAG, offsetof(Scene, time.until_periodic), "1", RANGE_ANY, "false",
+     .sentence = "Stop earlier when the periodic regime is established, or when falls of the "
+                 "force that do not repeat are enough (results.falls.enough)."},
+    {"time.scheme", KEY_CHOICE, offsetof(Scene, time.scheme), "1", RANGE_ANY, "sdirk2",
+     .sentence = "`sdirk2`: implicit, of order 2, steps as long as the answer allows. `euler`, "
+                 "`sdirk3`: the same with backward Euler (order 1), three stages (order 3). "
+                 "`explicit`: central differences at the stable step, an independent check that "
+                 "takes far longer.",
+     .choices = scheme_choices},
+    {"time.accuracy", KEY_CHOICE, offsetof(Scene, time.accuracy), "1", RANGE_ANY, "standard",
+     .sentence = "Error allowed to steps (2e-2, 5e-3, 5e-4) and to the reduction where their own "
+                 "keys do not say. `draft` has mu_M within 3 % on 40 cells along the block, "
+                 "`standard` within 1 % on 80, where l_c lies six of them or more from either end; "
+                 "`fine` is for references.",
+     .choices = accuracy_choices},
+    {"time.tolerance", KEY_NUMBER, offsetof(Scene, time.tolerance), "1", RANGE_PART_OR_ZERO, "0",
+     .sentence = "Local error allowed to the displacements in one step, over the slip that the "
+                 "drop of friction drives, (mu_S - mu_K) P H / E; 0: by time.accuracy."},
+    {"time.step_max", KEY_NUMBER, offsetof(Scene, time.step_max), "time", RANGE_NOT_NEGATIVE, "0",
+     .sentence = "Longest step; 0: from the block's size and wave speeds."},
+    {"time.step_min", KEY_NUMBER, offsetof(Scene, time.step_min), "time", RANGE_NOT_NEGATIVE, "0",
+     .sentence = "Shortest step; 0: from the block's size and wave speeds."},
+    {"time.wave_step", KEY_NUMBER, offsetof(Scene, time.wave_step), "1", RANGE_PART, "0.2",
+     .sentence = "Longest step while slip is not certified to be stable, in wave crossings of the "
+                 "block, L / c_L (L / 2 c_S where that is longer)."},
+    {"time.watch", KEY_NUMBER, offsetof(Scene, time.watch), "1", RANGE_NOT_NEGATIVE, "20",
+     .sentence = "How long the swings of slow slip beyond l_sc are followed at each position of "
+                 "the front, in wave crossings of the block; after that those that stay small are "
+                 "stepped over, so that a slow rod costs no more than a fast one. 0: all of them "
+                 "are followed."},
+    {"time.certificate", KEY_FLAG, offsetof(Scene, time.certificate), "1", RANGE_ANY, "true",
+     .sentence = "Resolve waves wherever slip is not certified to be stable; off gives wrong "
+                 "answers and is "
+                 "for studying just that."},
+    {"time.energy_tolerance", KEY_NUMBER, offsetof(Scene, time.energy_tolerance), "1", RANGE_PART,
+     "1e-3",
+     .sentence = "The run fails when the energy ledger is off by more, relative to the work done."},
+    {"time.periodic_tolerance", KEY_NUMBER, offsetof(Scene, time.periodic_tolerance), "1",
+     RANGE_PART, "1e-2",
+     .sentence = "Peaks that agree within this, relative, make a periodic regime."},
+    {"reduction.use", KEY_CHOICE, offsetof(Scene, reduction.use), "1", RANGE_ANY, "auto",
+     .sentence = "Reduce the bulk to its interface and a small interior basis before stepping; "
+                 "`auto`: where that is expected to be faster.",
+     .choices = reduce_choices},
+    {"reduction.tolerance", KEY_NUMBER, offsetof(Scene, reduction.tolerance), "1",
+     RANGE_PART_OR_ZERO, "0",
+     .sentence =
+         "Error allowed to the answers of the reduced interior, relative, in the energy norm; "
+         "0: by time.accuracy."},
+    {"reduction.cache", KEY_FLAG, offsetof(Scene, reduction.cache), "1", RANGE_ANY, "true",
+     .sentence = "Keep the basis on disk for the next run of the same shape, of whatever length."},
+    {"output.history", KEY_FLAG, offsetof(Scene, output.history), "1", RANGE_ANY, "true",
+     .sentence = "Write history.h5: time series and the interface at every step."},
+    {"output.fields", KEY_FIELDS, offsetof(Scene, output.fields), "1", RANGE_ANY, "none",
+     .sentence = "Fields of the block for ParaView (fields.pvd): `none`, or when to write them."},
+    {"output.fields.every_U", KEY_NUMBER, offsetof(Scene, output.fields_every_U), "length",
+     RANGE_NOT_NEGATIVE, "0",
+     .sentence = "A file each time the rod has moved this far; 0: not by U."},
+    {"output.fields.every_t", KEY_NUMBER, offsetof(Scene, output.fields_every_t), "time",
+     RANGE_NOT_NEGATIVE, "0",
+     .sentence = "A file each time this much time has passed; 0: not by time."},
+    {"output.fields.at_events", KEY_FLAG, offsetof(Scene, output.fields_at_events), "1", RANGE_ANY,
+     "false", .sentence = "A file at the start and stop of each precursor and sliding."},
+    {"output.figures", KEY_NAMES, offsetof(Scene, output.figures), "1", RANGE_ANY, "[]",
+     .sentence = "The pictures to draw at the end.", .choices = figure_choices},
+};
+
+enum { KEY_COUNT = sizeof keys / sizeof keys[0] };
+_Static_assert((int)KEY_COUNT <= (int)SCENE_KEYS_MAX, "Scene.given is too short");
+
+typedef struct Range {
+    double low, high;
+    bool low_allowed, high_allowed;
+    const char *words;
+} Range;
+
+static const Range ranges[] = {
+#define X(range, low, low_allowed, high, high_allowed, words)                                      \
+    [range] = {low, high, low_allowed, high_allowed, words},
+    SCENE_RANGES(X)
+#undef X
+};
+
+const SceneKey *scene_keys(int32_t *count)
+{
+    *count = KEY_COUNT;
+    return keys;
+}
+
+int32_t scene_key_index(const char *name)
+{
+    for (int32_t k = 0; k < KEY_COUNT; k++)
+        if (strcmp(keys[k].name, name) == 0) return k;
+    return -1;
+}
+
+// A group is what stands before a dot in some key.
+bool scene_key_is_group(const char *name)
+{
+    size_t length = strlen(name);
+    for (int32_t k = 0; k < KEY_COUNT; k++)
+        if (strncmp(keys[k].name, name, length) == 0 && keys[k].name[length] == '.') return true;
+    return false;
+}
+
+static const char *last_word(const char *name)
+{
+    const char *dot = strrchr(name, '.');
+    return dot ? dot + 1 : name;
+}
+
+// First the right word in another map (`poisson` at the top), then a slip of the keyboard in the
+// whole name, then in its last word.
+const char *scene_key_nearest(const char *name)
+{
+    static const char *const groups[] = {"mesh",    "groups",     "material",  "friction",
+                                         "contact", "load",       "rod",       "start",
+                                         "time",    "time.until", "reduction", "output"};
+    enum { GROUP_COUNT = sizeof groups / sizeof groups[0], COUNT = GROUP_COUNT + KEY_COUNT };
+    const char *names[COUNT], *words[COUNT];
+    for (int32_t k = 0; k < GROUP_COUNT; k++) names[k] = groups[k];
+    for (int32_t k = 0; k < KEY_COUNT; k++) names[GROUP_COUNT + k] = keys[k].name;
+    for (int32_t k = 0; k < COUNT; k++) words[k] = last_word(names[k]);
+    for (int32_t k = 0; k < COUNT; k++)   // right, but in another map
+        if (strcmp(words[k], last_word(name)) == 0) return names[k];
+    int32_t nearest = text_nearest(name, names, COUNT);
+    if (nearest < 0) nearest = text_nearest(last_word(name), words, COUNT);
+    return nearest < 0 ? NULL : names[nearest];
+}
+
+// Never for what is not finite.
+bool scene_range_holds(SceneRange range, double value)
+{
+    const Range *within = &ranges[range];
+    if (!isfinite(value)) return false;
+    if (value < within->low || value > within->high) return false;
+    if (value == within->low && !within->low_allowed) return false;
+    return value != within->high || within->high_allowed;
+}
+
+const char *scene_range_words(SceneRange range)
+{
+    return ranges[range].words;
+}
+
+static void join_choices(const char *const *choices, char *words, int32_t size)
+{
+    int32_t used = (int32_t)strlen(words);
+    for (int32_t k = 0; choices[k] && used < size; k++)
+        used += snprintf(words + used, (size_t)(size - used), "%s%s", k ? ", " : "", choices[k]);
+}
+
+// The list of choices is joined behind the words; what does not fit into `size` is cut.
+void scene_key_allowed(const SceneKey *key, char *words, int32_t size)
+{
+    static const char *const by_type[] = {
+        [KEY_FLAG] = "true or false",
+        [KEY_TEXT] = "a text of at most 511 bytes",
+        [KEY_NAME] = "a name of 1 to 63 bytes",
+        [KEY_CHOICE] = "one of ",
+        [KEY_NAMES] = "a name or a list of at most 32 names",
+        [KEY_PARAMETERS] = "a map of at most 32 parameters, each a number or a word",
+        [KEY_TRACTIONS] = "a list of at most 32 maps {group: NAME, x: STRESS, z: STRESS}",
+        [KEY_SUPPORTS] = "a list of at most 32 maps {group: NAME, direction: x, z or both}",
+        [KEY_FIELDS] = "none, or a map of every_U, every_t, at_events",
+    };
+    const char *text = key->type == KEY_NUMBER ? ranges[key->range].words : by_type[key->type];
+    bool names = key->type == KEY_NAMES && key->choices;
+    snprintf(words, (size_t)size, "%s", names ? "a list of: " : text);
+    if (key->choices) join_choices(key->choices, words, size);
+}

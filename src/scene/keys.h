@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// ONE table of every key of a scene: where it is stored, type, unit, default, range, a sentence.
+// It drives parsing, --set, the "scene" object of run.json and `amontons info keys`.
+#ifndef AMONTONS_SCENE_KEYS_H
+#define AMONTONS_SCENE_KEYS_H
+
+#include "io/json_writer.h"
+#include "scene/scene.h"
+
+#include <stddef.h>
+#include <stdio.h>
+
+typedef enum SceneKeyType {
+    KEY_NUMBER,   // double
+    KEY_FLAG,   // bool: true or false
+    KEY_TEXT,   // char[SCENE_TEXT_SIZE]
+    KEY_NAME,   // char[GROUP_NAME_SIZE], not empty
+    KEY_CHOICE,   // an enum, one of `choices`
+    KEY_NAMES,   // SceneNames: one name or a list of them; of `choices` where there are any
+    KEY_PARAMETERS,   // mesh.set: keys of any name, each a number or a word
+    KEY_TRACTIONS,   // load.tractions: a list of {group, x, z}
+    KEY_SUPPORTS,   // load.supports: a list of {group, direction}
+    KEY_FIELDS,   // output.fields: none, or a map of the keys below it
+} SceneKeyType;
+
+// X(range, low, low itself allowed, high, high itself allowed, in words)
+#define SCENE_RANGES(X)                                                                            \
+    X(RANGE_ANY, -INFINITY, false, INFINITY, false, "a number")                                    \
+    X(RANGE_POSITIVE, 0, false, INFINITY, false, "a number > 0")                                   \
+    X(RANGE_NOT_NEGATIVE, 0, true, INFINITY, false, "a number >= 0")                               \
+    X(RANGE_POISSON, -1, false, 0.5, true, "a number > -1 and <= 0.5")                             \
+    X(RANGE_PART, 0, false, 1, true, "a number > 0 and <= 1")                                      \
+    X(RANGE_PART_OR_ZERO, 0, true, 1, true, "a number from 0 to 1")
+
+typedef enum SceneRange {
+#define X(range, low, low_allowed, high, high_allowed, words) range,
+    SCENE_RANGES(X)
+#undef X
+} SceneRange;
+
+typedef struct SceneKey {
+    const char *name;   // "material.young"
+    SceneKeyType type;
+    size_t offset;   // into Scene
+    const char *unit;   // a dimension of scene/units: "stress", "velocity", "1"
+    SceneRange range;   // of a number
+    const char *standard;   // default, as it would be written in YAML; NULL: must be given
+    const char *sentence;   // what it means, for the reference
+    const char *const *choices;   // NULL-terminated, in the order of the enum; NULL otherwise
+    bool given_in_si;   // the default suits normalised scenes: with SI it must be given
+} SceneKey;
+
+const SceneKey *scene_keys(int32_t *count);
+int32_t scene_key_index(const char *name);   // -1: no such key
+bool scene_key_is_group(const char *name);   // "material", "time.until"
+// The known key or group (of keys) nearest to `name`; NULL when none is near.
+const char *scene_key_nearest(const char *name);
+
+bool scene_range_holds(SceneRange range, double value);
+const char *scene_range_words(SceneRange range);
+// What a value of the key may be, for errors and the reference: "one of stress, strain".
+void scene_key_allowed(const SceneKey *key, char *words, int32_t size);
+
+// The value of `key` in `scene` as it would be written in YAML.
+void scene_key_value(const SceneKey *key, const Scene *scene, char *words, int32_t size);
+
+// Every parameter after defaults, as the object `name` of the document: the scene's own keys,
+// nested as in YAML, so that it can be read again as a scene.
+void scene_write_json(const Scene *scene, JsonWriter *json, const char *name);
+
+// The reference: one Markdown table row a key.
+void scene_write_reference(FILE *out);
+
+#endif

@@ -1,0 +1,374 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A scene is read in four steps: the defaults; what the file gives; what the overrides give; the
+// checks. Settings are gathered first and stored after, because `units` must be known before any
+// number is.
+//
+// A later setting wins over an earlier one, key by key; a map given as a whole (--set
+// time.until={t: 3}) first gives its keys their defaults back. `sources` remembers where each value
+// stands, for errors that only the checks can find.
+#include "scene/scene.h"
+
+#include "amontons.h"
+#include "base/memory.h"
+#include "scene/check.h"
+#include "scene/keys.h"
+#include "scene/value.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { SETTINGS_MAX = 4 * SCENE_KEYS_MAX, KEY_NAME_SIZE = 96 };
+
+typedef struct Setting {
+    int32_t key;   // of scene_keys(); -1: give `group` its defaults back
+    SceneValue value;
+    char group[KEY_NAME_SIZE];
+} Setting;
+
+typedef struct Reader {
+    const SceneKey *keys;   // [key_count]
+    int32_t key_count;
+    YamlDocument *defaults;   // a list of the keys' defaults, in their order
+    YamlDocument *file;
+    YamlDocument **overrides;   // [override_count]
+    int32_t override_count;
+    Setting *settings;   // [setting_count] of SETTINGS_MAX, later ones win
+    int32_t setting_count;
+    SceneValue sources[SCENE_KEYS_MAX];
+} Reader;
+
+// --- gathering ----------------------------------------------------------------------------------
+
+// SETTINGS_MAX is several times what a scene with every key has.
+static bool add_setting(Reader *reader, const Setting *setting, Error *err)
+{
+    if (reader->setting_count == SETTINGS_MAX)
+        FAIL(err, ERROR_INPUT, "more than %d settings of keys", SETTINGS_MAX);
+    reader->settings[reader->setting_count++] = *setting;
+cleanup:
+    return error_is_clean(err);
+}
+
+static void report_unknown(const char *name, const SceneValue *value, Error *err)
+{
+    const char *nearest = scene_key_nearest(name);
+    if (nearest)
+        yaml_key_error(value->document, value->node, err,
+                       "%s: unknown key; did you mean `%s`? (`amontons info keys` lists them all)",
+                       name, nearest);
+    else
+        yaml_key_error(value->document, value->node, err,
+                       "%s: unknown key (`amontons info keys` lists them all)", name);
+}
+
+static bool gather(Reader *reader, const char *name, const SceneValue *value, Error *err);
+
+// An empty map (`load:` alone) is taken as one without keys.
+static bool gather_children(Reader *reader, const char *name, const SceneValue *value, Error *err)
+{
+    const YamlDocument *document = value->document;
+    YamlKind kind = yaml_kind(document, value->node);
+    if (kind != YAML_MAP && kind != YAML_NOTHING) {
+        char found[100];
+        yaml_describe(document, value->node, found, sizeof found);
+        yaml_error(document, value->node, err, "%s: found %s; allowed: a map of keys", name, found);
+        goto cleanup;
+    }
+    for (YamlNode item = yaml_first(document, value->node); item != YAML_NO_NODE;
+         item = yaml_next(document, item)) {
+        char path[KEY_NAME_SIZE];
+        SceneValue child = {.document = document, .node = item};
+        snprintf(path, sizeof path, "%s%s%.60s", name, *name ? "." : "", yaml_key(document, item));
+        TRY(gather(reader, path, &child, err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// Turns the value standing under `name` into settings of keys.
+static bool gather(Reader *reader, const char *name, const SceneValue *value, Error *err)
+{
+    Setting setting = {.key = scene_key_index(name), .value = *value};
+    if (setting.key >= 0) {
+        TRY(add_setting(reader, &setting, err));
+        bool has_children = reader->keys[setting.key].type == KEY_FIELDS &&
+                            yaml_kind(value->document, value->node) == YAML_MAP;
+        if (has_children) TRY(gather_children(reader, name, value, err));
+    } else if (scene_key_is_group(name)) {
+        TRY(gather_children(reader, name, value, err));
+    } else {
+        report_unknown(name, value, err);
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// A value given for `name` from outside of the file; `mesh.set.NAME` sets a single parameter.
+static bool gather_outside(Reader *reader, const char *name, const SceneValue *value, Error *err)
+{
+    static const char parameter[] = "mesh.set.";
+    Setting setting = {.key = -1, .value = *value};
+    if (strlen(name) >= KEY_NAME_SIZE)
+        FAIL(err, ERROR_INPUT, "%.80s...: unknown key (`amontons info keys` lists them all)", name);
+    if (strncmp(name, parameter, strlen(parameter)) == 0) {
+        setting.key = scene_key_index("mesh.set");
+        setting.value.part = name + strlen(parameter);
+        snprintf(setting.group, sizeof setting.group, "%s", setting.value.part);
+        TRY(add_setting(reader, &setting, err));
+        goto cleanup;
+    }
+    if (scene_key_is_group(name) && scene_key_index(name) < 0) {
+        snprintf(setting.group, sizeof setting.group, "%s", name);
+        TRY(add_setting(reader, &setting, err));
+    }
+    TRY(gather(reader, name, value, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// One `--set`: "key=value".
+static bool gather_override(Reader *reader, const char *text, Error *err)
+{
+    char name[KEY_NAME_SIZE] = "", shown[KEY_NAME_SIZE + 8];
+    const char *equals = strchr(text, '=');
+    if (!equals || equals == text || equals - text >= KEY_NAME_SIZE)
+        FAIL(err, ERROR_INPUT, "--set %.80s: wanted is key=value, as in load.pressure=0.006", text);
+    memcpy(name, text, (size_t)(equals - text));
+    snprintf(shown, sizeof shown, "--set %s", name);
+    YamlDocument **document = &reader->overrides[reader->override_count];
+    TRY(yaml_parse(shown, text, (int32_t)(equals - text) + 1, document, err));
+    reader->override_count++;
+    SceneValue value = {.document = *document, .node = YAML_ROOT};
+    TRY(gather_outside(reader, name, &value, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// --- storing ------------------------------------------------------------------------------------
+
+// The table's defaults are texts, read by the same parser as a scene's values: what is shown as a
+// default can be typed.
+static bool read_defaults(Reader *reader, Error *err)
+{
+    char text[16 * SCENE_KEYS_MAX] = "[";
+    size_t used = 1;
+    for (int32_t k = 0; k < reader->key_count; k++)
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s, ",
+                                 reader->keys[k].standard ? reader->keys[k].standard : "~");
+    snprintf(text + used - 2, sizeof text - used, "]");
+    TRY(yaml_parse("defaults", text, 0, &reader->defaults, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// Gives every key below `group` ("": all) its default; a key without one becomes zero.
+static bool store_defaults(Reader *reader, const char *group, Scene *scene, Error *err)
+{
+    size_t length = strlen(group);
+    YamlNode node = yaml_first(reader->defaults, YAML_ROOT);
+    for (int32_t k = 0; k < reader->key_count; k++) {
+        const SceneKey *key = &reader->keys[k];
+        SceneValue value = {.document = reader->defaults, .node = node};
+        node = yaml_next(reader->defaults, node);
+        if (length && (strncmp(key->name, group, length) != 0 || key->name[length] != '.'))
+            continue;
+        scene->given[k] = false;
+        reader->sources[k] = (SceneValue){0};
+        if (key->standard)
+            TRY(scene_value_set(key, &value, scene, err));
+        else if (key->type == KEY_NUMBER)
+            memcpy((char *)scene + key->offset, &(double){0}, sizeof(double));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool store_setting(Reader *reader, const Setting *setting, Scene *scene, Error *err)
+{
+    static const char fields[] = "output.fields";
+    if (setting->key < 0) return store_defaults(reader, setting->group, scene, err);
+    const SceneKey *key = &reader->keys[setting->key];
+    SceneValue value = setting->value;
+    if (value.part) value.part = setting->group;
+    if (key->type == KEY_FIELDS) TRY(store_defaults(reader, fields, scene, err));
+    TRY(scene_value_set(key, &value, scene, err));
+    bool is_part_of_fields = strncmp(key->name, fields, strlen(fields)) == 0 &&
+                             key->type != KEY_FIELDS;
+    if (is_part_of_fields) {
+        scene->output.fields = true;
+        scene->given[scene_key_index(fields)] = true;
+    }
+    scene->given[setting->key] = true;
+    reader->sources[setting->key] = value;
+cleanup:
+    return error_is_clean(err);
+}
+
+// `units` first, wherever it stands: numbers are read by it.
+static bool store_settings(Reader *reader, Scene *scene, Error *err)
+{
+    int32_t units = scene_key_index("units");
+    TRY(store_defaults(reader, "", scene, err));
+    for (int32_t i = 0; i < reader->setting_count; i++)
+        if (reader->settings[i].key == units)
+            TRY(store_setting(reader, &reader->settings[i], scene, err));
+    for (int32_t i = 0; i < reader->setting_count; i++)
+        if (reader->settings[i].key != units)
+            TRY(store_setting(reader, &reader->settings[i], scene, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// --- reading ------------------------------------------------------------------------------------
+
+// mesh.file relative to the scene's folder becomes relative to the current one.
+static bool resolve_mesh_file(const char *path, Scene *scene, Error *err)
+{
+    const char *slash = strrchr(path, '/');
+    char file[SCENE_TEXT_SIZE];
+    memcpy(file, scene->mesh.file, sizeof file);
+    if (file[0] == '/' || !slash) return true;
+    int length =
+        snprintf(scene->mesh.file, SCENE_TEXT_SIZE, "%.*s/%s", (int)(slash - path), path, file);
+    if (length >= SCENE_TEXT_SIZE)
+        FAIL(err, ERROR_INPUT, "mesh.file: the path %.200s... is longer than 511 bytes",
+             scene->mesh.file);
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool gather_file(Reader *reader, Error *err)
+{
+    SceneValue root = {.document = reader->file, .node = YAML_ROOT};
+    if (yaml_kind(reader->file, YAML_ROOT) == YAML_NOTHING) {
+        yaml_error(reader->file, YAML_ROOT, err,
+                   "the scene is empty; a scene is a map of keys "
+                   "(`amontons info keys` lists them)");
+        goto cleanup;
+    }
+    if (yaml_kind(reader->file, YAML_ROOT) != YAML_MAP) {
+        yaml_error(reader->file, YAML_ROOT, err,
+                   "not a scene: a scene is a map of keys, as in `units: normalised` "
+                   "(`amontons info keys` lists them)");
+        goto cleanup;
+    }
+    TRY(gather_children(reader, "", &root, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// What the file gives, when reader->file stands.
+static bool begin_reading(Reader *reader, const char *path, Scene *scene, Error *err)
+{
+    if (strlen(path) >= SCENE_TEXT_SIZE)
+        FAIL(err, ERROR_INPUT, "%.80s...: a path of more than 511 bytes", path);
+    memcpy(scene->path, path, strlen(path) + 1);
+    TRY((reader->settings = NEW_ARRAY(Setting, SETTINGS_MAX, err)));
+    TRY(read_defaults(reader, err));
+    TRY(gather_file(reader, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// When everything is gathered.
+static bool finish_reading(Reader *reader, const char *path, Scene *scene, Error *err)
+{
+    TRY(store_settings(reader, scene, err));
+    TRY(scene_check(scene, reader->sources, reader->file, err));
+    if (scene->friction.law == LAW_COULOMB) scene->friction.mu_kinetic = scene->friction.mu_static;
+    TRY(resolve_mesh_file(path, scene, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// Errors have been written by now: they carry their texts with them.
+static void destroy_reader(Reader *reader)
+{
+    for (int32_t i = 0; i < reader->override_count; i++) yaml_destroy(reader->overrides[i]);
+    memory_free(reader->overrides);
+    memory_free(reader->settings);
+    yaml_destroy(reader->file);
+    yaml_destroy(reader->defaults);
+}
+
+// *scene is overwritten, and of no use after a failure.
+bool scene_read(const char *path, const char *const *overrides, int32_t override_count,
+                Scene *scene, Error *err)
+{
+    *scene = (Scene){0};
+    Reader reader = {0};
+    reader.keys = scene_keys(&reader.key_count);
+    TRY(yaml_read(path, &reader.file, err));
+    TRY(begin_reading(&reader, path, scene, err));
+    TRY((reader.overrides = NEW_ARRAY(YamlDocument *, override_count, err)));
+    for (int32_t i = 0; i < override_count; i++) TRY(gather_override(&reader, overrides[i], err));
+    TRY(finish_reading(&reader, path, scene, err));
+cleanup:
+    destroy_reader(&reader);
+    return error_is_clean(err);
+}
+
+bool scene_read_settings(const char *path, const SceneSetting *settings, int32_t setting_count,
+                         Scene *scene, Error *err)
+{
+    *scene = (Scene){0};
+    Reader reader = {0};
+    reader.keys = scene_keys(&reader.key_count);
+    TRY(yaml_read(path, &reader.file, err));
+    TRY(begin_reading(&reader, path, scene, err));
+    for (int32_t i = 0; i < setting_count; i++) {
+        SceneValue value = {.document = settings[i].document, .node = settings[i].node};
+        TRY(gather_outside(&reader, settings[i].key, &value, err));
+    }
+    TRY(finish_reading(&reader, path, scene, err));
+cleanup:
+    destroy_reader(&reader);
+    return error_is_clean(err);
+}
+
+bool scene_read_text(const char *path, const char *text, Scene *scene, Error *err)
+{
+    *scene = (Scene){0};
+    Reader reader = {0};
+    reader.keys = scene_keys(&reader.key_count);
+    TRY(yaml_parse(path, text, 0, &reader.file, err));
+    TRY(begin_reading(&reader, path, scene, err));
+    TRY(finish_reading(&reader, path, scene, err));
+cleanup:
+    destroy_reader(&reader);
+    return error_is_clean(err);
+}
+
+// --- the public face ----------------------------------------------------------------------------
+
+bool amontons_scene_read(const char *path, const char *const *overrides, int32_t override_count,
+                         Scene **scene, Error *err)
+{
+    *scene = NULL;
+    Scene *made = NEW_ARRAY(Scene, 1, err);
+    TRY(made);
+    TRY(scene_read(path, overrides, override_count, made, err));
+    *scene = made;
+    made = NULL;
+cleanup:
+    memory_free(made);
+    return error_is_clean(err);
+}
+
+void amontons_scene_destroy(Scene *scene)
+{
+    memory_free(scene);
+}
+
+const char *amontons_scene_title(const Scene *scene)
+{
+    return scene->title;
+}
+
+bool amontons_scene_reference(FILE *out, Error *err)
+{
+    scene_write_reference(out);
+    if (fflush(out) != 0 || ferror(out)) FAIL(err, ERROR_FILE, "cannot write the key reference");
+cleanup:
+    return error_is_clean(err);
+}

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A scene: everything that defines one simulation, read from a YAML file by the key table
+// (scene/keys) and `--set key=value` overrides. All values are in the units of the file
+// (`units: normalised` or `si`), lengths and times included: nothing is rescaled.
+#ifndef AMONTONS_SCENE_SCENE_H
+#define AMONTONS_SCENE_SCENE_H
+
+#include "base/error.h"
+#include "io/mesh_file.h"
+#include "io/yaml_document.h"
+
+enum {
+    SCENE_TEXT_SIZE = 512,
+    SCENE_LIST_MAX = 32,
+    SCENE_KEYS_MAX = 64,   // of scene/keys's table
+};
+
+typedef enum SceneUnits { UNITS_NORMALISED, UNITS_SI } SceneUnits;
+typedef enum ScenePlane { PLANE_STRESS, PLANE_STRAIN } ScenePlane;
+typedef enum SceneLaw { LAW_COULOMB, LAW_LINEAR_WEAKENING, LAW_EXPONENTIAL_WEAKENING } SceneLaw;
+typedef enum SceneRodEnds { ROD_ENDS_EXACT, ROD_ENDS_NODES } SceneRodEnds;
+typedef enum SceneRodKind { ROD_PUSH, ROD_BONDED, ROD_NONE } SceneRodKind;
+typedef enum SceneStartFriction { START_FRICTION_OFF, START_FRICTION_ON } SceneStartFriction;
+typedef enum SceneStartRod { START_ROD_AWAY, START_ROD_HELD } SceneStartRod;
+typedef enum SceneStartState { START_RELAXED, START_UNDEFORMED } SceneStartState;
+typedef enum SceneScheme {
+    SCHEME_SDIRK2,
+    SCHEME_EXPLICIT,
+    SCHEME_EULER,
+    SCHEME_SDIRK3
+} SceneScheme;
+typedef enum SceneReduce { REDUCE_AUTO, REDUCE_ALWAYS, REDUCE_NEVER } SceneReduce;
+typedef enum SceneAccuracy { ACCURACY_DRAFT, ACCURACY_STANDARD, ACCURACY_FINE } SceneAccuracy;
+
+typedef struct SceneNames {
+    int32_t count;
+    char name[SCENE_LIST_MAX][GROUP_NAME_SIZE];
+} SceneNames;
+
+typedef struct SceneTraction {
+    char group[GROUP_NAME_SIZE];
+    double x, z;   // stress
+} SceneTraction;
+
+// Nodes of a group that do not move along x, or z, or both.
+typedef struct SceneSupport {
+    char group[GROUP_NAME_SIZE];
+    bool x, z;
+} SceneSupport;
+
+typedef struct Scene {
+    char path[SCENE_TEXT_SIZE];   // of the scene file, as given
+    char title[SCENE_TEXT_SIZE];
+    SceneUnits units;
+    struct {
+        char file[SCENE_TEXT_SIZE];   // resolved against the scene file's folder
+        int32_t parameter_count;
+        MeshParameter parameters[SCENE_LIST_MAX];   // mesh.set.*
+    } mesh;
+    struct {
+        char top[GROUP_NAME_SIZE], rod[GROUP_NAME_SIZE];   // groups.top, groups.rod
+        SceneNames contact;   // groups.contact: one name or a list; empty: every curve
+            // group called "contact" or "contact_..."
+    } groups;
+    struct {
+        double young, poisson, density, eta1, eta2;
+        ScenePlane plane;
+    } material;
+    struct {
+        SceneLaw law;
+        double mu_static, mu_kinetic, critical_velocity;
+    } friction;
+    struct {
+        double radius;   // of the substrate's curvature; 0: flat
+    } contact;
+    struct {
+        double pressure;
+        int32_t traction_count;   // load.tractions: [{group, x, z}]
+        SceneTraction tractions[SCENE_LIST_MAX];
+        int32_t support_count;   // load.supports: [{group, direction}]
+        SceneSupport supports[SCENE_LIST_MAX];
+    } load;
+    struct {
+        double velocity;
+        double displacement;   // of the rod in `amontons static`
+        double height, width;   // of the strip's centre, and its extent; 0: H/2 and 0.1 H
+        SceneRodKind kind;
+        SceneRodEnds ends;   // exact (default) or at nodes
+    } rod;
+    struct {
+        SceneStartFriction friction;
+        SceneStartRod rod;   // away (default) or held
+        SceneStartState state;   // relaxed (default) or undeformed
+        double velocity_x, velocity_z;   // of the whole block at t = 0
+        double tolerance;   // relaxed when every speed is below this times V
+        double duration_max;   // of the relaxation, in viscous times; an error beyond
+    } start;
+    struct {
+        double until_U, until_t;   // 0: not given; one of them must be
+        bool until_periodic;
+        SceneScheme scheme;
+        SceneAccuracy accuracy;
+        double tolerance;   // of a step, relative; 0: by accuracy
+        double step_max, step_min;   // 0: chosen from the block's size and speeds
+        double wave_step;   // longest step while not certified, in L / c_L
+        double watch;   // how long swings are followed before they are stepped over, in L / c_L
+        bool certificate;   // limit the step by the certificate (off only to study it)
+        double energy_tolerance;   // of the ledger, relative to the work done
+        double periodic_tolerance;   // peaks agree within this, relative
+    } time;
+    struct {
+        SceneReduce use;
+        double tolerance;   // of the interior basis, relative
+        bool cache;   // keep the basis on disk for the next run of the shape
+    } reduction;
+    struct {
+        bool history;
+        bool fields;   // output.fields: none, or {every_U, every_t, at_events}
+        double fields_every_U, fields_every_t;
+        bool fields_at_events;
+        SceneNames figures;   // names of render's RENDER_FIGURES
+    } output;
+    bool given[SCENE_KEYS_MAX];   // by key of scene_keys(): stands in the file or a --set
+} Scene;
+
+// Reads and checks a scene; `overrides` ([override_count]) are "key=value" as typed after --set,
+// the value in YAML's flow style. An override of a single key replaces its value; one of a whole
+// map ("time.until={t: 5}") replaces the map. mesh.file is relative to the scene file's folder.
+// Errors (ERROR_INPUT) give file:line:column (or the --set text), the key, what was found and what
+// is allowed; an unknown key comes with the nearest known one.
+bool scene_read(const char *path, const char *const *overrides, int32_t override_count,
+                Scene *scene, Error *err);
+
+// The same with settings that stand in other documents (a study's, study/sweep/study): `key` as
+// after --set, the value a node. Errors show the place in those documents.
+typedef struct SceneSetting {
+    const char *key;
+    const YamlDocument *document;   // not owned
+    YamlNode node;
+} SceneSetting;
+bool scene_read_settings(const char *path, const SceneSetting *settings, int32_t setting_count,
+                         Scene *scene, Error *err);
+
+// The same from a text, with `path` (of a file that need not exist) for errors and mesh.file.
+bool scene_read_text(const char *path, const char *text, Scene *scene, Error *err);
+
+#endif

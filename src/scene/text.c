@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Values of a scene as text, and the reference of all keys.
+#include "scene/keys.h"
+
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+// A growing line in a buffer of fixed size; what does not fit is cut.
+typedef struct Line {
+    char *text;
+    int32_t size, used;
+} Line;
+
+static void add(Line *line, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+// At most what is left of the buffer; `used` may then be beyond `size`, and nothing more is added.
+static void add(Line *line, const char *format, ...)
+{
+    if (line->used >= line->size - 1) return;
+    va_list arguments;
+    va_start(arguments, format);
+    line->used +=
+        vsnprintf(line->text + line->used, (size_t)(line->size - line->used), format, arguments);
+    va_end(arguments);
+}
+
+// As few digits as read back as the same number.
+static void add_number(Line *line, double number)
+{
+    char text[40];
+    for (int digits = 6; digits <= 17; digits++) {
+        snprintf(text, sizeof text, "%.*g", digits, number);
+        if (strtod(text, NULL) == number) break;
+    }
+    add(line, "%s", text);
+}
+
+// As YAML reads it back: quotes and backslashes escaped.
+static void add_quoted(Line *line, const char *text)
+{
+    add(line, "\"");
+    for (; *text; text++) add(line, *text == '"' || *text == '\\' ? "\\%c" : "%c", *text);
+    add(line, "\"");
+}
+
+// Each as it would stand in the file: `{nx: 80, shape: quad}`.
+static void add_parameters(Line *line, const Scene *scene)
+{
+    add(line, "{");
+    for (int32_t i = 0; i < scene->mesh.parameter_count; i++) {
+        const MeshParameter *parameter = &scene->mesh.parameters[i];
+        add(line, "%s%s: ", i ? ", " : "", parameter->name);
+        if (*parameter->text)
+            add(line, "%s", parameter->text);
+        else
+            add_number(line, parameter->value);
+    }
+    add(line, "}");
+}
+
+static void add_tractions(Line *line, const Scene *scene)
+{
+    add(line, "[");
+    for (int32_t i = 0; i < scene->load.traction_count; i++) {
+        const SceneTraction *traction = &scene->load.tractions[i];
+        add(line, "%s{group: %s, x: ", i ? ", " : "", traction->group);
+        add_number(line, traction->x);
+        add(line, ", z: ");
+        add_number(line, traction->z);
+        add(line, "}");
+    }
+    add(line, "]");
+}
+
+static void add_supports(Line *line, const Scene *scene)
+{
+    add(line, "[");
+    for (int32_t i = 0; i < scene->load.support_count; i++) {
+        const SceneSupport *support = &scene->load.supports[i];
+        const char *direction = support->x && support->z ? "both" : support->x ? "x" : "z";
+        add(line, "%s{group: %s, direction: %s}", i ? ", " : "", support->group, direction);
+    }
+    add(line, "]");
+}
+
+static void add_names(Line *line, const SceneNames *names)
+{
+    add(line, "[");
+    for (int32_t i = 0; i < names->count; i++) add(line, "%s%s", i ? ", " : "", names->name[i]);
+    add(line, "]");
+}
+
+// words is cut where it does not fit, as `amontons info` shows it.
+void scene_key_value(const SceneKey *key, const Scene *scene, char *words, int32_t size)
+{
+    const void *field = (const char *)scene + key->offset;
+    Line line = {.text = words, .size = size};
+    words[0] = 0;
+    switch (key->type) {
+    case KEY_NUMBER:
+        add_number(&line, *(const double *)field);
+        return;
+    case KEY_FLAG:
+        add(&line, "%s", *(const bool *)field ? "true" : "false");
+        return;
+    case KEY_TEXT:
+        add_quoted(&line, field);
+        return;
+    case KEY_NAME:
+        add(&line, "%s", (const char *)field);
+        return;
+    case KEY_CHOICE:
+        add(&line, "%s", key->choices[*(const int32_t *)field]);
+        return;
+    case KEY_NAMES:
+        add_names(&line, field);
+        return;
+    case KEY_PARAMETERS:
+        add_parameters(&line, scene);
+        return;
+    case KEY_TRACTIONS:
+        add_tractions(&line, scene);
+        return;
+    case KEY_SUPPORTS:
+        add_supports(&line, scene);
+        return;
+    case KEY_FIELDS:
+        add(&line, "%s", scene->output.fields ? "as below" : "none");
+        return;
+    }
+}
+
+// The README's table of keys; a test compares the two.
+void scene_write_reference(FILE *out)
+{
+    int32_t count = 0;
+    const SceneKey *keys = scene_keys(&count);
+    fprintf(out, "| key | default | allowed | dimension | meaning |\n"
+                 "|---|---|---|---|---|\n");
+    for (int32_t k = 0; k < count; k++) {
+        char allowed[300];
+        scene_key_allowed(&keys[k], allowed, sizeof allowed);
+        fprintf(out, "| `%s` | ", keys[k].name);
+        if (!keys[k].standard)
+            fprintf(out, "must be given");
+        else
+            fprintf(out, "`%s`%s", keys[k].standard,
+                    keys[k].given_in_si ? "; with SI must be given" : "");
+        bool is_number = keys[k].type == KEY_NUMBER;
+        fprintf(out, " | %s | %s | %s |\n", allowed, is_number ? keys[k].unit : "",
+                keys[k].sentence);
+    }
+}

@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Each type of key has a function that reads, checks and stores it, and refuses anything else with
+// what was found and what is allowed, at its line. Numbers may carry a unit in an SI scene
+// (scene/units). A value is stored only when it is right: a scene half set keeps its defaults.
+#include "scene/value.h"
+
+#include "base/text.h"
+#include "scene/units.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+// The key table holds offsets into Scene.
+static void *field_of(const SceneKey *key, Scene *scene)
+{
+    return (char *)scene + key->offset;
+}
+
+// "material.young: found `abc`; allowed: a number > 0"
+static void report_wrong(const SceneKey *key, const SceneValue *value, Error *err)
+{
+    char found[100], allowed[300];
+    yaml_describe(value->document, value->node, found, sizeof found);
+    scene_key_allowed(key, allowed, sizeof allowed);
+    yaml_error(value->document, value->node, err, "%s: found %s; allowed: %s", key->name, found,
+               allowed);
+}
+
+static bool expect_scalar(const SceneKey *key, const SceneValue *value, Error *err)
+{
+    if (yaml_kind(value->document, value->node) == YAML_SCALAR) return true;
+    report_wrong(key, value, err);
+    return false;
+}
+
+typedef bool (*ValueSetter)(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err);
+
+// Hands each item of a list or map (`kind`), at most SCENE_LIST_MAX, to `set`.
+static bool set_items(const SceneKey *key, const SceneValue *value, YamlKind kind, ValueSetter set,
+                      Scene *scene, Error *err)
+{
+    if (yaml_kind(value->document, value->node) != kind ||
+        yaml_count(value->document, value->node) > SCENE_LIST_MAX) {
+        report_wrong(key, value, err);
+        goto cleanup;
+    }
+    for (YamlNode item = yaml_first(value->document, value->node); item != YAML_NO_NODE;
+         item = yaml_next(value->document, item)) {
+        SceneValue one = {.document = value->document, .node = item};
+        TRY(set(key, &one, scene, err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// --- numbers ------------------------------------------------------------------------------------
+
+// Decimal numbers only: strtod would take "inf", "nan" and "0x10" too.
+static bool starts_as_number(const char *text)
+{
+    if (*text == '+' || *text == '-') text++;
+    if (*text == '.') text++;
+    return isdigit((unsigned char)*text) && !(text[0] == '0' && (text[1] == 'x' || text[1] == 'X'));
+}
+
+// Splits "10 um/s" into 10 and "um/s".
+static bool split_number(const char *text, double *number, const char **suffix)
+{
+    if (!starts_as_number(text)) return false;
+    char *end = NULL;
+    *number = strtod(text, &end);
+    *suffix = end + strspn(end, " ");
+    return true;
+}
+
+// Applies the unit `suffix` to *number, or says why it does not fit.
+static bool apply_unit(const SceneKey *key, const SceneValue *value, SceneUnits units,
+                       const char *suffix, double *number, Error *err)
+{
+    const char *text = yaml_text(value->document, value->node);
+    const char *examples = unit_examples(key->unit);
+    if (!*suffix) return true;
+    if (units == UNITS_NORMALISED)
+        yaml_error(value->document, value->node, err,
+                   "%s: found `%.60s`, with a unit; a normalised scene has plain numbers "
+                   "(units need `units: si`)",
+                   key->name, text);
+    else if (!*examples)
+        yaml_error(value->document, value->node, err,
+                   "%s: found `%.60s`; this number has no unit; allowed: %s", key->name, text,
+                   scene_range_words(key->range));
+    else if (!unit_to_si(suffix, key->unit, number))
+        yaml_error(value->document, value->node, err,
+                   "%s: found `%.60s`; `%.30s` is no unit of %s; allowed: %s", key->name, text,
+                   suffix, key->unit, examples);
+    return error_is_clean(err);
+}
+
+// Range is the caller's to check. ERROR_INPUT for what is not a finite decimal number.
+static bool read_number(const SceneKey *key, const SceneValue *value, SceneUnits units,
+                        double *number, Error *err)
+{
+    const char *suffix = "";
+    TRY(expect_scalar(key, value, err));
+    if (!split_number(yaml_text(value->document, value->node), number, &suffix)) {
+        report_wrong(key, value, err);
+        goto cleanup;
+    }
+    TRY(apply_unit(key, value, units, suffix, number, err));
+    if (!isfinite(*number)) report_wrong(key, value, err);
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool set_number(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+{
+    double number = 0;
+    TRY(read_number(key, value, scene->units, &number, err));
+    if (!scene_range_holds(key->range, number))
+        report_wrong(key, value, err);
+    else
+        memcpy(field_of(key, scene), &number, sizeof number);
+cleanup:
+    return error_is_clean(err);
+}
+
+// --- words --------------------------------------------------------------------------------------
+
+// true and false only: YAML 1.1's yes, no, on and off are refused.
+static bool set_flag(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+{
+    const char *text = yaml_text(value->document, value->node);
+    bool flag = strcmp(text, "true") == 0;
+    if (!flag && strcmp(text, "false") != 0)
+        report_wrong(key, value, err);
+    else
+        memcpy(field_of(key, scene), &flag, sizeof flag);
+    return error_is_clean(err);
+}
+
+// size: of `out`, which is filled with zeros first. A name (GROUP_NAME_SIZE) must not be empty; no
+// text may have line ends or tabs.
+static bool copy_text(const SceneKey *key, const SceneValue *value, size_t size, char *out,
+                      Error *err)
+{
+    TRY(expect_scalar(key, value, err));
+    const char *text = yaml_text(value->document, value->node);
+    bool empty_name = size == GROUP_NAME_SIZE && !*text;
+    if (empty_name || strlen(text) >= size || strpbrk(text, "\n\r\t"))
+        report_wrong(key, value, err);
+    else
+        memcpy(memset(out, 0, size), text, strlen(text));
+cleanup:
+    return error_is_clean(err);
+}
+
+// -1: not among them.
+static int32_t find_choice(const SceneKey *key, const char *text)
+{
+    for (int32_t k = 0; key->choices[k]; k++)
+        if (strcmp(key->choices[k], text) == 0) return k;
+    return -1;
+}
+
+static void report_choice(const SceneKey *key, const SceneValue *value, Error *err)
+{
+    const char *text = yaml_text(value->document, value->node);
+    int32_t count = 0;
+    while (key->choices[count]) count++;
+    int32_t nearest = text_nearest(text, key->choices, count);
+    char allowed[300];
+    scene_key_allowed(key, allowed, sizeof allowed);
+    if (nearest < 0)
+        report_wrong(key, value, err);
+    else
+        yaml_error(value->document, value->node, err,
+                   "%s: found `%.60s`, did you mean `%s`? Allowed: %s", key->name, text,
+                   key->choices[nearest], allowed);
+}
+
+static bool set_choice(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+{
+    TRY(expect_scalar(key, value, err));
+    int32_t choice = find_choice(key, yaml_text(value->document, value->node));
+    if (choice < 0)
+        report_choice(key, value, err);
+    else
+        memcpy(field_of(key, scene), &choice, sizeof choice);
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool add_name(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+{
+    SceneNames *names = field_of(key, scene);
+    char name[GROUP_NAME_SIZE];
+    TRY(copy_text(key, value, GROUP_NAME_SIZE, name, err));
+    if (key->choices && find_choice(key, name) < 0) {
+        report_choice(key, value, err);
+        goto cleanup;
+    }
+    for (int32_t i = 0; i < names->count; i++)
+        if (strcmp(names->name[i], name) == 0) {
+            yaml_error(value->document, value->node, err, "%s: `%s` stands twice in the list",
+                       key->name, name);
+            goto cleanup;
+        }
+    if (names->count == SCENE_LIST_MAX)
+        report_wrong(key, value, err);
+    else
+        memcpy(names->name[names->count++], name, sizeof name);
+cleanup:
+    return error_is_clean(err);
+}
+
+// One name, or a list of them; nothing is an empty list.
+static bool set_names(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+{
+    YamlKind kind = yaml_kind(value->document, value->node);
+    *(SceneNames *)field_of(key, scene) = (SceneNames){0};
+    if (kind == YAML_NOTHING) return true;
+    if (kind == YAML_SCALAR) return add_name(key, value, scene, err);
+    return set_items(key, value, YAML_LIST, add_name, scene, err);
+}
+
+// --- the keys that are maps and lists of their own ----------------------------------------------
+
+static MeshParameter *find_parameter(Scene *scene, const char *name)
+{
+    for (int32_t i = 0; i < scene->mesh.parameter_count; i++)
+        if (strcmp(scene->mesh.parameters[i].name, name) == 0) return &scene->mesh.parameters[i];
+    return NULL;
+}
+
+// The parameter that the value's own key names, or the rest of the path of a --set.
+static bool set_parameter(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+{
+    MeshParameter made = {0};
+    const char *name = value->part ? value->part : yaml_key(value->document, value->node);
+    const char *text = yaml_text(value->document, value->node);
+    MeshParameter *parameter = find_parameter(scene, name);
+    bool full = !parameter && scene->mesh.parameter_count == SCENE_LIST_MAX;
+    if (full || !*name || strlen(name) >= GROUP_NAME_SIZE) {
+        yaml_key_error(value->document, value->node, err,
+                       "%s: at most 32 parameters, with names of 1 to 63 bytes", key->name);
+        goto cleanup;
+    }
+    TRY(expect_scalar(key, value, err));
+    if (!yaml_is_quoted(value->document, value->node) && starts_as_number(text))
+        TRY(read_number(key, value, scene->units, &made.value, err));
+    else
+        TRY(copy_text(key, value, GROUP_NAME_SIZE, made.text, err));
+    memcpy(made.name, name, strlen(name) + 1);
+    if (!parameter) parameter = &scene->mesh.parameters[scene->mesh.parameter_count++];
+    *parameter = made;
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool set_parameters(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+{
+    if (value->part) return set_parameter(key, value, scene, err);
+    scene->mesh.parameter_count = 0;
+    if (yaml_kind(value->document, value->node) == YAML_NOTHING) return true;
+    return set_items(key, value, YAML_MAP, set_parameter, scene, err);
+}
+
+// Into the traction after those that are complete; add_traction counts it when it is.
+static bool set_traction_part(const SceneKey *key, const SceneValue *value, Scene *scene,
+                              Error *err)
+{
+    SceneTraction *traction = &scene->load.tractions[scene->load.traction_count];
+    const char *name = yaml_key(value->document, value->node);
+    SceneKey component = {.name = "load.tractions.x", .type = KEY_NUMBER, .unit = key->unit};
+    if (strcmp(name, "group") == 0)
+        return copy_text(key, value, GROUP_NAME_SIZE, traction->group, err);
+    if (strcmp(name, "x") == 0)
+        return read_number(&component, value, scene->units, &traction->x, err);
+    component.name = "load.tractions.z";
+    if (strcmp(name, "z") == 0)
+        return read_number(&component, value, scene->units, &traction->z, err);
+    yaml_key_error(value->document, value->node, err,
+                   "%s: unknown key `%.60s`; allowed: group, x, z", key->name, name);
+    return false;
+}
+
+// Counted only after its parts were read: set_traction_part writes into the place behind the last.
+static bool add_traction(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+{
+    SceneTraction *traction = &scene->load.tractions[scene->load.traction_count];
+    *traction = (SceneTraction){0};
+    TRY(set_items(key, value, YAML_MAP, set_traction_part, scene, err));
+    if (!*traction->group)
+        yaml_error(value->document, value->node, err, "%s: a traction needs its `group`",
+                   key->name);
+    scene->load.traction_count++;
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool set_support_part(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+{
+    SceneSupport *support = &scene->load.supports[scene->load.support_count];
+    const char *name = yaml_key(value->document, value->node);
+    const char *text = yaml_text(value->document, value->node);
+    if (strcmp(name, "group") == 0)
+        return copy_text(key, value, GROUP_NAME_SIZE, support->group, err);
+    if (strcmp(name, "direction") != 0) {
+        yaml_key_error(value->document, value->node, err,
+                       "%s: unknown key `%.60s`; allowed: group, direction", key->name, name);
+        return false;
+    }
+    bool both = strcmp(text, "both") == 0;
+    support->x = both || strcmp(text, "x") == 0;
+    support->z = both || strcmp(text, "z") == 0;
+    if (!support->x && !support->z)
+        yaml_error(value->document, value->node, err,
+                   "%s.direction: found `%.60s`; allowed: one of x, z, both", key->name, text);
+    return error_is_clean(err);
+}
+
+// Likewise.
+static bool add_support(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+{
+    SceneSupport *support = &scene->load.supports[scene->load.support_count];
+    *support = (SceneSupport){0};
+    TRY(set_items(key, value, YAML_MAP, set_support_part, scene, err));
+    if (!*support->group || (!support->x && !support->z))
+        yaml_error(value->document, value->node, err,
+                   "%s: a support needs its `group` and its `direction`", key->name);
+    scene->load.support_count++;
+cleanup:
+    return error_is_clean(err);
+}
+
+// load.tractions and load.supports; nothing is an empty list.
+static bool set_list(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+{
+    bool tractions = key->type == KEY_TRACTIONS;
+    *(tractions ? &scene->load.traction_count : &scene->load.support_count) = 0;
+    if (yaml_kind(value->document, value->node) == YAML_NOTHING) return true;
+    return set_items(key, value, YAML_LIST, tractions ? add_traction : add_support, scene, err);
+}
+
+// `none`, or a map whose keys follow as settings of their own; these were given their defaults
+// before.
+static bool set_fields(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+{
+    bool is_map = yaml_kind(value->document, value->node) == YAML_MAP;
+    if (!is_map && strcmp(yaml_text(value->document, value->node), "none") != 0)
+        report_wrong(key, value, err);
+    scene->output.fields = is_map;
+    scene->output.fields_every_U = scene->output.fields_every_t = 0;
+    scene->output.fields_at_events = false;
+    return error_is_clean(err);
+}
+
+bool scene_value_set(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+{
+    switch (key->type) {
+    case KEY_NUMBER:
+        return set_number(key, value, scene, err);
+    case KEY_FLAG:
+        return set_flag(key, value, scene, err);
+    case KEY_TEXT:
+        return copy_text(key, value, SCENE_TEXT_SIZE, field_of(key, scene), err);
+    case KEY_NAME:
+        return copy_text(key, value, GROUP_NAME_SIZE, field_of(key, scene), err);
+    case KEY_CHOICE:
+        return set_choice(key, value, scene, err);
+    case KEY_NAMES:
+        return set_names(key, value, scene, err);
+    case KEY_PARAMETERS:
+        return set_parameters(key, value, scene, err);
+    case KEY_TRACTIONS:
+    case KEY_SUPPORTS:
+        return set_list(key, value, scene, err);
+    case KEY_FIELDS:
+        return set_fields(key, value, scene, err);
+    }
+    return true;
+}

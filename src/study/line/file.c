@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What `amontons model1d` leaves: numbers in model1d.json, curves in model1d.h5. The simulation's
+// steps stand in history.h5, as those of a block (record/history). Lengths are over L in the JSON
+// (keys end in _over_L), in the scene's units in the arrays. The JSON is written last.
+#include "study/line/model1d.h"
+
+#include "io/array_file.h"
+#include "io/json_writer.h"
+#include "scene/keys.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <stdio.h>
+
+enum { PROFILE_POINTS = 201 };
+
+// A curve over the points of the theory's table. X(member, name, unit, description)
+#define POINT_CURVES(X)                                                                            \
+    X(front, "points/front", "length", "l, position of the quasi-static front")                    \
+    X(U, "points/U", "length", "rod displacement since sliding stopped that leads it there")       \
+    X(mu, "points/mu", "1", "F_T/F_N of the adiabatic solution")                                   \
+    X(mu_line, "points/mu_line", "1", "mu_K + (mu_S - mu_K) l/L")                                  \
+    X(omega_re, "points/omega_re", "1/time", "Re omega_0, off-diagonal terms neglected")           \
+    X(omega_im, "points/omega_im", "1/time", "Im omega_0 >= 0")                                    \
+    X(rate_re, "points/rate_re", "1/time", "real part of the rightmost rate, all terms kept")      \
+    X(rate_im, "points/rate_im", "1/time", "its imaginary part >= 0")                              \
+    X(front_seen, "points/front_seen", "length", "simulated front at the same U; nan: slid")       \
+    X(mu_seen, "points/mu_seen", "1", "simulated F_T/F_N at the same U; nan: slid")
+
+// The constants of equation 1 in the scene's units, for whoever wants to solve it otherwise.
+static void write_model(JsonWriter *json, const Model1dSimulation *simulation)
+{
+    const Model1d *model = &simulation->model;
+    json_begin_object(json, "model");
+    json_number(json, "alpha", model->alpha);
+    json_number(json, "length", model->length);
+    json_number(json, "height", model->height);
+    json_number(json, "drive_height", model->drive);
+    json_number(json, "E_1", model->elastic_x);
+    json_number(json, "E_2", model->elastic_shear);
+    json_number(json, "eta_t", model->viscous_x);
+    json_number(json, "eta_s", model->viscous_shear);
+    json_integer(json, "modes", MODEL1D_MODES);
+    if (!simulation->options->theory_only) json_integer(json, "nodes", simulation->options->nodes);
+    json_end(json);
+}
+
+// Plain names: the paper's formula (couplings neglected). *_full: all terms. *_at_V: at the scene's
+// velocity. null: not up to L.
+static void write_theory(JsonWriter *json, const Model1dSummary *summary)
+{
+    json_begin_object(json, "theory");
+    json_number(json, "range_over_L", summary->range);
+    json_number(json, "l_sc_over_L", summary->l_sc);
+    json_number(json, "l_c_over_L", summary->l_c);
+    json_number(json, "l_c_small_over_L", summary->l_c_small);
+    json_number(json, "mu_M", summary->mu_c);
+    json_number(json, "l_sc_full_over_L", summary->l_sc_full);
+    json_number(json, "l_c_full_over_L", summary->l_c_full);
+    json_number(json, "l_c_at_V_full_over_L", summary->l_rod_full);
+    json_number(json, "mu_M_full", summary->mu_c_full);
+    json_number(json, "mu_M_at_V_full", summary->mu_rod_full);
+    json_end(json);
+}
+
+// As results.peaks of run.json.
+static void write_peaks(JsonWriter *json, const Model1dSimulation *simulation)
+{
+    double length = simulation->model.length;
+    json_begin_list(json, "peaks");
+    for (int32_t k = 0; k < simulation->peaks.count; k++) {
+        const Peak *peak = &simulation->peaks.list[k];
+        json_begin_object(json, NULL);
+        json_number(json, "U", peak->U);
+        json_number(json, "mu", peak->mu);
+        json_number(json, "l_sc_over_L", peak->front_uncertified / length);
+        json_number(json, "l_c_over_L", peak->front / length);
+        json_boolean(json, "counts", peak->counts);
+        json_end(json);
+    }
+    json_end(json);
+}
+
+// first_*: the first peak, which starts from u_0; the others are means over the periodic regime.
+static void write_simulation(JsonWriter *json, const Model1dSimulation *simulation,
+                             const Model1dSummary *summary)
+{
+    json_begin_object(json, "simulation");
+    json_number(json, "first_mu", summary->first_mu);
+    json_number(json, "first_l_sc_over_L", summary->first_l_sc);
+    json_number(json, "first_l_c_over_L", summary->first_l_c);
+    json_number(json, "mu_M", summary->mu_M);
+    json_number(json, "mu_M_spread", summary->mu_M_spread);
+    json_integer(json, "period", summary->period);
+    json_number(json, "l_sc_over_L", summary->l_sc_seen);
+    json_number(json, "l_c_over_L", summary->l_c_seen);
+    json_integer(json, "bounded", summary->bounded);
+    json_integer(json, "leading", summary->leading);
+    json_number(json, "quasi_static_error", summary->quasi_static_error);
+    json_number(json, "energy_error", summary->energy_error);
+    json_number(json, "complementarity_error", summary->contact_error);
+    json_integer(json, "accepted", summary->accepted);
+    json_integer(json, "rejected", summary->rejected);
+    write_peaks(json, simulation);
+    json_end(json);
+}
+
+static bool write_numbers(const Model1dSimulation *simulation, const Model1dSummary *summary,
+                          Error *err)
+{
+    char file[AMONTONS_PATH_SIZE + 32];
+    snprintf(file, sizeof file, "%s/model1d.json", simulation->options->folder);
+    JsonWriter *json = json_create(file, err);
+    if (!json) return false;
+    json_begin_object(json, NULL);
+    json_text(json, "status", "done");
+    json_text(json, "version", AMONTONS_VERSION);
+    scene_write_json(simulation->scene, json, "scene");
+    write_model(json, simulation);
+    write_theory(json, summary);
+    if (summary->simulated) write_simulation(json, simulation, summary);
+    json_number(json, "seconds", summary->seconds);
+    json_end(json);
+    return json_finish(json, err);
+}
+
+// One member of every point as a series; offset: of the member in Model1dPoint.
+static bool write_curve(ArrayFile *file, const ArraySeries *series, const Model1dSimulation *from,
+                        size_t offset, Error *err)
+{
+    TRY(array_file_add_series(file, series, err));
+    for (int32_t k = 0; k < from->point_count; k++) {
+        const char *point = (const char *)&from->points[k];
+        TRY(array_file_append(file, series->name, (const double *)(const void *)(point + offset), 1,
+                              err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool write_curves(ArrayFile *file, const Model1dSimulation *simulation, Error *err)
+{
+    static const struct {
+        const char *name, *unit, *description;
+        size_t offset;
+    } curves[] = {
+#define X(member, name, unit, description)                                                         \
+    {name, unit, description, offsetof(Model1dPoint, member)},
+        POINT_CURVES(X)
+#undef X
+    };
+    for (size_t k = 0; k < sizeof curves / sizeof curves[0]; k++) {
+        ArraySeries series = {curves[k].name, ARRAY_FLOAT64, 1, curves[k].unit,
+                              curves[k].description};
+        if (!write_curve(file, &series, simulation, curves[k].offset, err)) return false;
+    }
+    return true;
+}
+
+// u_0 and, for each of the table's fronts, u_a.
+static bool write_profiles(ArrayFile *file, const Model1dSimulation *simulation, Error *err)
+{
+    const Model1d *model = &simulation->model;
+    ArraySeries position = {"profile/x", ARRAY_FLOAT64, 1, "length", "position along the line"};
+    ArraySeries rest = {"profile/u_0", ARRAY_FLOAT64, 1, "length",
+                        "displacement after sliding, tau = mu_K p everywhere, U = 0"};
+    ArraySeries slip = {"profile/u_a", ARRAY_FLOAT64, simulation->point_count, "length",
+                        "adiabatic displacement at each front of points/front, one a column"};
+    TRY(array_file_add_series(file, &position, err));
+    TRY(array_file_add_series(file, &rest, err));
+    TRY(array_file_add_series(file, &slip, err));
+    for (int32_t i = 0; i < PROFILE_POINTS; i++) {
+        double x = model->length * i / (PROFILE_POINTS - 1), u = model1d_rest(model, x);
+        double row[MODEL1D_POINTS] = {0};
+        for (int32_t k = 0; k < simulation->point_count; k++)
+            row[k] = u + model1d_slip(model, simulation->points[k].front, x);
+        TRY(array_file_append(file, position.name, &x, 1, err));
+        TRY(array_file_append(file, rest.name, &u, 1, err));
+        TRY(array_file_append(file, slip.name, row, 1, err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// A file that failed half-way is abandoned: it never stands under its final name.
+bool model1d_write(const Model1dSimulation *simulation, const Model1dSummary *summary, Error *err)
+{
+    char name[AMONTONS_PATH_SIZE + 32];
+    snprintf(name, sizeof name, "%s/model1d.h5", simulation->options->folder);
+    ArrayFile *file = array_file_create(name, err);
+    if (!file) goto cleanup;
+    TRY(write_curves(file, simulation, err));
+    TRY(write_profiles(file, simulation, err));
+    ArrayFile *closing = file;
+    file = NULL;
+    TRY(array_file_close(closing, err));
+    TRY(write_numbers(simulation, summary, err));
+cleanup:
+    array_file_abandon(file);
+    return error_is_clean(err);
+}

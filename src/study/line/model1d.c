@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A scene as the effective model sees it (equation 1 of Otsuki and Matsukawa 2013, in model1d.h),
+// theory, simulation, results. The scene's plane decides E_1: E/(1 - nu^2) in plane stress, the
+// paper's case, and the confined modulus in plane strain. Of the mesh only L and H are used.
+//
+// Symbols of the paper: u(x, t) of the interface, theta H the depth over which the shear stress
+// falls off (alpha here, 0.2), pressure 2 P x/L.
+#include "study/line/model1d.h"
+
+#include "base/clock.h"
+#include "base/dense.h"
+#include "base/memory.h"
+#include "run/result_folder.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { NODES_MIN = 3, NODES_MAX = 2000, MODES_COUNTED = 40 };
+static const double FLAT = 1e-9;   // of L: how well the contact must fill the block's face
+
+// The paper's alpha; 81 nodes are 80 cells of the line.
+Model1dOptions amontons_model1d_options(void)
+{
+    return (Model1dOptions){.alpha = 0.2, .nodes = 81};
+}
+
+// What the model has no terms for is refused rather than left out. ERROR_INPUT names the key.
+static bool check_scene(const Scene *scene, Error *err)
+{
+    const char *path = scene->path;
+    if (scene->rod.kind == ROD_NONE || !(scene->rod.velocity > 0))
+        FAIL(err, ERROR_INPUT,
+             "%s: the 1D model is driven by a rod: rod.velocity must be above 0 and rod.kind push "
+             "or bonded",
+             path);
+    if (scene->friction.law == LAW_COULOMB ||
+        !(scene->friction.mu_static > scene->friction.mu_kinetic))
+        FAIL(err, ERROR_INPUT,
+             "%s: the 1D model's slip starts from mu_kinetic and ends at mu_static: it needs a "
+             "weakening friction.law with friction.mu_static above friction.mu_kinetic",
+             path);
+    if (!(scene->load.pressure > 0))
+        FAIL(err, ERROR_INPUT, "%s: the 1D model needs load.pressure above 0", path);
+    if (scene->load.traction_count > 0 || scene->load.support_count > 0)
+        FAIL(err, ERROR_INPUT,
+             "%s: the 1D model knows pressure on top and a rod only, no load.tractions or "
+             "load.supports",
+             path);
+cleanup:
+    return error_is_clean(err);
+}
+
+// alpha is the paper's fit (0.2); a line of fewer than three nodes has no inside.
+static bool check_options(const Scene *scene, const Model1dOptions *options, Error *err)
+{
+    if (!(options->alpha > 0 && options->alpha <= 10))
+        FAIL(err, ERROR_INPUT, "alpha is %g; above 0 up to 10 is allowed", options->alpha);
+    if (options->theory_only) goto cleanup;
+    if (options->nodes < NODES_MIN || options->nodes > NODES_MAX)
+        FAIL(err, ERROR_INPUT, "the line has %d nodes; %d to %d are allowed", options->nodes,
+             NODES_MIN, NODES_MAX);
+    if (scene->time.scheme == SCHEME_EXPLICIT)
+        FAIL(err, ERROR_INPUT,
+             "%s: the 1D model is stepped implicitly: --set time.scheme=sdirk2, or ask for its "
+             "theory only",
+             scene->path);
+    if (!(scene->time.until_U > 0) && !(scene->time.until_t > 0))
+        FAIL(err, ERROR_INPUT, "%s: says not when to stop (time.until)", scene->path);
+cleanup:
+    return error_is_clean(err);
+}
+
+// L and H of the mesh, whose one contact curve must be the whole lower face.
+// The mesh is read for L and H and to see that the contact is one whole face; it is not kept.
+static bool measure_block(const Scene *scene, Model1d *model, Error *err)
+{
+    MeshFile file = {0};
+    Mesh mesh = {0};
+    MeshContact contact = {0};
+    TRY(mesh_file_read(scene->mesh.file, scene->mesh.parameters, scene->mesh.parameter_count, &file,
+                       err));
+    TRY(mesh_build(&file, scene->mesh.file, &mesh, err));
+    TRY(mesh_contact(&mesh, scene->groups.contact.name, scene->groups.contact.count, &contact,
+                     err));
+    model->length = mesh.x_max - mesh.x_min;
+    model->height = mesh.z_max - mesh.z_min;
+    double begins = mesh.position[2 * contact.nodes[0]];
+    double ends = mesh.position[2 * contact.nodes[contact.node_count - 1]];
+    bool whole = begins - mesh.x_min <= FLAT * model->length &&
+                 mesh.x_max - ends <= FLAT * model->length;
+    if (contact.curve_count != 1 || !whole)
+        FAIL(err, ERROR_INPUT,
+             "%s: the 1D model knows one contact along the whole block, from x = %g to %g; here "
+             "%d contact curves reach from %g to %g",
+             scene->mesh.file, mesh.x_min, mesh.x_max, contact.curve_count, begins, ends);
+cleanup:
+    mesh_contact_destroy(&contact);
+    mesh_destroy(&mesh);
+    mesh_file_destroy(&file);
+    return error_is_clean(err);
+}
+
+// Elastic and viscous constants of the line from the block's. Lengths come from the mesh.
+static bool translate_scene(const Scene *scene, const Model1dOptions *options, Model1d *model,
+                            Error *err)
+{
+    double young = scene->material.young, poisson = scene->material.poisson;
+    double confined = young / ((1 + poisson) * (1 - poisson));
+    if (scene->material.plane == PLANE_STRAIN)
+        confined = young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson));
+    *model = (Model1d){.alpha = options->alpha,
+                       .density = scene->material.density,
+                       .elastic_x = confined,
+                       .elastic_shear = young / (2 * (1 + poisson)),
+                       .viscous_x = scene->material.eta1 + scene->material.eta2,
+                       .viscous_shear = scene->material.eta1 / 2,
+                       .pressure = scene->load.pressure,
+                       .velocity = scene->rod.velocity,
+                       .young = young,
+                       .speed = sqrt(confined / scene->material.density),
+                       .law = {.kind = scene->friction.law == LAW_LINEAR_WEAKENING
+                                           ? FRICTION_LINEAR_WEAKENING
+                                           : FRICTION_EXPONENTIAL_WEAKENING,
+                               .mu_static = scene->friction.mu_static,
+                               .mu_kinetic = scene->friction.mu_kinetic,
+                               .critical_velocity = scene->friction.critical_velocity}};
+    TRY(measure_block(scene, model, err));
+    model->drive = scene->rod.height > 0 ? scene->rod.height : model->height / 2;
+cleanup:
+    return error_is_clean(err);
+}
+
+// Theory at evenly spaced fronts up to l = L.
+static bool fill_points(Model1dSimulation *simulation, Error *err)
+{
+    const Model1d *model = &simulation->model;
+    double *work = NEW_ARRAY(double, model1d_rates_work(MODEL1D_MODES), err);
+    simulation->points = NEW_ARRAY(Model1dPoint, MODEL1D_POINTS, err);
+    if (!error_is_clean(err)) goto cleanup;
+    for (int32_t k = 0; k < MODEL1D_POINTS; k++) {
+        double l = model->length * (k + 1) / MODEL1D_POINTS;
+        GrowthRate omega = model1d_omega(model, 0, l);
+        Model1dRates rates;
+        if (!model1d_rates(model, l, MODEL1D_MODES, work, &rates))
+            FAIL(err, ERROR_LIBRARY, "LAPACK found no eigenvalues with the front at l = %g", l);
+        Model1dPoint point = {.front = l,
+                              .U = model1d_rod(model, l),
+                              .mu = model1d_mu(model, l),
+                              .mu_line = model1d_mu_line(model, l),
+                              .omega_re = omega.re,
+                              .omega_im = omega.im,
+                              .rate_re = rates.rightmost.re,
+                              .rate_im = rates.rightmost.im,
+                              .front_seen = NAN,
+                              .mu_seen = NAN};
+        for (int32_t n = 0; n < MODES_COUNTED; n++)
+            point.growing += model1d_omega(model, n, l).re > 0;
+        simulation->points[simulation->point_count++] = point;
+    }
+cleanup:
+    memory_free(work);
+    return error_is_clean(err);
+}
+
+// Lengths over L and mu there, thrice: by the paper's formula (which may give l_c beyond L: mu_S
+// then), with all terms, and with all terms at the scene's V. A front that reaches the end without
+// a loss slides there, at mu_M = mu(L).
+static bool summarise_theory(const Model1d *model, Model1dSummary *summary, Error *err)
+{
+    double length = model->length;
+    Model1dLosses losses;
+    TRY(model1d_losses(model, &losses, err));
+    summary->range = model1d_range(model) / length;
+    summary->l_sc = model1d_l_sc(model, 0) / length;
+    summary->l_c = model1d_l_c(model) / length;
+    summary->l_c_small = model1d_l_c_small(model) / length;
+    summary->mu_c = model1d_mu_line(model, fmin(summary->l_c, 1) * length);
+    summary->l_sc_full = losses.l_sc / length;
+    summary->l_c_full = losses.l_c / length;
+    summary->l_rod_full = losses.l_rod / length;
+    summary->mu_c_full = model1d_mu(model, isnan(losses.l_c) ? length : losses.l_c);
+    summary->mu_rod_full = model1d_mu(model, isnan(losses.l_rod) ? length : losses.l_rod);
+cleanup:
+    return error_is_clean(err);
+}
+
+// The first peak stands apart: it starts from u_0, as the theory does; later ones from what sliding
+// left.
+static void summarise_steps(Model1dSimulation *simulation, Model1dSummary *summary)
+{
+    const StepCounters *steps = &simulation->control.counters;
+    PeaksSummary peaks = peaks_summarise(&simulation->peaks);
+    double length = simulation->model.length;
+    summary->simulated = true;
+    if (simulation->peaks.count > 0) {
+        const Peak *first = &simulation->peaks.list[0];
+        summary->first_mu = first->mu;
+        summary->first_l_sc = first->front_uncertified / length;
+        summary->first_l_c = first->front / length;
+    }
+    summary->mu_M = peaks.mu_M;
+    summary->mu_M_spread = peaks.spread;
+    summary->l_sc_seen = peaks.subcritical_length / length;
+    summary->l_c_seen = peaks.critical_length / length;
+    summary->period = peaks.period;
+    summary->peaks = simulation->peaks.count;
+    summary->peaks_counted = peaks.counted;
+    summary->bounded = simulation->events.kinds[EVENT_BOUNDED];
+    summary->leading = simulation->events.kinds[EVENT_LEADING];
+    summary->quasi_static_error = simulation->quasi_static_error;
+    summary->energy_error = simulation->energy_error;
+    summary->contact_error = simulation->contact_error;
+    summary->accepted = steps->accepted;
+    summary->rejected = steps->rejected_error + steps->rejected_energy +
+                        steps->rejected_uncertified + steps->unsolved;
+}
+
+static void simulation_destroy(Model1dSimulation *simulation)
+{
+    history_destroy(&simulation->history);
+    peaks_destroy(&simulation->peaks);
+    events_destroy(&simulation->events);
+    step_control_destroy(&simulation->control);
+    chain_destroy(&simulation->chain);
+    memory_free(simulation->points);
+}
+
+// Theory always, steps unless options say otherwise; results last, so that a failed simulation
+// leaves none.
+bool amontons_model1d(const Scene *scene, const Model1dOptions *options, Model1dSummary *summary,
+                      Error *err)
+{
+    Model1dSimulation simulation = {.scene = scene, .options = options};
+    double started = clock_seconds();
+    *summary = (Model1dSummary){.first_mu = NAN,
+                                .first_l_sc = NAN,
+                                .first_l_c = NAN,
+                                .mu_M = NAN,
+                                .mu_M_spread = NAN,
+                                .l_sc_seen = NAN,
+                                .l_c_seen = NAN};
+    dense_use_one_thread();
+    TRY(check_scene(scene, err));
+    TRY(check_options(scene, options, err));
+    if (options->folder) TRY(result_folder_prepare(options->folder, options->overwrite, err));
+    TRY(translate_scene(scene, options, &simulation.model, err));
+    TRY(fill_points(&simulation, err));
+    TRY(summarise_theory(&simulation.model, summary, err));
+    if (!options->theory_only) {
+        TRY(model1d_simulate(&simulation, err));
+        summarise_steps(&simulation, summary);
+    }
+    summary->seconds = clock_seconds() - started;
+    if (options->folder) {
+        snprintf(summary->folder, sizeof summary->folder, "%s", options->folder);
+        TRY(model1d_write(&simulation, summary, err));
+    }
+    for (int32_t k = 0; options->on_point && k < simulation.point_count; k++)
+        options->on_point(&simulation.points[k], options->context);
+cleanup:
+    simulation_destroy(&simulation);
+    return error_is_clean(err);
+}

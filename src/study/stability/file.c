@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What `amontons stability` leaves: numbers in stability.json, mode shapes in stability.h5. Lengths
+// are over L in the JSON (keys end in _over_L) and in the scene's units in the arrays; NaN becomes
+// null. The JSON is written last: where it stands, the arrays are whole.
+#include "study/stability/stability.h"
+
+#include "io/array_file.h"
+#include "io/json_writer.h"
+#include "scene/keys.h"
+
+#include <math.h>
+#include <stdio.h>
+
+// Where things are lost first. *_at_V and mu_M: at the scene's velocity; the others for V -> 0.
+static void write_results(JsonWriter *json, const StabilitySummary *summary)
+{
+    json_begin_object(json, "results");
+    json_number(json, "l_sc_certificate_over_L", summary->l_sc_certificate);
+    json_number(json, "l_sc_over_L", summary->l_sc);
+    json_number(json, "l_sc_frequency", summary->frequency);
+    json_number(json, "l_c_scan_over_L", summary->l_c_scan);
+    json_number(json, "l_c_over_L", summary->l_c);
+    json_number(json, "l_c_at_V_over_L", summary->l_c_rod);
+    json_number(json, "element_over_L", summary->element);
+    json_number(json, "mu_l_sc", summary->mu_sc);
+    json_number(json, "mu_snap", summary->mu_snap);
+    json_number(json, "mu_M_adiabatic", summary->mu_c);
+    json_number(json, "mu_M", summary->mu_rod);
+    json_number(json, "U_adiabatic", summary->U_c);
+    json_number(json, "U", summary->U_rod);
+    json_end(json);
+}
+
+// The path's table: one entry per front position, rates in 1/time.
+static void write_points(JsonWriter *json, const StabilityPath *path)
+{
+    double length = path->simulation->model.length;
+    json_begin_list(json, "points");
+    for (int32_t k = 0; k < path->count; k++) {
+        const StabilityPoint *point = &path->points[k];
+        json_begin_object(json, NULL);
+        json_number(json, "l_over_L", point->front / length);
+        json_integer(json, "slipping", point->slipping);
+        json_number(json, "U", point->U);
+        json_number(json, "mu", point->mu);
+        json_number(json, "rate_re", point->rate_re);
+        json_number(json, "rate_im", point->rate_im);
+        json_number(json, "real_rate", point->real_rate);
+        json_number(json, "load", point->load);
+        json_boolean(json, "certified", point->certified);
+        json_end(json);
+    }
+    json_end(json);
+}
+
+// What pad_growth.c measured; `mode` is relative to the pad that takes part most.
+static void write_pads(JsonWriter *json, const StabilitySummary *summary)
+{
+    json_begin_list(json, "pads");
+    for (int32_t p = 0; p < summary->pad_count; p++) {
+        const StabilityPad *pad = &summary->pads[p];
+        json_begin_object(json, NULL);
+        json_text(json, "name", pad->name);
+        json_number(json, "length", pad->length);
+        json_number(json, "pressure", pad->pressure);
+        json_number(json, "slipping_over_length", pad->slipping / pad->length);
+        json_number(json, "mode", pad->mode);
+        json_number(json, "load", pad->load);
+        json_number(json, "l_c_over_length", pad->l_c / pad->length);
+        json_number(json, "drag", pad->drag);
+        json_number(json, "stiffness", pad->stiffness);
+        json_end(json);
+    }
+    json_end(json);
+}
+
+// stability.json. ERROR_FILE: the folder cannot be written to.
+static bool write_numbers(const StabilityPath *path, const StabilitySummary *summary, Error *err)
+{
+    char file[AMONTONS_PATH_SIZE + 32];
+    snprintf(file, sizeof file, "%s/stability.json", path->options->folder);
+    JsonWriter *json = json_create(file, err);
+    if (!json) return false;
+    json_begin_object(json, NULL);
+    json_text(json, "status", "done");
+    json_text(json, "version", AMONTONS_VERSION);
+    scene_write_json(&path->simulation->scene, json, "scene");
+    json_integer(json, "slidings_before", path->options->slidings);
+    write_results(json, summary);
+    write_pads(json, summary);
+    write_points(json, path);
+    json_begin_object(json, "timing_s");
+    json_number(json, "before", summary->seconds_before);
+    json_number(json, "path", summary->seconds_path);
+    json_number(json, "growth", summary->seconds_growth);
+    json_end(json);
+    json_integer(json, "path_steps", summary->path_steps);
+    json_end(json);
+    return json_finish(json, err);
+}
+
+// A series with its values at once. values: [rows][series->columns].
+static bool add_series(ArrayFile *file, const ArraySeries *series, const double *values,
+                       int64_t rows, Error *err)
+{
+    return array_file_add_series(file, series, err) &&
+           array_file_append(file, series->name, values, rows, err);
+}
+
+// Shapes: nodes and critical mode [contact nodes], modes [points][2][contact nodes], front
+// [points], rate [points][2].
+static bool fill_arrays(ArrayFile *file, const StabilityPath *path, Error *err)
+{
+    const Interface *interface = &path->simulation->interface;
+    int32_t nodes = interface->contact_count;
+    ArraySeries x = {"nodes/x", ARRAY_FLOAT64, 1, "length", "position of the contact nodes"};
+    ArraySeries critical = {"critical/slip", ARRAY_FLOAT64, 1, "1",
+                            "slip of the real growing mode at l_c at the contact nodes, largest 1; "
+                            "0 where none was found"};
+    ArraySeries modes = {"modes/slip", ARRAY_FLOAT32, 2 * nodes, "1",
+                         "slip of the rightmost mode at each point: real part at the contact "
+                         "nodes, then imaginary part; largest modulus 1"};
+    ArraySeries front = {"points/front", ARRAY_FLOAT64, 1, "length", "l, position of the front"};
+    ArraySeries rate = {"points/rate", ARRAY_FLOAT64, 2, "1/time",
+                        "rightmost lambda of exp(lambda t), real and imaginary part"};
+    TRY(add_series(file, &x, interface->x, nodes, err));
+    TRY(add_series(file, &critical, path->critical_mode, nodes, err));
+    TRY(add_series(file, &modes, path->modes, path->count, err));
+    TRY(array_file_add_series(file, &front, err));
+    TRY(array_file_add_series(file, &rate, err));
+    for (int32_t k = 0; k < path->count; k++) {
+        const StabilityPoint *point = &path->points[k];
+        double pair[2] = {point->rate_re, point->rate_im};
+        TRY(array_file_append(file, front.name, &point->front, 1, err));
+        TRY(array_file_append(file, rate.name, pair, 1, err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// A file that failed half-way is abandoned: it never stands under its final name.
+bool stability_write(const StabilityPath *path, const StabilitySummary *summary, Error *err)
+{
+    char name[AMONTONS_PATH_SIZE + 32];
+    snprintf(name, sizeof name, "%s/stability.h5", path->options->folder);
+    ArrayFile *file = array_file_create(name, err);
+    if (!file) goto cleanup;
+    TRY(fill_arrays(file, path, err));
+    ArrayFile *closing = file;
+    file = NULL;
+    TRY(array_file_close(closing, err));
+    TRY(write_numbers(path, summary, err));
+cleanup:
+    array_file_abandon(file);
+    return error_is_clean(err);
+}

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Which pad runs away first, and why. In the state where slip runs away each pad is seen alone:
+// the first nodes of it slip from its trailing edge on (J), with the pressure they have, and all
+// other contact and rod nodes are held. With T the tangents of J, S_C and S_K the Schur
+// complements of C and K on the interface and w the nodes' weights,
+//
+//     drag       smallest v' S_C[T,T] v / v' w v over slips v of the whole pad
+//     stiffness  smallest v' S_K[T,T] v / v' w v
+//     load(J)    largest weakening over what S(s) = s M + C + K/s bears on J, over s
+//                (stepping/growth, growth_scan); it rises with J, and l_c is where it reaches 1
+//
+// Drag is what a geometry has of viscosity against slip: eta1/2 over H for a layer of height H that
+// shears, about eta over the length for a short pad on a large block. Weakening over drag,
+// (mu_S - mu_K) p / (v_c drag), decides where slip begins to swing; elasticity and inertia together
+// bear more, so a pad runs away by itself only where load > 1.
+#include "study/stability/stability.h"
+
+#include "base/dense.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdio.h>
+
+typedef struct PadWork {
+    StabilityPath *path;   // not owned
+    const Interface *interface;   // not owned
+    InterfaceOperator *stiffness;   // S_K; owned, like all that follows
+    State trial;   // slips on J only
+    int32_t *nodes;   // [contact_count] of the pad, ascending x
+    int32_t count;
+    double *matrix, *values, *work;   // [contact_count^2], [contact_count], dense_eigen_work
+} PadWork;
+
+// S_K (lifted, where the free block leaves it singular), a trial state and room for one pad.
+static bool work_create(StabilityPath *path, PadWork *work, Error *err)
+{
+    Simulation *simulation = path->simulation;
+    int64_t count = simulation->interface.contact_count;
+    *work = (PadWork){.path = path, .interface = &simulation->interface};
+    OperatorTerms terms = {.stiffness = 1, .lift = true};
+    work->stiffness = interface_operator_create(&simulation->system, terms, err);
+    if (!work->stiffness) goto cleanup;
+    TRY(state_create(&simulation->system, work->interface, &work->trial, err));
+    work->nodes = NEW_ARRAY(int32_t, count, err);
+    work->matrix = NEW_ARRAY(double, count *count, err);
+    work->values = NEW_ARRAY(double, count, err);
+    work->work = NEW_ARRAY(double, dense_eigen_work((int32_t)count), err);
+cleanup:
+    return error_is_clean(err);
+}
+
+// Zeroed and half-built too.
+static void work_destroy(PadWork *work)
+{
+    interface_operator_destroy(work->stiffness);
+    state_destroy(&work->trial);
+    memory_free(work->nodes);
+    memory_free(work->matrix);
+    memory_free(work->values);
+    memory_free(work->work);
+}
+
+// The smallest eigenvalue of w^-1/2 S[T,T] w^-1/2 over the whole pad. condensed: NULL where the
+// matrix is singular; then it is 0.
+static bool softest_slip(PadWork *work, const InterfaceOperator *condensed, double *smallest,
+                         Error *err)
+{
+    const Interface *interface = work->interface;
+    int64_t size = interface->count;
+    *smallest = 0;
+    if (!condensed) return true;
+    const double *schur = interface_operator_schur(condensed);
+    for (int32_t b = 0; b < work->count; b++) {
+        int32_t j = work->nodes[b];
+        for (int32_t a = 0; a < work->count; a++) {
+            int32_t i = work->nodes[a];
+            work->matrix[(int64_t)work->count * b + a] =
+                schur[size * interface_tangent(j) + interface_tangent(i)] /
+                sqrt(interface->weight[i] * interface->weight[j]);
+        }
+    }
+    if (!dense_eigen(work->matrix, work->count, work->values, work->work))
+        FAIL(err, ERROR_COMPUTE, "the softest slip of a pad was not found");
+    *smallest = work->values[0];
+cleanup:
+    return error_is_clean(err);
+}
+
+// The load when the first `slipping` nodes of the pad slip forward, slowly, and all else is held.
+static double load_of(PadWork *work, int32_t slipping)
+{
+    State *trial = &work->trial;
+    state_copy(&work->path->runaway, trial);
+    for (int32_t i = 0; i < trial->contact_count; i++) trial->status[i] = CONTACT_STICK;
+    for (int32_t j = 0; j < trial->rod_count; j++) trial->rod_touches[j] = 1;
+    for (int32_t a = 0; a < slipping; a++) {
+        int32_t i = work->nodes[a];
+        trial->status[i] = CONTACT_SLIP_FORWARD;
+        trial->slip_rate[interface_tangent(i)] = 0;
+    }
+    return growth_scan(work->path->growth, trial).load;
+}
+
+// Linear between the last number of nodes that holds and the next.
+static double critical_length(PadWork *work)
+{
+    int32_t holds = 0, fails = work->count;
+    double below = 0, above = load_of(work, fails);
+    if (!(above >= 1)) return NAN;
+    while (fails - holds > 1) {
+        int32_t middle = (holds + fails) / 2;
+        double load = load_of(work, middle);
+        if (load >= 1) {
+            fails = middle;
+            above = load;
+        } else {
+            holds = middle;
+            below = load;
+        }
+    }
+    double length = 0;
+    for (int32_t a = 0; a < holds; a++) length += work->interface->weight[work->nodes[a]];
+    double part = isfinite(above) ? (1 - below) / (above - below) : 1;
+    return length + part * work->interface->weight[work->nodes[holds]];
+}
+
+// Loads, lengths and the mode's share; a mean over the nodes by their weights.
+static void sum_pad(const PadWork *work, StabilityPad *pad)
+{
+    const StabilityPath *path = work->path;
+    const Interface *interface = work->interface;
+    const State *state = &path->runaway;
+    const double *re = path->modes + 2 * (int64_t)path->at_rod * interface->contact_count;
+    const double *im = re + interface->contact_count;
+    for (int32_t a = 0; a < work->count; a++) {
+        int32_t i = work->nodes[a];
+        double weight = interface->weight[i];
+        pad->length += weight;
+        pad->pressure += state->reaction[interface_normal(i)];
+        if (state->status[i] != CONTACT_STICK) pad->slipping += weight;
+        pad->mode += weight * hypot(re[i], im[i]);
+    }
+    pad->pressure /= pad->length;
+    pad->mode /= pad->length;
+}
+
+// All of one pad, p; nodes of the others stay out. ERROR_COMPUTE: no eigenvalue was found.
+static bool measure_pad(PadWork *work, int32_t p, StabilityPad *pad, Error *err)
+{
+    const Interface *interface = work->interface;
+    work->count = 0;
+    for (int32_t i = 0; i < interface->contact_count; i++)
+        if (interface->pad[i] == p) work->nodes[work->count++] = i;
+    *pad = (StabilityPad){0};
+    snprintf(pad->name, sizeof pad->name, "%s", interface->pad_name[p]);
+    sum_pad(work, pad);
+    TRY(softest_slip(work, work->path->control.certificate.damping, &pad->drag, err));
+    TRY(softest_slip(work, work->stiffness, &pad->stiffness, err));
+    pad->load = load_of(work, work->count);
+    pad->l_c = critical_length(work);
+cleanup:
+    return error_is_clean(err);
+}
+
+bool stability_measure_pads(StabilityPath *path, StabilitySummary *summary, Error *err)
+{
+    const Interface *interface = &path->simulation->interface;
+    PadWork work = {0};
+    double most = 0;
+    if (path->at_rod < 0) {   // it slides because all of it slips, nothing grows before
+        path->at_rod = path->count - 1;
+        state_copy(&path->last, &path->runaway);
+    }
+    TRY(work_create(path, &work, err));
+    for (int32_t p = 0; p < interface->pad_count && p < STABILITY_PADS_MAX; p++) {
+        TRY(measure_pad(&work, p, &summary->pads[p], err));
+        most = fmax(most, summary->pads[p].mode);
+        summary->pad_count = p + 1;
+    }
+    for (int32_t p = 0; p < summary->pad_count && most > 0; p++) summary->pads[p].mode /= most;
+cleanup:
+    work_destroy(&work);
+    return error_is_clean(err);
+}

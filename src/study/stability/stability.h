@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Where does slow slip lose its stability? The block is led along its quasi-static path: steps so
+// long that the implicit, L-stable scheme damps whatever would grow, the certificate switched off,
+// the rod so slow that the velocity drops out (V -> 0). Whenever a further node begins to slip, the
+// state just before is asked for its growth rates (stepping/growth). Or, without a path, the
+// state in which the scene's own run ends is asked for its own.
+// amontons_stability, in amontons.h, is the entry; this is what its files share.
+#ifndef AMONTONS_STUDY_STABILITY_STABILITY_H
+#define AMONTONS_STUDY_STABILITY_STABILITY_H
+
+#include "run/simulation.h"
+#include "stepping/growth.h"
+
+typedef struct StabilityPath {
+    const StabilityOptions *options;   // not owned
+    Simulation *simulation;   // its model, and the run before the path; owned, like what follows
+    StepControl control;   // of the path
+    State last;   // before the newest step
+    Growth *growth;
+    double U_start;   // of the rod, where the path begins, length
+    int32_t count, room;   // points
+    StabilityPoint *points;   // [room]
+    double *modes;   // [room][2][contact_count] slip of the rightmost mode, re and im; largest 1
+    double *critical_mode;   // [contact_count] slip of the real growing mode at l_c
+    bool at_end;   // the front has crossed the block
+    int32_t critical;   // point where l_c was found; -1: not yet
+    int32_t at_rod;   // point where slip first runs away at the scene's V; -1: not yet
+    State runaway;   // the state of that point; owned
+    double mu_snap;   // before the first step in which a node jumped; NaN: none did
+    double seconds_growth;
+} StabilityPath;
+
+// What each pad bears in path->runaway, and how much it takes part in the mode of point at_rod
+// (pad_growth.c). ERROR_COMPUTE: a small eigenproblem was not solved.
+bool stability_measure_pads(StabilityPath *path, StabilitySummary *summary, Error *err);
+
+// stability.json and stability.h5 in the options' folder.
+bool stability_write(const StabilityPath *path, const StabilitySummary *summary, Error *err);
+
+#endif

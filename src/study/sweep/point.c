@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What stands on disk of a sweep's point, and under which name.
+#include "study/sweep/sweep.h"
+
+#include "base/memory.h"
+#include "io/json_reader.h"
+#include "io/json_writer.h"
+#include "io/text_file.h"
+#include "scene/keys.h"
+
+#include <limits.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { VALUE_SIZE = 8192, MESH_BYTES_MAX = 1 << 30, REPORT_BYTES_MAX = 1 << 28 };
+
+// The mesh counts by what it holds, not by where it lies.
+static bool hash_mesh_file(const char *path, Hash *hash, Error *err)
+{
+    char *bytes = NULL;
+    int32_t size = 0;
+    TRY(text_file_read(path, MESH_BYTES_MAX, &bytes, &size, err));
+    *hash = hash_start();
+    hash_bytes(hash, bytes, (size_t)size);
+cleanup:
+    memory_free(bytes);
+    return error_is_clean(err);
+}
+
+// Numbers count by their bits; the mesh by its content, wherever it lies; the title not at all.
+bool point_hash(const Scene *scene, PointMesh *mesh, char text[HASH_TEXT_SIZE], Error *err)
+{
+    int32_t count = 0;
+    const SceneKey *keys = scene_keys(&count);
+    Hash hash = hash_start();
+    char *words = NEW_ARRAY(char, VALUE_SIZE, err);
+    TRY(words);
+    if (strcmp(mesh->path, scene->mesh.file) != 0) {
+        TRY(hash_mesh_file(scene->mesh.file, &mesh->hash, err));
+        memcpy(mesh->path, scene->mesh.file, SCENE_TEXT_SIZE);
+    }
+    hash_text(&hash, AMONTONS_VERSION);
+    hash_bytes(&hash, &mesh->hash, sizeof mesh->hash);
+    for (int32_t k = 0; k < count; k++) {
+        const void *field = (const char *)scene + keys[k].offset;
+        bool counts = strcmp(keys[k].name, "title") != 0 && strcmp(keys[k].name, "mesh.file") != 0;
+        if (!counts) continue;
+        hash_text(&hash, keys[k].name);
+        if (keys[k].type == KEY_NUMBER) {
+            hash_number(&hash, *(const double *)field);
+        } else if (keys[k].type == KEY_PARAMETERS) {
+            for (int32_t i = 0; i < scene->mesh.parameter_count; i++) {
+                hash_text(&hash, scene->mesh.parameters[i].name);
+                hash_text(&hash, scene->mesh.parameters[i].text);
+                hash_number(&hash, scene->mesh.parameters[i].value);
+            }
+        } else {
+            scene_key_value(&keys[k], scene, words, VALUE_SIZE);
+            hash_text(&hash, words);
+        }
+    }
+    hash_write(&hash, text);
+cleanup:
+    memory_free(words);
+    return error_is_clean(err);
+}
+
+// By hash, not by number: a study that is changed finds its old points again.
+void point_folder(const Sweep *sweep, int32_t point, char folder[POINT_PATH_SIZE])
+{
+    snprintf(folder, POINT_PATH_SIZE, "%s/points/%s", sweep->folder, sweep->points[point].hash);
+}
+
+// The file whose presence makes a point finished.
+static void report_path(const Sweep *sweep, int32_t point, char path[POINT_PATH_SIZE + 16])
+{
+    point_folder(sweep, point, path);
+    strcat(path, "/run.json");
+}
+
+// Missing is no error; unreadable is.
+char *point_report(const Sweep *sweep, int32_t point, Error *err)
+{
+    char path[POINT_PATH_SIZE + 16], *bytes = NULL;
+    int32_t size = 0;
+    report_path(sweep, point, path);
+    if (access(path, F_OK) == 0) text_file_read(path, REPORT_BYTES_MAX, &bytes, &size, err);
+    return bytes;
+}
+
+// An interrupted run is not finished, though it left a run.json.
+PointStatus point_status(const char *report)
+{
+    char status[20] = "", failure[40] = "";
+    if (!report || !json_find_text(report, "status", status, sizeof status)) return POINT_PENDING;
+    if (strcmp(status, "done") == 0) return POINT_DONE;
+    json_find_text(report, "failure", failure, sizeof failure);
+    return strcmp(failure, error_name(ERROR_INTERRUPT)) == 0 ? POINT_PENDING : POINT_FAILED;
+}
+
+const char *point_status_name(PointStatus status)
+{
+    static const char *const names[] = {
+        [POINT_PENDING] = "pending", [POINT_DONE] = "done", [POINT_FAILED] = "failed"};
+    return names[status];
+}
+
+// Only run.json: it alone makes a point finished.
+void point_remove(const Sweep *sweep, int32_t point)
+{
+    char path[POINT_PATH_SIZE + 16];
+    report_path(sweep, point, path);
+    unlink(path);   // the rest is the next run's to overwrite
+}
+
+// An ordinary run, over what an earlier try may have left in the folder.
+bool point_run(const Sweep *sweep, int32_t point, Error *err)
+{
+    char folder[POINT_PATH_SIZE];
+    RunSummary summary;
+    RunOptions options = {.folder = folder, .overwrite = true};
+    Scene *scene = NEW_ARRAY(Scene, 1, err);
+    TRY(scene);
+    point_folder(sweep, point, folder);
+    TRY(study_point_scene(&sweep->study, point, scene, err));
+    TRY(amontons_run(scene, &options, &summary, err));
+cleanup:
+    memory_free(scene);
+    return error_is_clean(err);
+}
+
+// Has the scene in it like every run.json, so that it can be run again by hand.
+bool point_write_failure(const Sweep *sweep, int32_t point, const char *failure,
+                         const char *message, Error *err)
+{
+    char path[POINT_PATH_SIZE + 16];
+    Scene *scene = NEW_ARRAY(Scene, 1, err);
+    JsonWriter *json = NULL;
+    TRY(scene);
+    TRY(study_point_scene(&sweep->study, point, scene, err));
+    point_folder(sweep, point, path);
+    mkdir(path, 0777);   // a failure shows when the report is written
+    report_path(sweep, point, path);
+    TRY((json = json_create(path, err)));
+    json_begin_object(json, NULL);
+    json_text(json, "status", "failed");
+    json_text(json, "failure", failure);
+    json_text(json, "message", message);
+    json_text(json, "version", AMONTONS_VERSION);
+    scene_write_json(scene, json, "scene");
+    json_end(json);
+    TRY(json_finish(json, err));
+cleanup:
+    memory_free(scene);
+    return error_is_clean(err);
+}
+
+// What does not fit into POINT_WORDS_SIZE is left out, key by key.
+void point_words(const Sweep *sweep, const Scene *scene, char words[POINT_WORDS_SIZE])
+{
+    size_t used = 0;
+    words[0] = 0;
+    for (int32_t k = 0; k < sweep->study.column_count; k++) {
+        char text[160];
+        double number = 0;
+        study_scene_value(scene, sweep->study.columns[k], text, sizeof text, &number);
+        int length = snprintf(words + used, POINT_WORDS_SIZE - used, "%s%s=%s", used ? " " : "",
+                              sweep->study.columns[k], text);
+        if (length < 0 || (size_t)length >= POINT_WORDS_SIZE - used) break;
+        used += (size_t)length;
+    }
+}

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A study: one base scene and how it is varied. Read from a YAML file; the points it stands for are
+// scenes, each made on demand. Called by study/sweep/sweep.
+//
+//     title: mu_M against pressure
+//     scene: fig1.yaml                          # relative to the study's folder
+//     set: {mesh.set.nx: 40, mesh.set.height: = 0.5 * mesh.set.length}
+//     cases: [{rod.kind: push}, {rod.kind: bonded}]
+//     vary:                                     # the full product, the last key fastest
+//       mesh.set.length: [0.25, 1, 4]
+//       load.pressure: {log: [1e-4, 1e-2], points: 7}
+//     record: [mu_M, period, results.mu_max]
+//     rank: {by: mu_M, order: highest, top: 10, against: {rod.kind: push}}
+//     plot: {x: load.pressure, y: mu_M, series: mesh.set.length, log: x}
+//
+// A value that begins with `=` is a formula (study/sweep/formula) over the numbers of the scene;
+// formulas are worked out last, in the order of the file. Later ones win: the base scene, what
+// every sweep sets (STUDY_STANDARD), `set`, --set, `cases`, `vary`, formulas.
+#ifndef AMONTONS_STUDY_SWEEP_STUDY_H
+#define AMONTONS_STUDY_SWEEP_STUDY_H
+
+#include "io/yaml_document.h"
+#include "scene/scene.h"
+
+enum {
+    STUDY_NAME_SIZE = 96,
+    STUDY_AXES_MAX = 16,
+    STUDY_COLUMNS_MAX = 64,
+    STUDY_RECORDS_MAX = 64,
+    STUDY_SETTINGS_MAX = 200,   // for a point
+    STUDY_FORMULAS_MAX = 32,
+    STUDY_RANGE_MAX = 10000,   // points of a range
+    STUDY_POINTS_MAX = 100000,
+};
+
+// A sweep wants numbers: nothing is kept of a point but run.json, and it ends when it is periodic.
+#define STUDY_STANDARD                                                                             \
+    "{time.until.periodic: true, output.history: false, output.fields: none, output.figures: []}"
+
+typedef struct StudyRecord {
+    char name[STUDY_NAME_SIZE];   // of the column
+    char path[STUDY_NAME_SIZE];   // in run.json
+} StudyRecord;
+
+typedef struct StudyAxis {
+    char key[STUDY_NAME_SIZE];
+    const YamlDocument *document;   // not owned: the study's, or a range's in `made`
+    YamlNode list;
+    int32_t count;
+} StudyAxis;
+
+typedef enum RankAgainst { AGAINST_FIRST, AGAINST_BEST, AGAINST_KEYS } RankAgainst;
+
+typedef struct StudyRank {
+    bool wanted;
+    int32_t record;   // ranked by this column of `records`
+    bool lowest;   // is best
+    int32_t top;   // rows to show
+    RankAgainst against;   // what a gain is measured from: the first point, the best, or ...
+    YamlNode baseline;   // ... the same point with these keys, a map; YAML_NO_NODE else
+} StudyRank;
+
+typedef struct StudyAxisData {
+    bool is_record;   // of `records`; else of `columns`
+    int32_t index;
+} StudyAxisData;
+
+typedef struct StudyPlot {
+    bool wanted;
+    StudyAxisData x, y;
+    int32_t series;   // of `columns`: a curve for each of its values; -1: one curve
+    bool log_x, log_y;
+} StudyPlot;
+
+typedef struct Study {
+    char path[SCENE_TEXT_SIZE], title[SCENE_TEXT_SIZE];
+    char scene[SCENE_TEXT_SIZE];   // path of the base scene
+    YamlDocument *file;   // owned, like the next
+    YamlDocument *made[STUDY_SETTINGS_MAX];   // of ranges, --set and STUDY_STANDARD
+    int32_t made_count;
+    YamlDocument *standard;   // one of `made`
+    SceneSetting overrides[STUDY_SETTINGS_MAX];   // --set; documents in `made`
+    char override_keys[STUDY_SETTINGS_MAX][STUDY_NAME_SIZE];
+    int32_t override_count;
+    YamlNode set, cases;   // YAML_NO_NODE: none
+    int32_t case_count;   // at least 1
+    int32_t axis_count;
+    StudyAxis axes[STUDY_AXES_MAX];
+    int32_t column_count;   // scene keys that vary, in the order of the file
+    char columns[STUDY_COLUMNS_MAX][STUDY_NAME_SIZE];
+    int32_t record_count;
+    StudyRecord records[STUDY_RECORDS_MAX];
+    int32_t point_count;
+    StudyRank rank;
+    StudyPlot plot;
+} Study;
+
+// overrides: "key=value" as after --set, for every point; a key that is varied is refused.
+// ERROR_INPUT: file:line:column, the key, what was found and what is allowed.
+bool study_read(const char *path, const char *const *overrides, int32_t override_count,
+                Study *study, Error *err);
+void study_destroy(Study *study);
+
+// The scene of `point`, 0 to point_count - 1: cases outermost, then the keys of `vary` in order.
+bool study_point_scene(const Study *study, int32_t point, Scene *scene, Error *err);
+// The scene that is measured against: `point` with the keys of rank.baseline.
+bool study_baseline_scene(const Study *study, int32_t point, Scene *scene, Error *err);
+
+// The value of a column's key in a scene, as text; *number is NaN where it is no number.
+void study_scene_value(const Scene *scene, const char *key, char *words, int32_t size,
+                       double *number);
+
+// A key that `vary` or `cases` sets, alone or in a map; not one that follows by a formula of `set`.
+bool study_is_chosen(const Study *study, const char *key);
+
+// --- shared by the files that read a study
+bool study_read_wanted(Study *study, Error *err);   // record, rank, plot
+bool study_plain_number(const Study *study, YamlNode node, double *value);   // false: is none
+// Sets ERROR_INPUT: "NAME: found ...; allowed: ..."; false.
+bool study_refuse(const Study *study, YamlNode node, const char *name, const char *allowed,
+                  Error *err);
+
+#endif

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The scene of one point of a study: settings are gathered in order, then the formulas are worked
+// out one by one, each over the scene as it stands after those before it.
+#include "study/sweep/study.h"
+
+#include "base/memory.h"
+#include "scene/keys.h"
+#include "study/sweep/formula.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct PointSettings {
+    SceneSetting list[STUDY_SETTINGS_MAX];
+    int32_t count;
+    SceneSetting formulas[STUDY_FORMULAS_MAX];
+    int32_t formula_count;
+    YamlDocument *values[STUDY_FORMULAS_MAX];   // of the formulas; owned
+} PointSettings;
+
+// --- values of a scene --------------------------------------------------------------------------
+
+static const MeshParameter *find_parameter(const Scene *scene, const char *key)
+{
+    static const char prefix[] = "mesh.set.";
+    if (strncmp(key, prefix, strlen(prefix)) != 0) return NULL;
+    for (int32_t k = 0; k < scene->mesh.parameter_count; k++)
+        if (strcmp(scene->mesh.parameters[k].name, key + strlen(prefix)) == 0)
+            return &scene->mesh.parameters[k];
+    return NULL;
+}
+
+// A FormulaLookUp over a scene: its numbers, and those of the mesh's parameters.
+static bool look_up(const void *context, const char *name, double *value)
+{
+    const Scene *scene = context;
+    const MeshParameter *parameter = find_parameter(scene, name);
+    int32_t index = scene_key_index(name), count = 0;
+    const SceneKey *keys = scene_keys(&count);
+    if (parameter) {
+        *value = parameter->value;
+        return !*parameter->text;
+    }
+    if (index < 0 || keys[index].type != KEY_NUMBER) return false;
+    memcpy(value, (const char *)scene + keys[index].offset, sizeof *value);
+    return true;
+}
+
+// Twelve digits: what a user typed comes back as it was typed.
+void study_scene_value(const Scene *scene, const char *key, char *words, int32_t size,
+                       double *number)
+{
+    const MeshParameter *parameter = find_parameter(scene, key);
+    int32_t index = scene_key_index(key), count = 0;
+    const SceneKey *keys = scene_keys(&count);
+    *words = 0;
+    *number = NAN;
+    if (look_up(scene, key, number))
+        snprintf(words, (size_t)size, "%.12g", *number);
+    else if (parameter)
+        snprintf(words, (size_t)size, "%s", parameter->text);
+    else if (index >= 0)
+        scene_key_value(&keys[index], scene, words, size);
+    if (index >= 0 && keys[index].type == KEY_FLAG) *number = strcmp(words, "true") == 0;
+}
+
+// --- gathering ----------------------------------------------------------------------------------
+
+// Formulas are put aside, to be worked out when all plain values are in.
+static bool add(PointSettings *settings, const SceneSetting *setting, Error *err)
+{
+    bool is_formula = yaml_kind(setting->document, setting->node) == YAML_SCALAR &&
+                      !yaml_is_quoted(setting->document, setting->node) &&
+                      yaml_text(setting->document, setting->node)[0] == '=';
+    int32_t room = is_formula ? STUDY_FORMULAS_MAX : STUDY_SETTINGS_MAX;
+    int32_t *count = is_formula ? &settings->formula_count : &settings->count;
+    if (*count == room)
+        FAIL(err, ERROR_INPUT, "more than %d %s for a point of a study", room,
+             is_formula ? "formulas" : "settings");
+    (is_formula ? settings->formulas : settings->list)[(*count)++] = *setting;
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool add_map(PointSettings *settings, const YamlDocument *document, YamlNode map, Error *err)
+{
+    if (map == YAML_NO_NODE) return true;
+    for (YamlNode item = yaml_first(document, map); item != YAML_NO_NODE;
+         item = yaml_next(document, item)) {
+        SceneSetting setting = {
+            .key = yaml_key(document, item), .document = document, .node = item};
+        TRY(add(settings, &setting, err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+static YamlNode child_at(const YamlDocument *document, YamlNode list, int32_t index)
+{
+    YamlNode node = yaml_first(document, list);
+    for (int32_t k = 0; k < index; k++) node = yaml_next(document, node);
+    return node;
+}
+
+// A formula that a later setting of the same key replaces is not worked out.
+static void drop_replaced(const Study *study, PointSettings *settings)
+{
+    int32_t kept = 0;
+    for (int32_t k = 0; k < settings->formula_count; k++) {
+        bool replaced = false;
+        for (int32_t i = 0; i < study->override_count; i++)
+            replaced = replaced || strcmp(study->override_keys[i], settings->formulas[k].key) == 0;
+        for (int32_t i = 0; i < study->axis_count; i++)
+            replaced = replaced || strcmp(study->axes[i].key, settings->formulas[k].key) == 0;
+        if (!replaced) settings->formulas[kept++] = settings->formulas[k];
+    }
+    settings->formula_count = kept;
+}
+
+// changes: a map of the study's file that replaces what varies; YAML_NO_NODE: none.
+// Later settings win: a sweep's standards, `set`, --set, the case, what varies, `changes`. Point p
+// counts through the axes with the last one fastest.
+static bool gather(const Study *study, int32_t point, YamlNode changes, PointSettings *settings,
+                   Error *err)
+{
+    int32_t index[STUDY_AXES_MAX];
+    for (int32_t k = study->axis_count - 1; k >= 0; k--) {
+        index[k] = point % study->axes[k].count;
+        point /= study->axes[k].count;
+    }
+    TRY(add_map(settings, study->standard, YAML_ROOT, err));
+    TRY(add_map(settings, study->file, study->set, err));
+    drop_replaced(study, settings);
+    for (int32_t k = 0; k < study->override_count; k++)
+        TRY(add(settings, &study->overrides[k], err));
+    if (study->cases != YAML_NO_NODE)
+        TRY(add_map(settings, study->file, child_at(study->file, study->cases, point), err));
+    for (int32_t k = 0; k < study->axis_count; k++) {
+        const StudyAxis *axis = &study->axes[k];
+        SceneSetting setting = {.key = axis->key,
+                                .document = axis->document,
+                                .node = child_at(axis->document, axis->list, index[k])};
+        TRY(add(settings, &setting, err));
+    }
+    TRY(add_map(settings, study->file, changes, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// The value of formula `k` over `scene`, as one more setting.
+// 15 digits: what is shown in messages and in the table is what is computed with.
+static bool work_out(const Study *study, PointSettings *settings, int32_t k, const Scene *scene,
+                     Error *err)
+{
+    const SceneSetting *formula = &settings->formulas[k];
+    const char *text = yaml_text(formula->document, formula->node);
+    char number[40], name[SCENE_TEXT_SIZE + 120];
+    double value = 0;
+    Error found = {0};
+    if (!formula_value(text + 1, look_up, scene, &value, &found)) {
+        yaml_error(formula->document, formula->node, err, "%s: %s", formula->key, found.message);
+        goto cleanup;
+    }
+    snprintf(number, sizeof number, "%.15g", value);
+    snprintf(name, sizeof name, "%s:%d:%d, value of `%.80s`", study->path,
+             yaml_line(formula->document, formula->node),
+             yaml_column(formula->document, formula->node), text);
+    TRY(yaml_parse(name, number, 0, &settings->values[k], err));
+    SceneSetting setting = {
+        .key = formula->key, .document = settings->values[k], .node = YAML_ROOT};
+    TRY(add(settings, &setting, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// The scene is read again after each formula: the next one may use its value.
+static bool make_scene(const Study *study, int32_t point, YamlNode changes, Scene *scene,
+                       Error *err)
+{
+    PointSettings *settings = NEW_ARRAY(PointSettings, 1, err);
+    TRY(settings);
+    TRY(gather(study, point, changes, settings, err));
+    TRY(scene_read_settings(study->scene, settings->list, settings->count, scene, err));
+    for (int32_t k = 0; k < settings->formula_count; k++) {
+        TRY(work_out(study, settings, k, scene, err));
+        TRY(scene_read_settings(study->scene, settings->list, settings->count, scene, err));
+    }
+cleanup:
+    for (int32_t k = 0; settings && k < settings->formula_count; k++)
+        yaml_destroy(settings->values[k]);
+    memory_free(settings);
+    return error_is_clean(err);
+}
+
+bool study_point_scene(const Study *study, int32_t point, Scene *scene, Error *err)
+{
+    return make_scene(study, point, YAML_NO_NODE, scene, err);
+}
+
+bool study_baseline_scene(const Study *study, int32_t point, Scene *scene, Error *err)
+{
+    return make_scene(study, point, study->rank.baseline, scene, err);
+}

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a study wants to know: the columns of its table (`record`), the best of its points (`rank`)
+// and a figure (`plot`).
+#include "study/sweep/study.h"
+
+#include "base/text.h"
+#include "scene/keys.h"
+#include "study/sweep/study_records.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { TOP_STANDARD = 10, TOP_MAX = 1000 };
+
+static const struct {
+    const char *name, *path;
+    bool standard;
+} KNOWN_RECORDS[] = {
+#define X(name, path, standard, meaning) {name, path, standard},
+    STUDY_RECORDS(X)
+#undef X
+};
+enum { KNOWN_RECORD_COUNT = sizeof KNOWN_RECORDS / sizeof KNOWN_RECORDS[0] };
+
+// --- what is recorded ---------------------------------------------------------------------------
+
+static void add_record(Study *study, const char *name, const char *path)
+{
+    StudyRecord *record = &study->records[study->record_count++];
+    snprintf(record->name, sizeof record->name, "%s", name);
+    snprintf(record->path, sizeof record->path, "%s", path);
+}
+
+// The column of what `node` names, under the key `what`: a name of STUDY_RECORDS or a path in
+// run.json. What no column holds yet gets one.
+static bool read_record(Study *study, YamlNode node, const char *what, int32_t *column, Error *err)
+{
+    const char *name = yaml_text(study->file, node), *names[KNOWN_RECORD_COUNT];
+    const char *path = strchr(name, '.') && strlen(name) < STUDY_NAME_SIZE ? name : NULL;
+    for (*column = 0; *column < study->record_count; ++*column)
+        if (strcmp(name, study->records[*column].name) == 0) return true;
+    for (int32_t k = 0; k < KNOWN_RECORD_COUNT; k++) {
+        names[k] = KNOWN_RECORDS[k].name;
+        if (strcmp(name, names[k]) == 0) path = KNOWN_RECORDS[k].path;
+    }
+    if (path && study->record_count == STUDY_RECORDS_MAX) {
+        yaml_error(study->file, node, err, "%s: more than %d columns", what, STUDY_RECORDS_MAX);
+        return false;
+    }
+    if (path) {
+        add_record(study, name, path);
+        return true;
+    }
+    int32_t nearest = text_nearest(name, names, KNOWN_RECORD_COUNT);
+    if (nearest >= 0)
+        yaml_error(study->file, node, err, "%s: unknown name `%.60s`; did you mean `%s`?", what,
+                   name, names[nearest]);
+    else
+        yaml_error(study->file, node, err,
+                   "%s: unknown name `%.60s`; allowed: a name that `amontons sweep --help` "
+                   "lists, or a path in run.json, as in results.mu_max",
+                   what, name);
+    return false;
+}
+
+// Without `record`, the standard columns of STUDY_RECORDS.
+static bool read_records(Study *study, Error *err)
+{
+    YamlNode list = yaml_look_up(study->file, "record");
+    int32_t ignored = 0;
+    if (list == YAML_NO_NODE) {
+        for (int32_t k = 0; k < KNOWN_RECORD_COUNT; k++)
+            if (KNOWN_RECORDS[k].standard)
+                add_record(study, KNOWN_RECORDS[k].name, KNOWN_RECORDS[k].path);
+        return true;
+    }
+    int32_t count = yaml_count(study->file, list);
+    if (yaml_kind(study->file, list) != YAML_LIST || count == 0 || count > STUDY_RECORDS_MAX)
+        return study_refuse(study, list, "record", "a list of at most 64 names", err);
+    for (YamlNode item = yaml_first(study->file, list); item != YAML_NO_NODE;
+         item = yaml_next(study->file, item))
+        TRY(read_record(study, item, "record", &ignored, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// --- maps of few keys ---------------------------------------------------------------------------
+
+typedef struct WantedKey {
+    const char *name;   // "by"
+    YamlNode node;   // found under it; YAML_NO_NODE: not given
+} WantedKey;
+
+// Finds `keys` ([count]) in the map `what` of the study; refuses every other key.
+static bool find_keys(const Study *study, const char *what, WantedKey *keys, int32_t count,
+                      Error *err)
+{
+    YamlNode map = yaml_look_up(study->file, what);
+    char allowed[100] = "";
+    for (int32_t k = 0; k < count; k++) {
+        size_t used = strlen(allowed);
+        snprintf(allowed + used, sizeof allowed - used, "%s%s", k ? ", " : "", keys[k].name);
+        keys[k].node = YAML_NO_NODE;
+    }
+    if (yaml_kind(study->file, map) != YAML_MAP)
+        return study_refuse(study, map, what, "a map, as in {by: mu_M}, {x: load.pressure}", err);
+    for (YamlNode item = yaml_first(study->file, map); item != YAML_NO_NODE;
+         item = yaml_next(study->file, item)) {
+        int32_t k = 0;
+        while (k < count && strcmp(yaml_key(study->file, item), keys[k].name) != 0) k++;
+        if (k == count) {
+            yaml_key_error(study->file, item, err, "%s: unknown key `%.60s`; allowed: %s", what,
+                           yaml_key(study->file, item), allowed);
+            return false;
+        }
+        keys[k].node = item;
+    }
+    return true;
+}
+
+// The index in `words` ([count]) of the text at `key`, which may be missing: 0 then.
+static bool read_choice(const Study *study, const WantedKey *key, const char *const *words,
+                        int32_t count, int32_t *choice, Error *err)
+{
+    char allowed[100] = "";
+    *choice = 0;
+    if (key->node == YAML_NO_NODE) return true;
+    for (int32_t k = 0; k < count; k++) {
+        size_t used = strlen(allowed);
+        snprintf(allowed + used, sizeof allowed - used, "%s%s", k ? ", " : "", words[k]);
+        if (strcmp(yaml_text(study->file, key->node), words[k]) != 0) continue;
+        *choice = k;
+        return true;
+    }
+    return study_refuse(study, key->node, key->name, allowed, err);
+}
+
+// -1: no key of this name varies.
+static int32_t find_column(const Study *study, const char *name)
+{
+    for (int32_t k = 0; k < study->column_count; k++)
+        if (strcmp(study->columns[k], name) == 0) return k;
+    return -1;
+}
+
+// `key` itself, or a map that it is in.
+static bool sets(const char *given, const char *key)
+{
+    size_t length = strlen(given);
+    return strncmp(key, given, length) == 0 && (!key[length] || key[length] == '.');
+}
+
+bool study_is_chosen(const Study *study, const char *key)
+{
+    for (int32_t k = 0; k < study->axis_count; k++)
+        if (sets(study->axes[k].key, key)) return true;
+    if (study->cases == YAML_NO_NODE) return false;
+    for (YamlNode one = yaml_first(study->file, study->cases); one != YAML_NO_NODE;
+         one = yaml_next(study->file, one))
+        for (YamlNode item = yaml_first(study->file, one); item != YAML_NO_NODE;
+             item = yaml_next(study->file, item))
+            if (sets(yaml_key(study->file, item), key)) return true;
+    return false;
+}
+
+// --- rank ---------------------------------------------------------------------------------------
+
+// first, best, or the keys that make a point its own baseline.
+static bool read_against(Study *study, const WantedKey *key, Error *err)
+{
+    static const char *const words[] = {"first", "best"};
+    int32_t choice = 0;
+    study->rank.baseline = YAML_NO_NODE;
+    if (key->node == YAML_NO_NODE || yaml_kind(study->file, key->node) == YAML_SCALAR) {
+        TRY(read_choice(study, key, words, 2, &choice, err));
+        study->rank.against = choice ? AGAINST_BEST : AGAINST_FIRST;
+        return true;
+    }
+    if (yaml_kind(study->file, key->node) != YAML_MAP)
+        return study_refuse(study, key->node, "against",
+                            "first, best, or a map of varied keys, as in {mesh.set.n: 1}", err);
+    study->rank.against = AGAINST_KEYS;
+    study->rank.baseline = key->node;
+    for (YamlNode item = yaml_first(study->file, key->node); item != YAML_NO_NODE;
+         item = yaml_next(study->file, item)) {
+        if (study_is_chosen(study, yaml_key(study->file, item))) continue;
+        yaml_key_error(study->file, item, err,
+                       "against: neither `vary` nor `cases` has the key `%.60s`",
+                       yaml_key(study->file, item));
+        return false;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// What is ranked by becomes a column of the table where it is none yet.
+static bool read_rank(Study *study, Error *err)
+{
+    static const char *const orders[] = {"highest", "lowest"};
+    WantedKey keys[] = {{.name = "by"}, {.name = "order"}, {.name = "top"}, {.name = "against"}};
+    StudyRank *rank = &study->rank;
+    int32_t order = 0;
+    if (yaml_look_up(study->file, "rank") == YAML_NO_NODE) return true;
+    TRY(find_keys(study, "rank", keys, 4, err));
+    if (keys[0].node == YAML_NO_NODE) {
+        yaml_error(study->file, yaml_look_up(study->file, "rank"), err,
+                   "rank: `by` must be given, as in {by: mu_M}");
+        return false;
+    }
+    TRY(read_record(study, keys[0].node, "by", &rank->record, err));
+    TRY(read_choice(study, &keys[1], orders, 2, &order, err));
+    TRY(read_against(study, &keys[3], err));
+    double top = TOP_STANDARD;
+    bool good = keys[2].node == YAML_NO_NODE || study_plain_number(study, keys[2].node, &top);
+    if (!good || top != floor(top) || top < 1 || top > TOP_MAX)
+        return study_refuse(study, keys[2].node, "top", "a whole number from 1 to 1000", err);
+    rank->wanted = true;
+    rank->lowest = order == 1;
+    rank->top = (int32_t)top;
+cleanup:
+    return error_is_clean(err);
+}
+
+// --- plot ---------------------------------------------------------------------------------------
+
+// A key that varies, or what is recorded.
+static bool read_axis(Study *study, const WantedKey *key, StudyAxisData *axis, Error *err)
+{
+    if (key->node == YAML_NO_NODE) {
+        yaml_error(study->file, yaml_look_up(study->file, "plot"), err,
+                   "plot: `%s` must be given, as in {x: load.pressure, y: mu_M}", key->name);
+        return false;
+    }
+    axis->index = find_column(study, yaml_text(study->file, key->node));
+    axis->is_record = axis->index < 0;
+    const char *name = yaml_text(study->file, key->node);
+    if (axis->is_record && (scene_key_index(name) >= 0 || strncmp(name, "mesh.set.", 9) == 0)) {
+        yaml_error(study->file, key->node, err, "%s: `%.60s` does not vary", key->name, name);
+        return false;
+    }
+    return !axis->is_record || read_record(study, key->node, key->name, &axis->index, err);
+}
+
+// As for the ranking, `x` and `y` become columns where they name a result.
+static bool read_plot(Study *study, Error *err)
+{
+    static const char *const logs[] = {"none", "x", "y", "both"};
+    WantedKey keys[] = {{.name = "x"}, {.name = "y"}, {.name = "series"}, {.name = "log"}};
+    StudyPlot *plot = &study->plot;
+    int32_t log = 0;
+    if (yaml_look_up(study->file, "plot") == YAML_NO_NODE) return true;
+    TRY(find_keys(study, "plot", keys, 4, err));
+    TRY(read_axis(study, &keys[0], &plot->x, err));
+    TRY(read_axis(study, &keys[1], &plot->y, err));
+    TRY(read_choice(study, &keys[3], logs, 4, &log, err));
+    plot->series = -1;
+    if (keys[2].node != YAML_NO_NODE) {
+        plot->series = find_column(study, yaml_text(study->file, keys[2].node));
+        if (plot->series < 0)
+            return study_refuse(study, keys[2].node, "series", "a key that varies", err);
+    }
+    plot->wanted = true;
+    plot->log_x = log == 1 || log == 3;
+    plot->log_y = log == 2 || log == 3;
+cleanup:
+    return error_is_clean(err);
+}
+
+bool study_read_wanted(Study *study, Error *err)
+{
+    return read_records(study, err) && read_rank(study, err) && read_plot(study, err);
+}

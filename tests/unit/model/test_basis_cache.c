@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A basis comes back from the cache as it went in, or not at all, with a reason; and one that comes
+// out otherwise than the recorded one needs a new BASIS_FORMAT, or old files would be taken for it.
+#include "model/basis_cache.h"
+
+#include "base/memory.h"
+#include "io/cache_file.h"
+#include "random_numbers.h"
+#include "unit/bulk/reduced_block.h"
+
+#include <unistd.h>
+
+enum { FOLDER_SIZE = 64, PATH_SIZE = 128, M = 7, ALL = 11, DOFS = 40, LEVELS = 3 };
+static const char NAME[] = "00112233445566778899aabbccddeeff";
+static const char OTHER[] = "00112233445566778899aabbccddeef0";
+
+static char folder[FOLDER_SIZE];
+
+static int make_folder(void **state)
+{
+    (void)state;
+    snprintf(folder, sizeof folder, "/tmp/amontons-basis-XXXXXX");
+    return mkdtemp(folder) ? setenv("AMONTONS_CACHE", folder, 1) : -1;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    char command[FOLDER_SIZE + 16];
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    return system(command);
+}
+
+static double *random_array(Random *random, int64_t count)
+{
+    Error err = {0};
+    double *array = NEW_ARRAY(double, count, &err);
+    for (int64_t k = 0; k < count; k++) array[k] = random_between(random, -1, 1);
+    return array;
+}
+
+static void make_basis(uint64_t seed, ReducedBulk *reduced)
+{
+    Random random = {.state = seed};
+    *reduced = (ReducedBulk){.full_dofs = DOFS,
+                             .interface_count = M,
+                             .interior_count = ALL - M,
+                             .count = ALL,
+                             .mass = random_array(&random, ALL * ALL),
+                             .damping = random_array(&random, ALL * ALL),
+                             .stiffness = random_array(&random, M * M),
+                             .viscous = random_array(&random, M * M),
+                             .load = random_array(&random, ALL),
+                             .modes = random_array(&random, DOFS * ALL),
+                             .errors = {LEVELS, {1, 10, 1e4}, {1e-4, 2e-4, 0.3}}};
+}
+
+static void store(const char *name, char note[CACHE_NOTE_SIZE])
+{
+    ReducedBulk reduced;
+    note[0] = 0;
+    make_basis(5, &reduced);
+    basis_cache_store(name, &reduced, note);
+    reduction_destroy(&reduced);
+}
+
+static bool load(const char *name, bool with_modes, ReducedBulk *reduced,
+                 char note[CACHE_NOTE_SIZE])
+{
+    Error err = {0};
+    bool found = true;
+    note[0] = 0;
+    if (!basis_cache_load(name, with_modes, reduced, &found, note, &err))
+        fail_msg("%s", err.message);
+    return found;
+}
+
+static void assert_same(const double *a, const double *b, size_t count)
+{
+    assert_non_null(a);
+    assert_memory_equal(a, b, count * sizeof *a);
+}
+
+static void test_round_trip(void **state)
+{
+    (void)state;
+    ReducedBulk made, read;
+    char note[CACHE_NOTE_SIZE];
+    int64_t live = memory_counters().live;
+    assert_false(load(NAME, false, &read, note));   // nothing there: no reason to say anything
+    assert_string_equal(note, "");
+    store(NAME, note);
+    assert_string_equal(note, "");
+    make_basis(5, &made);
+    for (int with_modes = 0; with_modes < 2; with_modes++) {
+        assert_true(load(NAME, with_modes, &read, note));
+        assert_string_equal(note, "");
+        assert_true(read.full_dofs == DOFS && read.interface_count == M && read.count == ALL);
+        assert_true(read.interior_count == ALL - M && read.errors.count == LEVELS);
+        assert_same(read.errors.inertia, made.errors.inertia, LEVELS);
+        assert_same(read.errors.error, made.errors.error, LEVELS);
+        assert_same(read.mass, made.mass, ALL * ALL);
+        assert_same(read.damping, made.damping, ALL * ALL);
+        assert_same(read.stiffness, made.stiffness, M * M);
+        assert_same(read.viscous, made.viscous, M * M);
+        assert_same(read.load, made.load, ALL);
+        if (with_modes) assert_same(read.modes, made.modes, DOFS * ALL);
+        if (!with_modes) assert_null(read.modes);
+        reduction_destroy(&read);
+    }
+    reduction_destroy(&made);
+    assert_int_equal(memory_counters().live, live);
+}
+
+// A cut file, modes that are cut or gone, another basis's file under this name, no name.
+static void test_not_trusted(void **state)
+{
+    (void)state;
+    ReducedBulk read;
+    char note[CACHE_NOTE_SIZE], path[PATH_SIZE], modes[PATH_SIZE], other[PATH_SIZE];
+    snprintf(path, sizeof path, "%s/%s.basis", folder, NAME);
+    snprintf(modes, sizeof modes, "%s/%s.modes", folder, NAME);
+    snprintf(other, sizeof other, "%s/%s.basis", folder, OTHER);
+    int64_t live = memory_counters().live;
+    store(NAME, note);
+    assert_int_equal(truncate(path, 1000), 0);
+    assert_false(load(NAME, false, &read, note));
+    assert_string_equal(note, "a cached basis is not used: it is cut off");
+    store(NAME, note);
+    assert_int_equal(truncate(modes, 1000), 0);
+    assert_true(load(NAME, false, &read, note));   // modes are not asked for
+    reduction_destroy(&read);
+    assert_false(load(NAME, true, &read, note));
+    assert_string_equal(note, "a cached basis is not used: it is cut off");
+    assert_int_equal(unlink(modes), 0);
+    assert_false(load(NAME, true, &read, note));
+    assert_string_equal(note, "");
+    store(NAME, note);
+    assert_int_equal(rename(path, other), 0);
+    assert_false(load(OTHER, false, &read, note));
+    assert_string_equal(note, "a cached basis is not used: it belongs to another shape");
+    assert_false(load("", false, &read, note));
+    assert_string_equal(note, "");
+    assert_int_equal(memory_counters().live, live);
+}
+
+// A file that is whole, but holds other arrays than a basis does.
+static void test_missing_arrays(void **state)
+{
+    (void)state;
+    Error err = {0};
+    ReducedBulk read;
+    char note[CACHE_NOTE_SIZE], path[PATH_SIZE];
+    snprintf(path, sizeof path, "%s/%s.basis", folder, NAME);
+    double counts[4] = {DOFS, M, ALL - M, LEVELS}, few[LEVELS] = {0};
+    CacheArray arrays[] = {{"counts", 4, counts}, {"inertia", LEVELS, few}, {"error", LEVELS, few}};
+    for (int trial = 0; trial < 2; trial++) {
+        counts[3] = trial ? 1e9 : LEVELS;   // more levels than there is room for
+        assert_true(cache_file_write(path, NAME, arrays, 3, &err));
+        assert_false(load(NAME, false, &read, note));
+        assert_string_equal(note, "a cached basis is not used: an array is missing");
+    }
+}
+
+static void test_memory_faults(void **state)
+{
+    (void)state;
+    char note[CACHE_NOTE_SIZE];
+    ReducedBulk read, made;
+    store(NAME, note);
+    make_basis(6, &made);
+    int64_t live = memory_counters().live;
+    bool done = false, found;
+    for (int32_t k = 0; !done; k++) {
+        Error err = {0};
+        memory_fail_after(k);
+        done = basis_cache_load(NAME, true, &read, &found, note, &err);
+        memory_fail_after(-1);
+        assert_int_equal(err.code, done ? ERROR_NONE : ERROR_MEMORY);
+        if (done) assert_true(found);
+        reduction_destroy(&read);
+        assert_int_equal(memory_counters().live, live);
+        assert_true(k < 10);
+    }
+    setenv("AMONTONS_CACHE", "/proc/self", 1);   // a folder in which not even root makes files
+    note[0] = 0;
+    basis_cache_store(NAME, &made, note);
+    assert_non_null(strstr(note, "the basis is not kept for the next run: cannot write"));
+    setenv("AMONTONS_CACHE", folder, 1);
+    reduction_destroy(&made);
+}
+
+// The recorded basis: of this block, in the format named. Trace of S at dt = 1, 0.1, 0.01, 1e-4,
+// and how many modes. When this fails and the new basis is meant to be so: give BASIS_FORMAT a new
+// number, and write it here with the numbers that the message shows.
+static const char RECORDED_FORMAT[] = "basis 4 ";   // and the version
+static const int32_t RECORDED_MODES = 40;
+static const double RECORDED_TRACES[4] = {29.6363452324, 19.9826806983, 28.2639481406,
+                                          704.786442395};
+
+static void test_format_follows_the_basis(void **state)
+{
+    (void)state;
+    const Material material = {.young = 1, .poisson = 0.3, .density = 1, .eta1 = 1, .eta2 = 0.5};
+    const BlockDef shape = {.kind = ELEMENT_Q4, .nx = 10, .nz = 8, .length = 1, .height = 0.5};
+    const double steps[4] = {1, 1e-1, 1e-2, 1e-4};
+    double trace[4] = {0};
+    ReducedBlock block;
+    reduced_block_build(&shape, &material, 0.003, 1e-2, &block);
+    for (int k = 0; k < 4; k++) {
+        OperatorTerms terms = {.mass = 1 / steps[k], .damping = 1, .stiffness = steps[k]};
+        double *schur = reduced_schur(&block.reduced, terms);
+        for (int32_t j = 0; j < block.interface_count; j++)
+            trace[k] += schur[j * (block.interface_count + 1)];
+        free(schur);
+    }
+    bool same = block.reduced.interior_count == RECORDED_MODES;
+    for (int k = 0; k < 4; k++)
+        same = same && fabs(trace[k] - RECORDED_TRACES[k]) <= 1e-7 * fabs(trace[k]);
+    bool format = strncmp(BASIS_FORMAT, RECORDED_FORMAT, strlen(RECORDED_FORMAT)) == 0;
+    if (!same || !format)
+        fail_msg("%s; the basis has %d modes, traces {%.12g, %.12g, %.12g, %.12g}, format %s",
+                 same ? "the recorded format is another" : "the basis came out otherwise",
+                 block.reduced.interior_count, trace[0], trace[1], trace[2], trace[3],
+                 BASIS_FORMAT);
+    reduced_block_destroy(&block);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_round_trip),
+        cmocka_unit_test(test_not_trusted),
+        cmocka_unit_test(test_missing_arrays),
+        cmocka_unit_test(test_memory_faults),
+        cmocka_unit_test(test_format_follows_the_basis),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Made-up sequences of steps, and the events that stand in them. Rapid is above 2, over below 1.
+#include "record/events.h"
+
+#include "base/memory.h"
+#include "seen_by_hand.h"
+
+static HandSeen hand;
+static Events events;
+
+static int setup(void **state)
+{
+    (void)state;
+    Error err = {0};
+    hand_seen_init(&hand);
+    return events_create(&hand.interface, 1, &events, &err) ? 0 : 1;
+}
+
+static int teardown(void **state)
+{
+    (void)state;
+    events_destroy(&events);
+    events_destroy(&events);
+    return 0;
+}
+
+static void see(double t, double a, double b, double c, double d, double e)
+{
+    Error err = {0};
+    double rate[] = {a, b, c, d, e};
+    assert_true(events_record(&events, hand_seen(&hand, t, rate), &err));
+}
+
+static void expect_flags(bool began, bool ended, bool crossed)
+{
+    assert_int_equal(events.began, began);
+    assert_int_equal(events.ended, ended);
+    assert_int_equal(events.crossed, crossed);
+}
+
+static void expect_event(int32_t k, EventKind kind, double t_start, double t_stop, double reach)
+{
+    const Event *event = &events.list[k];
+    assert_int_equal(event->kind, kind);
+    assert_near("t_start", event->t_start, t_start, 1e-15);
+    assert_near("U_start", event->U_start, t_start / 10, 1e-15);
+    assert_near("t_stop", event->t_stop, t_stop, 1e-15);
+    assert_near("U_stop", event->U_stop, t_stop / 10, 1e-15);
+    assert_near("reach", event->reach, reach, 1e-15);
+}
+
+static void expect_kinds(int32_t slow, int32_t bounded, int32_t leading)
+{
+    assert_int_equal(events.kinds[EVENT_QUASI_STATIC], slow);
+    assert_int_equal(events.kinds[EVENT_BOUNDED], bounded);
+    assert_int_equal(events.kinds[EVENT_LEADING], leading);
+    assert_int_equal(events.count, slow + bounded + leading);
+}
+
+// The front goes from 0 over 0.25 to 0.75 in 20: one slow event, open until it is closed.
+static void test_slow(void **state)
+{
+    (void)state;
+    see(0, 0, 0, 0, 0, 0);
+    see(5, 0.5, 0, 0, 0, 0);   // the first node alone is no front yet
+    expect_kinds(0, 0, 0);
+    see(10, 0.9, 0.8, 0, 0, 0);
+    see(20, 0.9, 0.8, 0.7, 0, 0);
+    see(30, 1.9, 0.8, 0.7, 0.1, 0);   // faster than the rod, but not rapid
+    expect_kinds(1, 0, 0);
+    expect_flags(false, false, false);
+    events_close(&events, &hand.seen);
+    expect_event(0, EVENT_QUASI_STATIC, 10, 30, 0.75);
+    assert_near("start", events.list[0].front_start, 0, 0);   // in the step before
+    assert_near("front speed", events.list[0].front_speed, 0.75 / 20, 1e-15);
+    assert_near("peak rate", events.list[0].peak_slip_rate, 1.9, 0);
+    assert_int_equal(events.slow, -1);
+    assert_string_equal(event_name(EVENT_QUASI_STATIC), "quasi-static");
+}
+
+// A rapid event within slow growth: begins above 2, goes on between 2 and 1, ends below 1.
+static void test_bounded(void **state)
+{
+    (void)state;
+    see(1, 0.5, 0.5, 0, 0, 0);
+    see(2, 5, 0.5, 0, 0, 0);
+    expect_flags(true, false, false);
+    see(3, 0.2, 7, 3, 0, 0);
+    expect_flags(false, false, false);
+    see(4, 0, 0, 4, 0, 0);   // what has stopped counts as reached
+    see(5, 1.5, 1.5, 0.2, 0.1, 0);
+    assert_true(events.rapid >= 0);
+    see(6, 0.9, 0.9, 0, 0, 0);
+    expect_flags(false, true, false);
+    see(7, 0.9, 0.9, 0.5, 0, 0);
+    expect_flags(false, false, false);
+    expect_kinds(1, 1, 0);
+    expect_event(1, EVENT_BOUNDED, 2, 6, 0.75);
+    assert_near("peak rate", events.list[1].peak_slip_rate, 7, 0);
+    assert_near("front before", events.list[1].front_start, 0.25, 0);
+    assert_int_equal(events.slow, 0);   // the slow one is still the same
+    events_close(&events, &hand.seen);
+    expect_event(0, EVENT_QUASI_STATIC, 1, 7, 0.5);
+}
+
+// The fast front starts at node 1 at t = 2 and is at node 3 when the reach last grew, at t = 4.
+static void test_front_speed(void **state)
+{
+    (void)state;
+    see(1, 0.5, 0.5, 0, 0, 0);
+    see(2, 3, 3, 0, 0, 0);
+    see(3, 3, 3, 3, 0, 0);
+    see(4, 3, 3, 3, 3, 0);
+    see(5, 3, 3, 3, 3, 0);
+    see(6, 0.5, 0.5, 0, 0, 0);
+    assert_near("speed", events.list[1].front_speed, 0.5 / 2, 1e-15);
+    see(7, 3, 0, 0, 0, 0);   // a second one, which does not move
+    see(8, 0.5, 0, 0, 0, 0);
+    assert_true(isnan(events.list[2].front_speed));
+}
+
+// The front passes node i when its rate rises through 2: times in closed form, from t_start = 2.
+// Station 5 k stands at node k.
+static void test_front_times(void **state)
+{
+    (void)state;
+    see(1, 0.5, 0.5, 0, 0, 0);
+    see(2, 3.5, 2.5, 0, 0, 0);   // passes 2 at 1.5 and 1.75
+    see(4, 3, 3, 8, 1, 0);   // at 2.5
+    see(5, 0.1, 3, 9, 3, 0);   // at 4.5
+    see(6, 0.5, 0.5, 0.5, 0.5, 0);
+    const double *times = events.list[1].front_times;
+    const double at_nodes[] = {-0.5, -0.25, 0.5, 2.5};
+    for (int32_t k = 0; k < 4; k++) assert_near("time", times[5 * k], at_nodes[k], 1e-14);
+    for (int32_t k = 16; k < FRONT_STATIONS; k++) assert_true(isnan(times[k]));
+    assert_near("between nodes", times[7], -0.25 + 0.4 * 0.75, 1e-14);
+    assert_near("speed", front_path_speed(times, 1, 3), 0.25 / 0.25, 1e-12);
+    assert_near("speed", front_path_speed(times, 1, 12), 0.25 / 2, 1e-12);
+    assert_true(isnan(front_path_speed(times, 1, 15)));
+    for (int32_t k = 0; k < FRONT_STATIONS; k++) assert_true(isnan(events.list[0].front_times[k]));
+    see(7, 0, 0, 5, 0, 0);   // the next event knows nothing of this one
+    see(8, 0.5, 0, 0, 0, 0);
+    for (int32_t k = 0; k < FRONT_STATIONS; k++)
+        assert_int_equal(isnan(events.list[2].front_times[k]), k != 10);
+}
+
+// Leading when every node has slipped in the course of the event, not all at once; backward slip
+// too.
+static void test_leading(void **state)
+{
+    (void)state;
+    see(1, 0.5, 0.5, 0, 0, 0);
+    see(2, 90, 90, 0, 0, 0);
+    see(3, 0, 90, 90, 0, 0);
+    see(4, 0, 0, 0, -90, 0);
+    expect_flags(false, false, false);
+    see(5, 0, 0, 0, 0, 30);
+    expect_flags(false, false, true);
+    expect_kinds(1, 0, 1);
+    assert_int_equal(events.slow, -1);   // sliding ends the slow growth
+    see(6, 50, 50, 50, 50, 50);
+    expect_flags(false, false, false);   // crossed once
+    see(7, 0.5, 0.5, 0.5, 0.5, 0.5);
+    expect_flags(false, true, false);
+    see(8, 0.5, 0.5, 0, 0, 0);
+    expect_kinds(2, 0, 1);   // growth starts anew
+    expect_event(0, EVENT_QUASI_STATIC, 1, 1, 0.25);
+    expect_event(1, EVENT_LEADING, 2, 7, 1);
+    assert_near("peak rate", events.list[1].peak_slip_rate, 90, 0);
+    assert_int_equal(events.list[2].kind, EVENT_QUASI_STATIC);
+}
+
+// A block that does not stand at x = 0, slipping fast in the first step that is seen.
+static void test_first_step(void **state)
+{
+    (void)state;
+    Error err = {0};
+    events_destroy(&events);
+    for (int32_t i = 0; i < SEEN_NODES; i++) hand.x[i] += 5;
+    assert_true(events_create(&hand.interface, 1, &events, &err));
+    see(0, 9, 9, 0, 0, 0);
+    assert_near("front before", events.list[0].front_start, 5, 0);
+    assert_near("reach", events.list[0].reach, 5.25, 0);
+}
+
+// Rapid slip ahead of a node that holds: the reach is without a gap.
+static void test_gap(void **state)
+{
+    (void)state;
+    see(1, 0, 0, 0, 9, 9);
+    see(2, 0.1, 0.1, 0, 9, 9);
+    see(3, 0, 0, 0, 0, 0);
+    expect_kinds(0, 1, 0);
+    expect_event(0, EVENT_BOUNDED, 1, 3, 0.25);
+}
+
+// A node that has lifted off counts as let go.
+static void test_open_node(void **state)
+{
+    (void)state;
+    Error err = {0};
+    double rate[] = {9, 9, 9, 9, 0};
+    hand_seen(&hand, 1, rate);
+    hand.status[4] = CONTACT_OPEN;
+    assert_true(events_record(&events, &hand.seen, &err));
+    expect_kinds(0, 0, 1);
+}
+
+static void test_run_ends_within(void **state)
+{
+    (void)state;
+    see(1, 5, 5, 0, 0, 0);
+    see(2, 5, 5, 5, 0, 0);
+    hand.seen.t = 2.5;
+    hand.seen.U = 0.25;
+    events_close(&events, &hand.seen);
+    expect_event(0, EVENT_BOUNDED, 1, 2.5, 0.5);
+    assert_int_equal(events.rapid, -1);
+    events_close(&events, &hand.seen);   // once more changes nothing
+    expect_kinds(0, 1, 0);
+}
+
+// More events than there was room for at first; none is lost, none moves.
+static void test_many(void **state)
+{
+    (void)state;
+    for (int32_t k = 0; k < 300; k++) {
+        see(2 * k, 3 + k, 0, 0, 0, 0);
+        see(2 * k + 1, 0, 0, 0, 0, 0);
+    }
+    expect_kinds(0, 300, 0);
+    for (int32_t k = 0; k < 300; k++) {
+        expect_event(k, EVENT_BOUNDED, 2 * k, 2 * k + 1, 0);
+        assert_near("peak rate", events.list[k].peak_slip_rate, 3 + k, 0);
+    }
+}
+
+static void test_memory_faults(void **state)
+{
+    (void)state;
+    Error err = {0};
+    int64_t live = memory_counters().live;
+    for (int32_t k = 0; k < 4; k++) {
+        Events made;
+        memory_fail_after(k);
+        assert_false(events_create(&hand.interface, 1, &made, &err));
+        memory_fail_after(-1);
+        assert_int_equal(err.code, ERROR_MEMORY);
+        events_destroy(&made);
+        error_clear(&err);
+    }
+    assert_int_equal(memory_counters().live, live);
+    for (int32_t k = 0; k < 64; k++) {
+        see(2 * k, 3, 0, 0, 0, 0);
+        see(2 * k + 1, 0, 0, 0, 0, 0);
+    }
+    double rate[SEEN_NODES] = {3};
+    memory_fail_after(0);
+    assert_false(events_record(&events, hand_seen(&hand, 999, rate), &err));
+    memory_fail_after(-1);
+    assert_int_equal(err.code, ERROR_MEMORY);
+    expect_kinds(0, 64, 0);   // what there was is still there
+    Events none = {0};
+    events_close(&none, &hand.seen);   // of a run that failed before it had any
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(test_slow, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_bounded, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_front_speed, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_front_times, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_leading, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_first_step, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_gap, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_open_node, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_run_ends_within, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_many, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_memory_faults, setup, teardown),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// When fields are written, under which names, and that more frames than there was room for are all
+// listed. What stands in them is held against history and report end to end (test_run_fields.py).
+#include "record/fields.h"
+
+#include "block_rig.h"
+#include "result_place.h"
+
+static BlockRig rig;
+static Material material;
+static State now;
+static Events events;
+static Fields fields;
+static Observation seen;
+static char place[PLACE_SIZE];
+
+static int setup(void **state)
+{
+    (void)state;
+    Error err = {0};
+    if (access("/dev/shm", W_OK) == 0) setenv("TMPDIR", "/dev/shm", 1);   // many small files
+    RigDef def = rig_def();
+    def.block.nx = def.block.nz = 1;
+    def.rod_width = 0;
+    material = def.material;
+    rig_build(&def, &rig);
+    events = (Events){0};
+    assert_true(state_create(&rig.system, &rig.interface, &now, &err));
+    seen = (Observation){.state = &now, .interface = &rig.interface, .system = &rig.system};
+    place_make(place);
+    return 0;
+}
+
+static int teardown(void **state)
+{
+    (void)state;
+    fields_destroy(&fields);
+    fields_destroy(&fields);
+    state_destroy(&now);
+    rig_destroy(&rig);
+    place_remove(place);
+    return 0;
+}
+
+static void start(FieldsDef def)
+{
+    Error err = {0};
+    assert_true(fields_create(&def, place, &rig.mesh, &rig.interface, &fields, &err));
+    fields.material = &material;
+    fields.law = &rig.law;
+    fields.events = &events;
+}
+
+// Whether a step at this t (and U = t/100) was written.
+static bool record(double t)
+{
+    Error err = {0};
+    int32_t before = fields.written;
+    now.time = seen.t = t;
+    seen.U = t / 100;
+    if (!fields_record(&fields, &seen, &err)) fail_msg("%s", err.message);
+    return fields.written > before;
+}
+
+static void expect_written(const double *times, const bool *wanted, int32_t count)
+{
+    for (int32_t k = 0; k < count; k++)
+        if (record(times[k]) != wanted[k]) fail_msg("t = %g: %d", times[k], !wanted[k]);
+}
+
+static void test_every_U(void **state)
+{
+    (void)state;
+    start((FieldsDef){.every_U = 0.1});
+    expect_written((double[]){0, 5, 9.9, 10.5, 11, 26, 29, 30.5, 30.6, 61, 62},
+                   (bool[]){1, 0, 0, 1, 0, 1, 0, 1, 0, 1, 0}, 11);
+}
+
+static void test_every_t(void **state)
+{
+    (void)state;
+    start((FieldsDef){.every_t = 2});
+    expect_written((double[]){0, 1, 2, 3, 7, 7.9, 8}, (bool[]){1, 0, 1, 0, 1, 0, 1}, 7);
+}
+
+static void test_at_events(void **state)
+{
+    (void)state;
+    bool *const flags[] = {&events.began, &events.crossed, &events.ended};
+    start((FieldsDef){.at_events = true});
+    assert_true(record(0));   // the start in any case
+    for (int k = 0; k < 3; k++) {
+        *flags[k] = true;
+        assert_true(record(2 * k + 1));
+        *flags[k] = false;
+        assert_false(record(2 * k + 2));
+    }
+    fields_destroy(&fields);
+    start((FieldsDef){.every_t = 100});
+    assert_true(record(0));
+    events.began = true;
+    assert_false(record(1));   // not asked for
+    events.began = false;
+}
+
+// 150 frames: every file is there, and the list names each with its time.
+static void test_many(void **state)
+{
+    (void)state;
+    static char list[100000];
+    start((FieldsDef){.every_t = 1});
+    for (int32_t k = 0; k < 150; k++) assert_true(record(k));
+    place_read(place, "fields.pvd", list, sizeof list);
+    const char *at = list;
+    for (int32_t k = 0; k < 150; k++) {
+        char name[64], time[64];
+        snprintf(time, sizeof time, "timestep=\"%d\"", k);
+        const char *const kinds[] = {"fields/bulk_%06d.vtu", "fields/interface_%06d.vtp"};
+        for (int kind = 0; kind < 2; kind++) {
+            snprintf(name, sizeof name, kinds[kind], k);
+            assert_true(place_has(place, name));
+            const char *line = strstr(at, "<DataSet");
+            assert_non_null(line);
+            const char *end = strchr(line, '\n');
+            const char *named = strstr(line, name), *timed = strstr(line, time);
+            if (!named || named > end || !timed || timed > end)
+                fail_msg("%s is not listed in its place", name);
+            at = end;
+        }
+    }
+    assert_null(strstr(at, "<DataSet"));
+}
+
+static void test_memory_faults(void **state)
+{
+    (void)state;
+    int64_t live = memory_counters().live;
+    bool done = false;
+    FieldsDef def = {.every_t = 1};
+    for (int32_t k = 0; !done; k++) {
+        Error err = {0};
+        memory_fail_after(k);
+        done = fields_create(&def, place, &rig.mesh, &rig.interface, &fields, &err);
+        memory_fail_after(-1);
+        assert_int_equal(err.code, done ? ERROR_NONE : ERROR_MEMORY);
+        fields_destroy(&fields);
+        assert_int_equal(memory_counters().live, live);
+    }
+    start(def);
+    for (int32_t k = 0; k < 64; k++) assert_true(record(k));
+    for (int32_t k = 0; k < 2; k++) {   // the list is full: each of its two arrays cannot grow
+        Error err = {0};
+        now.time = seen.t = 100;
+        memory_fail_after(k);
+        assert_false(fields_record(&fields, &seen, &err));
+        memory_fail_after(-1);
+        assert_int_equal(err.code, ERROR_MEMORY);
+        fields.next_t = 0;
+    }
+    assert_true(record(100));   // and then they can
+    assert_int_equal(fields.entry_count, 2 * 65);
+    assert_string_equal(fields.entries[0].file, "fields/bulk_000000.vtu");
+    assert_string_equal(fields.entries[129].file, "fields/interface_000064.vtp");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(test_every_U, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_every_t, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_at_events, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_many, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_memory_faults, setup, teardown),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What is read off a state, against sums over the mesh done here.
+#include "record/observation.h"
+
+#include "block_rig.h"
+
+// Some steps of a pushed block; then the state and everything around it is known.
+static void test_sums_over_the_mesh(void **state)
+{
+    (void)state;
+    Error err = {0};
+    RigDef def = rig_def();
+    def.rod_kind = ROD_PUSHES;
+    def.rod_velocity = 1e-4;
+    def.rod_width = 0.3;
+    def.block.nz = 4;
+    StepControlDef steps = {.tolerance = 1e-5,
+                            .step_max = 0.5,
+                            .step_min = 1e-6,
+                            .wave_step = 0.1,
+                            .growth_max = 2,
+                            .use_certificate = true};
+    ObservationScales scales = {.load = 0.003, .length = 1, .time = 3, .slip_velocity = 1e-4};
+    BlockRig rig;
+    StepControl control;
+    rig_build(&def, &rig);
+    assert_true(step_control_create(&rig.block, &steps, &control, &err));
+    Observation seen = observe(&control, &scales);
+    assert_true(seen.t == 0 && seen.step_size == 0 && seen.mu == 0 && seen.contact_error == 0);
+    double moved = 0;
+    for (int32_t s = 0; s < 300; s++) {
+        assert_true(step_control_advance(&control, INFINITY, &err));
+        const State *now = &control.now;
+        seen = observe(&control, &scales);
+        double normal = 0, rod = 0, fastest = 0, front = 0, forces = 0, inertia = 0;
+        bool together = true;
+        for (int32_t i = 0; i < rig.interface.contact_count; i++) {
+            double r_n = now->reaction[interface_normal(i)];
+            normal += r_n;
+            forces += rig.interface.x[i] * r_n;
+            fastest = fmax(fastest, fabs(now->velocity[2 * rig.interface.node[i]]));
+            together = together && now->status[i] != CONTACT_STICK;
+            if (together) front = rig.interface.x[i];
+        }
+        for (int32_t j = 0; j < rig.interface.rod_count; j++) {
+            double r = now->reaction[interface_rod(&rig.interface, j)];
+            rod += r;
+            forces -= rig.interface.rod_z[j] * r;
+        }
+        for (int32_t node = 0; node < rig.mesh.node_count; node++) {
+            const double *at = rig.mesh.position + 2 * node, *f = rig.bulk.load + 2 * node;
+            const double *a = now->inertia + 2 * node;
+            forces += at[0] * f[1] - at[1] * f[0];
+            inertia += at[0] * a[1] - at[1] * a[0];
+        }
+        assert_near("t", seen.t, now->time, 0);
+        assert_near("U", seen.U, 1e-4 * now->time, 1e-18);
+        assert_near("F_T", seen.rod_force, rod, 1e-18);
+        assert_near("p", seen.normal_force, normal, 1e-18);
+        assert_near("mu", seen.mu, rod / 0.003, 1e-13);
+        assert_near("fastest", seen.max_slip_rate, fastest, 1e-18);
+        assert_near("front", seen.front, front, 0);
+        assert_near("step", seen.step_size, control.last_step, 0);
+        assert_near("forces", seen.moment_static_error, fabs(forces) / 0.003, 1e-12);
+        assert_near("moments", seen.moment_error, fabs(forces - inertia) / 0.003, 1e-12);
+        assert_true(seen.moment_error < 1e-11);
+        assert_true(seen.contact_error < 1e-8 && seen.equation_error < 1e-11);
+        assert_near("energy", seen.energy_error * energy_turnover(&control.ledger),
+                    fabs(energy_imbalance(&control.ledger)), 1e-20);
+        assert_int_equal(seen.certified, control.certified);
+        moved = fmax(moved, seen.moment_static_error);
+    }
+    assert_true(moved > 1e-3);   // inertia had a part in it
+
+    // A reaction that no condition allows shows in every measure it should.
+    control.now.reaction[interface_normal(2)] -= 0.003;
+    seen = observe(&control, &scales);
+    assert_true(seen.contact_error > 0.1);
+    assert_near("moment", seen.moment_error, rig.interface.x[2], 1e-10);
+    step_control_destroy(&control);
+    rig_destroy(&rig);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_sums_over_the_mesh),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
