@@ -26,7 +26,7 @@
 //
 // get their responses added (bulk/reduction.c): the first term because an energy goes with the
 // square of what is left out, the second because where inertia acts within an element the mesh
-// itself knows no better. Made and kept by model/model_shape; used through bulk/interface_operator;
+// itself knows no better. Made and kept by model/obtain; used through bulk/interface_operator;
 // stored by model/shape_cache.
 #ifndef AMONTONS_BULK_REDUCTION_H
 #define AMONTONS_BULK_REDUCTION_H

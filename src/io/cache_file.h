@@ -14,6 +14,7 @@
 #include <limits.h>
 
 enum { CACHE_NAME_SIZE = 32, CACHE_ARRAYS_MAX = 32, CACHE_PATH_SIZE = PATH_MAX + 64 };
+enum { CACHE_NOTE_SIZE = 256 };   // of a note why something was not used, or not kept
 
 // CACHE/<key>.<ending>, where CACHE is $AMONTONS_CACHE, else $XDG_CACHE_HOME/amontons, else
 // ~/.cache/amontons; the folder is made. false: there is no cache ($AMONTONS_CACHE is empty).

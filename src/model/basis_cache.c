@@ -13,7 +13,7 @@ const char BASIS_FORMAT[] = "basis 4 " AMONTONS_VERSION;
 
 enum { COUNTS = 4 };
 
-// s: the largest basis that model/model_shape asks for takes a minute of a core to itself; twice
+// s: the largest basis that model/obtain asks for takes a minute of a core to itself; twice
 // the work, done by both, is better than waiting for a process that was stopped.
 static const double WAIT_MAX = 300;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Reduced bulks, kept on disk under what they depend on (bulk/reduction_block) and nothing else:
 // one serves every length, pressure, density, viscosity (eta2/eta1 alike), velocity and friction
-// law. Called by model/model_shape.
+// law. Called by model/obtain.
 //
 //     CACHE/<name>.basis     sizes, reduced M, C, K and load, what it is off
 //     CACHE/<name>.modes     u = modes [u_b; q], read only where fields of the bulk are asked for

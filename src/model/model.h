@@ -1,26 +1,52 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// From a scene to the parts that step: mesh, material, law, operators, step control. The one place
-// that translates the scene's words into the definitions of the layers below.
+// The model of a scene: everything that does not change in time. Mesh, material, friction law, bulk
+// and where it meets floor and rod, ready to be stepped (model/obtain), solved in statics
+// (model/assemble) or led along a quasi-static path (study/stability). What acts and moves, such as
+// the rod's place, belongs to who computes with the model.
 #ifndef AMONTONS_MODEL_MODEL_H
 #define AMONTONS_MODEL_MODEL_H
 
-#include "run/simulation.h"
+#include "bulk/reduction.h"
+#include "contact/friction_law.h"
+#include "contact/rod.h"
+#include "io/cache_file.h"
+#include "record/observation.h"
+#include "scene/scene.h"
 
-// model/model_shape: everything up to the operator, the shortest way. What the scene does not need
-// of it is not done: a shape in the cache is neither meshed nor assembled.
-bool model_obtain(Simulation *simulation, Error *err);
+typedef struct Model {
+    const Scene *scene;   // not owned; outlives the model
+    Material material;
+    FrictionLaw law;
+    Mesh mesh;   // empty: the shape came from the cache, and no fields are asked for; owned, like
+        // all that follows
+    Bulk bulk;   // assembled; empty where the shape came from the cache
+    struct {
+        double size, resultant;   // largest nodal load, F_N; both per unit of load_reference()
+    } unit_load;   // of an assembled bulk
+    Interface interface;
+    ReducedBulk reduced;   // count 0: the full mesh is stepped
+    BulkOperator system;   // what is stepped: the reduced bulk or the full one
+    double length, height;   // L, H of the block, length
+    int32_t elements, full_dofs;   // of the mesh
+    ObservationScales scales;   // what forces, times and velocities are measured with
+    bool from_cache;   // the basis was: nothing of the full mesh was factored
+    char cache_note[CACHE_NOTE_SIZE];   // why a cached basis was not used or kept; empty: nothing
+    double seconds_mesh, seconds_reduce;   // wall time to read the mesh; for all the rest, s
+} Model;
 
-// Parts of that, for those who need the assembled bulk itself; each needs the ones before it.
-bool model_read_mesh(Simulation *simulation, Error *err);
-bool model_build_bulk(Simulation *simulation, Error *err);   // material, bulk, loads, interface
-bool model_hold_supports(Simulation *simulation, Error *err);   // takes their unknowns out of it
+void model_destroy(Model *model);   // zeroed and half-built too
 
-// model/model: the rod at rest, `kind` for now, with the springs of its ends; needs the interface.
-bool model_build_rod(Simulation *simulation, RodKind kind, Error *err);
+// Material, law and wave speeds as the scene gives them: the same numbers, other structs.
+void model_set_materials(Model *model);
 
-// model/model: after model_obtain, in this order.
-bool model_prepare_steps(Simulation *simulation, Error *err);
-bool model_relax(Simulation *simulation, Error *err);   // to t = 0, the rod in place
+// The slip that the drop of friction can drive, (mu_S - mu_K) p H / E with p the mean pressure,
+// length. For Coulomb friction, which has no drop, mu_S stands in its place; without friction 1.
+// Tolerances of slip are measured by it, so that they hold for any load and any units.
+double model_friction_slip(const Model *model);
+
+// A rod of this kind at rest, its origin at 0, with the springs of its ends: soft ends get E* of
+// the elastic and of the viscous stiffness (contact/rod). Owned by the caller.
+bool model_build_rod(const Model *model, RodKind kind, Rod *rod, Error *err);
 
 // Where the rod touches a block of this height: the centre of its strip over the plane and its
 // extent, length.

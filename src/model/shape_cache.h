@@ -3,7 +3,7 @@
 // rod strip, Poisson's ratio, eta2/eta1, the pattern of the loads, tolerance), kept on disk
 // together with the name of its basis (model/basis_cache): the second run needs neither gmsh nor a
 // factorisation. Pressure, velocities, density, friction law and units of stress are not in the
-// key. Called by model/model_shape.
+// key. Called by model/obtain.
 //
 //     CACHE/<key>.shape     (io/cache_file says where CACHE is)
 #ifndef AMONTONS_MODEL_SHAPE_CACHE_H
@@ -11,9 +11,8 @@
 
 #include "base/hash.h"
 #include "contact/interface.h"
+#include "io/cache_file.h"
 #include "scene/scene.h"
-
-enum { CACHE_NOTE_SIZE = 256 };
 
 // Sizes that a run needs beside the arrays.
 typedef struct ShapeSizes {

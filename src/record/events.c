@@ -28,7 +28,7 @@ const char *event_name(EventKind kind)
     return names[kind];
 }
 
-// rate_scale: the rod's velocity, or what stands for it (model/model_shape, set_scales).
+// rate_scale: the rod's velocity, or what stands for it (model/obtain, set_scales).
 bool events_create(const Interface *interface, double rate_scale, Events *events, Error *err)
 {
     *events = (Events){.rate_start = RATE_START * rate_scale,

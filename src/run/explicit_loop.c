@@ -20,15 +20,15 @@ bool explicit_loop_prepare(Simulation *simulation, Error *err)
     StepControl *control = &simulation->control;
     double step = 0, interval = simulation->t_end / RECORDS;
     if (scene->time.scheme != SCHEME_EXPLICIT) return true;
-    TRY(stable_step(&simulation->bulk, &step, err));
+    TRY(stable_step(&simulation->model.bulk, &step, err));
     if (scene->time.step_max > 0) step = fmin(step, scene->time.step_max);
     double steps = ceil(interval / step);
     if (steps < 1 || steps > 1e15)
         FAIL(err, ERROR_COMPUTE, "explicit steps of %g in %g of time cannot be counted", step,
              interval);
     simulation->explicit_steps = (int64_t)steps;
-    ExplicitDef def = {.bulk = &simulation->bulk,
-                       .interface = &simulation->interface,
+    ExplicitDef def = {.bulk = &simulation->model.bulk,
+                       .interface = &simulation->model.interface,
                        .law = &simulation->law,
                        .rod = &simulation->rod,
                        .step = interval / steps};
@@ -36,7 +36,7 @@ bool explicit_loop_prepare(Simulation *simulation, Error *err)
     explicit_reference_start(&simulation->explicit_reference, &control->now);
     // The ladder that relaxed the block is done with; now there is one rung, which needs no matrix.
     ladder_destroy(&control->ladder);
-    ladder_init(&simulation->system, def.step, def.step, &control->ladder);
+    ladder_init(&simulation->model.system, def.step, def.step, &control->ladder);
     control->def.step_max = control->def.step_min = def.step;
 cleanup:
     return error_is_clean(err);
@@ -55,7 +55,7 @@ bool explicit_loop_advance(Simulation *simulation, Error *err)
     control->ladder.accepted[0] = scheme->steps;
     control->outcome.residual = scheme->residual;
     memcpy(control->scheme.bound, scheme->bound,
-           (size_t)simulation->interface.count * sizeof(double));
+           (size_t)simulation->model.interface.count * sizeof(double));
     control->scheme.reach = scheme->def.step;
     if (control->def.use_certificate)   // limits nothing here; says where l_sc is
         control->certified = certificate_holds(&control->certificate, &control->now);

@@ -24,27 +24,28 @@ static char *join_pad_names(const Interface *interface, Error *err)
 bool output_open_history(Simulation *simulation, Error *err)
 {
     const Scene *scene = &simulation->scene;
-    WaveSpeeds speeds = material_speeds(&simulation->material);
-    ResultHead head = {.title = scene->title,
-                       .units = scene->units == UNITS_SI ? "si" : "normalised",
-                       .version = AMONTONS_VERSION,
-                       .numbers = {[NUMBER_LENGTH] = simulation->model.length,
-                                   [NUMBER_PRESSURE] = scene->load.pressure,
-                                   [NUMBER_LOAD] = simulation->scales.load,
-                                   [NUMBER_ROD_VELOCITY] = scene->rod.velocity,
-                                   [NUMBER_CRITICAL_VELOCITY] = simulation->law.critical_velocity,
-                                   [NUMBER_MU_STATIC] = simulation->law.mu_static,
-                                   [NUMBER_MU_KINETIC] = simulation->law.mu_kinetic,
-                                   [NUMBER_C_LONGITUDINAL] = speeds.longitudinal,
-                                   [NUMBER_C_SHEAR] = speeds.shear,
-                                   [NUMBER_C_RAYLEIGH] = speeds.rayleigh,
-                                   [NUMBER_MU_M] = NAN,
-                                   [NUMBER_L_C] = NAN}};
-    char *pads = join_pad_names(&simulation->interface, err);
+    WaveSpeeds speeds = material_speeds(&simulation->model.material);
+    ResultHead head = {
+        .title = scene->title,
+        .units = scene->units == UNITS_SI ? "si" : "normalised",
+        .version = AMONTONS_VERSION,
+        .numbers = {[NUMBER_LENGTH] = simulation->model.length,
+                    [NUMBER_PRESSURE] = scene->load.pressure,
+                    [NUMBER_LOAD] = simulation->model.scales.load,
+                    [NUMBER_ROD_VELOCITY] = scene->rod.velocity,
+                    [NUMBER_CRITICAL_VELOCITY] = simulation->model.law.critical_velocity,
+                    [NUMBER_MU_STATIC] = simulation->model.law.mu_static,
+                    [NUMBER_MU_KINETIC] = simulation->model.law.mu_kinetic,
+                    [NUMBER_C_LONGITUDINAL] = speeds.longitudinal,
+                    [NUMBER_C_SHEAR] = speeds.shear,
+                    [NUMBER_C_RAYLEIGH] = speeds.rayleigh,
+                    [NUMBER_MU_M] = NAN,
+                    [NUMBER_L_C] = NAN}};
+    char *pads = join_pad_names(&simulation->model.interface, err);
     head.pads = pads;
     TRY(error_is_clean(err));
-    TRY(history_create(simulation->folder, &head, &simulation->interface, &simulation->law,
-                       &simulation->history, err));
+    TRY(history_create(simulation->folder, &head, &simulation->model.interface,
+                       &simulation->model.law, &simulation->history, err));
     recorders_add(&simulation->recorders, &simulation->history, history_record);
 cleanup:
     memory_free(pads);
@@ -57,10 +58,10 @@ bool output_open_fields(Simulation *simulation, Error *err)
     FieldsDef def = {.every_U = scene->output.fields_every_U,
                      .every_t = scene->output.fields_every_t,
                      .at_events = scene->output.fields_at_events};
-    TRY(fields_create(&def, simulation->folder, &simulation->mesh, &simulation->interface,
-                      &simulation->fields, err));
-    simulation->fields.material = &simulation->material;
-    simulation->fields.law = &simulation->law;
+    TRY(fields_create(&def, simulation->folder, &simulation->model.mesh,
+                      &simulation->model.interface, &simulation->fields, err));
+    simulation->fields.material = &simulation->model.material;
+    simulation->fields.law = &simulation->model.law;
     simulation->fields.events = &simulation->events;
     recorders_add(&simulation->recorders, &simulation->fields, fields_record);
 cleanup:

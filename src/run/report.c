@@ -49,11 +49,11 @@ static void write_rungs(JsonWriter *json, const Ladder *ladder)
 
 // Wall seconds by stage; outside_loop_cpu is processor time, of all but the loop of steps and
 // relaxing.
-static void write_timing(JsonWriter *json, const RunTiming *timing)
+static void write_timing(JsonWriter *json, const Model *model, const RunTiming *timing)
 {
     json_begin_object(json, "timing_s");
-    json_number(json, "mesh", timing->mesh);
-    json_number(json, "reduce", timing->reduce);
+    json_number(json, "mesh", model->seconds_mesh);
+    json_number(json, "reduce", model->seconds_reduce);
     json_number(json, "relax", timing->relax);
     json_number(json, "solve", timing->solve);
     json_number(json, "output", timing->output);
@@ -62,25 +62,25 @@ static void write_timing(JsonWriter *json, const RunTiming *timing)
     json_end(json);
 }
 
-// note: why a cached basis was not used or not kept; empty becomes null.
-static void write_model(JsonWriter *json, const RunModel *model, const char *note)
+static void write_model(JsonWriter *json, const Model *model, int64_t relaxation_steps)
 {
+    WaveSpeeds speeds = material_speeds(&model->material);
     json_begin_object(json, "model");
-    json_integer(json, "contact_nodes", model->contact_nodes);
-    json_integer(json, "rod_nodes", model->rod_nodes);
+    json_integer(json, "contact_nodes", model->interface.contact_count);
+    json_integer(json, "rod_nodes", model->interface.rod_count);
     json_integer(json, "elements", model->elements);
     json_integer(json, "full_dofs", model->full_dofs);
-    json_integer(json, "reduced_dofs", model->reduced_dofs);
+    json_integer(json, "reduced_dofs", model->system.dof_count);
     json_boolean(json, "from_cache", model->from_cache);
     json_number(json, "length", model->length);
     json_number(json, "height", model->height);
     json_begin_object(json, "wave_speeds");
-    json_number(json, "longitudinal", model->speeds.longitudinal);
-    json_number(json, "shear", model->speeds.shear);
-    json_number(json, "rayleigh", model->speeds.rayleigh);
+    json_number(json, "longitudinal", speeds.longitudinal);
+    json_number(json, "shear", speeds.shear);
+    json_number(json, "rayleigh", speeds.rayleigh);
     json_end(json);
-    json_integer(json, "relaxation_steps", model->relaxation_steps);
-    json_text(json, "cache_note", note[0] ? note : NULL);
+    json_integer(json, "relaxation_steps", relaxation_steps);
+    json_text(json, "cache_note", model->cache_note[0] ? model->cache_note : NULL);
     json_end(json);
 }
 
@@ -214,8 +214,8 @@ bool report_write(const char *folder, const RunReport *report, Error *err)
     scene_write_json(report->scene, json, "scene");
     write_steps(json, report->counters);
     write_rungs(json, report->ladder);
-    write_timing(json, report->timing);
-    write_model(json, report->model, report->cache_note);
+    write_timing(json, report->model, report->timing);
+    write_model(json, report->model, report->relaxation_steps);
     write_results(json, report);
     write_errors(json, report->errors);
     json_end(json);

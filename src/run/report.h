@@ -5,9 +5,9 @@
 #define AMONTONS_RUN_REPORT_H
 
 #include "amontons.h"
+#include "model/model.h"
 #include "record/falls.h"
 #include "record/peaks.h"
-#include "scene/scene.h"
 
 // The largest of each kind of error over a run's accepted steps, relative (record/observation).
 typedef struct RunErrors {
@@ -19,18 +19,10 @@ typedef struct RunErrors {
 } RunErrors;
 
 typedef struct RunTiming {
-    double mesh, reduce, relax, solve, output, total;   // s
+    double relax, solve, output, total;   // s; the model keeps what it took to make it
     double outside;   // processor time of the process outside relaxation and time loop: what it
         // takes to begin, and to report at the end, s
 } RunTiming;
-
-typedef struct RunModel {
-    int32_t contact_nodes, rod_nodes, full_dofs, reduced_dofs, elements;
-    double length, height;
-    WaveSpeeds speeds;   // elastic, of the material
-    int64_t relaxation_steps;
-    bool from_cache;   // the basis was: nothing of the full mesh was factored
-} RunModel;
 
 // Nothing is owned.
 typedef struct RunReport {
@@ -39,7 +31,8 @@ typedef struct RunReport {
     const RunCounters *counters;
     const Ladder *ladder;   // NULL: the run never came to it
     const RunTiming *timing;
-    const RunModel *model;
+    const Model *model;
+    int64_t relaxation_steps;
     const RunErrors *errors;
     const Peaks *peaks;
     const Pads *pads;
@@ -47,7 +40,6 @@ typedef struct RunReport {
     const PeaksSummary *summary;
     const Events *events;
     const RunWarnings *warnings;
-    const char *cache_note;   // empty: nothing to say
 } RunReport;
 
 bool report_write(const char *folder, const RunReport *report, Error *err);

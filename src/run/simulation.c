@@ -6,10 +6,10 @@
 #include "base/dense.h"
 #include "base/memory.h"
 #include "run/explicit_loop.h"
-#include "model/model.h"
+#include "model/obtain.h"
 #include "run/output.h"
 #include "run/result_folder.h"
-#include "run/step_view.h"
+#include "run/start.h"
 #include "run/summary.h"
 #include "run/warnings.h"
 
@@ -43,12 +43,12 @@ static bool report_step(void *self, const Observation *seen, Error *err)
 static bool open_recorders(Simulation *simulation, Error *err)
 {
     const Scene *scene = &simulation->scene;
-    TRY(events_create(&simulation->interface, simulation->scales.slip_velocity, &simulation->events,
-                      err));
+    TRY(events_create(&simulation->model.interface, simulation->model.scales.slip_velocity,
+                      &simulation->events, err));
     recorders_add(&simulation->recorders, &simulation->events, events_record);
     TRY(peaks_create(&simulation->events, scene->time.periodic_tolerance, &simulation->peaks, err));
     recorders_add(&simulation->recorders, &simulation->peaks, peaks_record);
-    TRY(pads_create(&simulation->interface, &simulation->events, &simulation->pads, err));
+    TRY(pads_create(&simulation->model.interface, &simulation->events, &simulation->pads, err));
     recorders_add(&simulation->recorders, &simulation->pads, pads_record);
     TRY(falls_create(&simulation->events, &simulation->pads, scene->time.periodic_tolerance,
                      &simulation->falls, err));
@@ -72,7 +72,7 @@ static bool record_step(Simulation *simulation, Error *err)
 {
     StepControl *control = &simulation->control;
     double started = clock_seconds();
-    Observation seen = observe(control, &simulation->scales);
+    Observation seen = observe(control, &simulation->model.scales);
     simulation->seen = seen;
     RunErrors *errors = &simulation->errors;
     errors->energy = fmax(errors->energy, seen.energy_error);
@@ -88,7 +88,7 @@ static bool record_step(Simulation *simulation, Error *err)
     if (!quiet) simulation->last_unquiet = seen.t;
     bool longest = seen.step_size >= control->def.step_max;
     if (balances && longest &&
-        seen.t - simulation->last_unquiet > QUIET_TIME * simulation->scales.time)
+        seen.t - simulation->last_unquiet > QUIET_TIME * simulation->model.scales.time)
         errors->moment_quasi_static = fmax(errors->moment_quasi_static, seen.moment_static_error);
     if (!isfinite(seen.mu) || !isfinite(seen.max_slip_rate))
         FAIL(err, ERROR_COMPUTE, "at t = %g mu is %g and the largest slip rate %g", seen.t, seen.mu,
@@ -134,14 +134,14 @@ bool amontons_simulation_create(const Scene *scene, const RunOptions *options, S
         FAIL(err, ERROR_INPUT,
              "%s: says not when to stop (time.until): it is a scene for `amontons static`",
              scene->path);
-    TRY(model_obtain(simulation, err));
-    TRY(model_prepare_steps(simulation, err));
+    TRY(model_obtain(&simulation->scene, &simulation->model, err));
+    TRY(start_prepare_steps(simulation, err));
     const char *warning = amontons_scene_warning(scene);
     if (warning) warnings_add(&simulation->warnings, "%s", warning);
-    warnings_of_resolution(&simulation->control.certificate, simulation->scales.load,
+    warnings_of_resolution(&simulation->control.certificate, simulation->model.scales.load,
                            &simulation->warnings);
     double begun = clock_processor_seconds();
-    TRY(model_relax(simulation, err));
+    TRY(start_relax(simulation, err));
     simulation->timing.outside -= clock_processor_seconds() - begun;
     TRY(explicit_loop_prepare(simulation, err));
     TRY(open_recorders(simulation, err));
@@ -214,14 +214,14 @@ static bool finish_run(Simulation *simulation, const Error *failure, RunSummary 
                             .ladder = &simulation->control.ladder,
                             .timing = &simulation->timing,
                             .model = &simulation->model,
+                            .relaxation_steps = simulation->relaxation_steps,
                             .errors = &simulation->errors,
                             .peaks = &simulation->peaks,
                             .pads = &simulation->pads,
                             .falls = &simulation->falls,
                             .summary = &peaks,
                             .events = &simulation->events,
-                            .warnings = &simulation->warnings,
-                            .cache_note = simulation->cache_note};
+                            .warnings = &simulation->warnings};
         TRY(report_write(simulation->folder, &report, err));
     }
     summary_fill(simulation, &counters, &peaks, summary);
@@ -246,11 +246,7 @@ void amontons_simulation_destroy(Simulation *simulation)
     explicit_reference_destroy(&simulation->explicit_reference);
     step_control_destroy(&simulation->control);
     rod_destroy(&simulation->rod);
-    bulk_operator_destroy(&simulation->system);
-    reduction_destroy(&simulation->reduced);
-    interface_destroy(&simulation->interface);
-    bulk_destroy(&simulation->bulk);
-    mesh_destroy(&simulation->mesh);
+    model_destroy(&simulation->model);
     memory_free(simulation);
 }
 

@@ -11,31 +11,21 @@
 #include "run/pace.h"
 #include "record/recorder.h"
 #include "run/report.h"
-#include "scene/scene.h"
-#include "model/shape_cache.h"
+#include "model/model.h"
 #include "stepping/explicit_reference.h"
 
 struct Simulation {
     Scene scene;
     RunOptions options;
     char folder[AMONTONS_PATH_SIZE];   // empty: nothing is written
-    Mesh mesh;
-    Material material;
-    FrictionLaw law;
-    Bulk bulk;
-    struct {
-        double size, resultant;   // largest nodal load, F_N; both per unit of load_reference()
-    } unit_load;   // of an assembled bulk
-    Interface interface;
-    char cache_note[CACHE_NOTE_SIZE];   // why a cached basis was not used or kept; empty: nothing
-    ReducedBulk reduced;   // count 0: the full mesh is stepped
-    BulkOperator system;
-    Rod rod;
+    Model model;   // of `scene`
+    FrictionLaw law;   // that acts now: the model's, or none while relaxing without friction
+    Rod rod;   // where it is and what it does now; owned
+    int64_t relaxation_steps;
     StepControl control;
     Pace pace;
     ExplicitReference explicit_reference;   // empty under another scheme
     int64_t explicit_steps;   // of it in a recording interval
-    ObservationScales scales;
     Observation seen;   // the last accepted step
     Events events;
     Peaks peaks;
@@ -46,7 +36,6 @@ struct Simulation {
     Recorders recorders;
     double t_end;   // time
     RunTiming timing;
-    RunModel model;
     RunErrors errors;
     RunWarnings warnings;
     double last_unquiet;   // when slip was last rapid or not certified, time

@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "io/array_file.h"
 #include "io/json_writer.h"
+#include "record/fields.h"
 #include "scene/keys.h"
 
 #include <math.h>
@@ -14,8 +15,8 @@
 
 enum { PATH_SIZE = 1200 };
 
-static bool write_json(const char *folder, const Simulation *simulation,
-                       const StaticSummary *summary, Error *err)
+static bool write_json(const char *folder, const Model *model, const StaticSummary *summary,
+                       Error *err)
 {
     char path[PATH_SIZE];
     snprintf(path, sizeof path, "%s/static.json", folder);
@@ -24,7 +25,7 @@ static bool write_json(const char *folder, const Simulation *simulation,
     json_begin_object(json, NULL);
     json_text(json, "status", "done");
     json_text(json, "version", AMONTONS_VERSION);
-    scene_write_json(&simulation->scene, json, "scene");
+    scene_write_json(model->scene, json, "scene");
     json_begin_object(json, "model");
     json_integer(json, "nodes", summary->nodes);
     json_integer(json, "contact_nodes", summary->contact_nodes);
@@ -73,11 +74,11 @@ static bool write_columns(ArrayFile *file, const Column *columns, int32_t count,
 }
 
 // number: [nodes], stress: of the solution; contact: [4][contacts] node, status, x, weight.
-static bool write_arrays(const char *folder, const Simulation *simulation,
-                         const StaticSolution *solution, const NodalStress *stress, Error *err)
+static bool write_arrays(const char *folder, const Model *model, const StaticSolution *solution,
+                         const NodalStress *stress, Error *err)
 {
-    const Mesh *mesh = &simulation->mesh;
-    const Interface *interface = &simulation->interface;
+    const Mesh *mesh = &model->mesh;
+    const Interface *interface = &model->interface;
     int64_t nodes = mesh->node_count, contacts = interface->contact_count;
     ArrayFile *file = NULL;
     char path[PATH_SIZE];
@@ -138,16 +139,16 @@ static bool write_vtu(const char *folder, const StaticSolution *solution, Fields
 }
 
 // solution->work is overwritten.
-bool static_report_write(const char *folder, const Simulation *simulation, StaticSolution *solution,
+bool static_report_write(const char *folder, const Model *model, StaticSolution *solution,
                          const StaticSummary *summary, Error *err)
 {
     Fields fields = {0};
-    for (int32_t k = 0; k < simulation->bulk.dof_count; k++) solution->work[k] = 0;
-    TRY(fields_prepare(&simulation->mesh, &simulation->interface, &fields, err));
-    fields.material = &simulation->material;
+    for (int32_t k = 0; k < model->bulk.dof_count; k++) solution->work[k] = 0;
+    TRY(fields_prepare(&model->mesh, &model->interface, &fields, err));
+    fields.material = &model->material;
     TRY(write_vtu(folder, solution, &fields, err));
-    TRY(write_arrays(folder, simulation, solution, &fields.stress, err));
-    TRY(write_json(folder, simulation, summary, err));
+    TRY(write_arrays(folder, model, solution, &fields.stress, err));
+    TRY(write_json(folder, model, summary, err));
 cleanup:
     fields_destroy(&fields);
     return error_is_clean(err);

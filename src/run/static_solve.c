@@ -16,10 +16,10 @@
 #include <string.h>
 
 // [dofs] and [interface->count] arrays, owned by *solution.
-static bool make_room(const Simulation *simulation, StaticSolution *solution, Error *err)
+static bool make_room(const Model *model, StaticSolution *solution, Error *err)
 {
-    int32_t dofs = simulation->bulk.dof_count;
-    const Interface *interface = &simulation->interface;
+    int32_t dofs = model->bulk.dof_count;
+    const Interface *interface = &model->interface;
     solution->displacement = NEW_ARRAY(double, dofs, err);
     solution->load = NEW_ARRAY(double, dofs, err);
     solution->reaction = NEW_ARRAY(double, dofs, err);
@@ -37,6 +37,7 @@ void static_solution_destroy(StaticSolution *solution)
     memory_free(solution->load);
     memory_free(solution->reaction);
     memory_free(solution->work);
+    rod_destroy(&solution->rod);
     memory_free(solution->contact_displacement);
     memory_free(solution->contact_reaction);
     memory_free(solution->status);
@@ -45,46 +46,43 @@ void static_solution_destroy(StaticSolution *solution)
 }
 
 // Where the nodes may go: the rod's displacement, and down to the substrate (bound [count]).
-static void fill_bounds(const Simulation *simulation, double *bound)
+static void fill_bounds(const Model *model, double *bound)
 {
-    const Interface *interface = &simulation->interface;
-    double radius = simulation->scene.contact.radius;
-    double middle = 0.5 * (simulation->mesh.x_min + simulation->mesh.x_max);
+    const Interface *interface = &model->interface;
+    double radius = model->scene->contact.radius;
+    double middle = 0.5 * (model->mesh.x_min + model->mesh.x_max);
     memset(bound, 0, (size_t)interface->count * sizeof(double));
     for (int32_t i = 0; i < interface->contact_count && radius > 0; i++) {
         double x = interface->x[i] - middle;
         bound[interface_normal(i)] = -x * x / (2 * radius);
     }
     for (int32_t j = 0; j < interface->rod_count; j++)
-        bound[interface_rod(interface, j)] = simulation->scene.rod.displacement;
+        bound[interface_rod(interface, j)] = model->scene->rod.displacement;
 }
 
-// Bounds in [interface_count] `bound` and Coulomb's law in `law`, both borrowed; S and g are the
-// caller's to add.
-// rod_reach 1: at a soft node r_x = (bound - u)/softness, as nothing moves.
-static ContactProblem contact_problem(const Simulation *simulation, FrictionLaw *law, double *bound)
+// Bounds in [interface_count] `bound`, borrowed, like rod and law of the solution; S and g are the
+// caller's to add. rod_reach 1: at a soft node r_x = (bound - u)/softness, as nothing moves.
+static ContactProblem contact_problem(const Model *model, const StaticSolution *solution,
+                                      double *bound)
 {
-    const Scene *scene = &simulation->scene;
-    *law = (FrictionLaw){.kind = FRICTION_COULOMB, .mu_static = scene->friction.mu_static};
-    fill_bounds(simulation, bound);
-    return (ContactProblem){.interface = &simulation->interface,
-                            .law = law,
-                            .rod_kind = scene->rod.kind == ROD_BONDED ? ROD_IS_BONDED : ROD_PUSHES,
-                            .rod_softness = simulation->rod.softness,
+    fill_bounds(model, bound);
+    return (ContactProblem){.interface = &model->interface,
+                            .law = &solution->law,
+                            .rod_kind = solution->rod.kind,
+                            .rod_softness = solution->rod.softness,
                             .rod_reach = 1,
                             .bound = bound};
 }
 
 // All nodes start sticking and the rod touching; bound: [interface_count] work.
-static bool solve_contact(const Simulation *simulation, InterfaceOperator *stiffness,
-                          const double *g, double *bound, StaticSolution *solution, Error *err)
+static bool solve_contact(const Model *model, InterfaceOperator *stiffness, const double *g,
+                          double *bound, StaticSolution *solution, Error *err)
 {
-    const Interface *interface = &simulation->interface;
-    FrictionLaw coulomb;
+    const Interface *interface = &model->interface;
     ContactSolver solver = {0};
     for (int32_t j = 0; j < interface->rod_count; j++) solution->rod_touches[j] = 1;
     for (int32_t i = 0; i < interface->contact_count; i++) solution->status[i] = CONTACT_STICK;
-    ContactProblem problem = contact_problem(simulation, &coulomb, bound);
+    ContactProblem problem = contact_problem(model, solution, bound);
     problem.schur = interface_operator_schur(stiffness);
     problem.g = g;
     ContactSolution contact = {.velocity = solution->contact_displacement,
@@ -96,7 +94,7 @@ static bool solve_contact(const Simulation *simulation, InterfaceOperator *stiff
         FAIL(err, ERROR_COMPUTE,
              "%s: no equilibrium was found in %d iterations: is the block held against sliding "
              "and tipping (rod, friction, load.supports)?",
-             simulation->scene.path, (int)solver.iterations);
+             model->scene->path, (int)solver.iterations);
     solution->iterations = solver.iterations;
 cleanup:
     contact_solver_destroy(&solver);
@@ -104,10 +102,10 @@ cleanup:
 }
 
 // reaction = int B' sigma - f, element by element: owes nothing to the assembled matrices.
-static void find_reactions(const Simulation *simulation, StaticSolution *solution)
+static void find_reactions(const Model *model, StaticSolution *solution)
 {
-    const Mesh *mesh = &simulation->mesh;
-    for (int32_t dof = 0; dof < simulation->bulk.dof_count; dof++)
+    const Mesh *mesh = &model->mesh;
+    for (int32_t dof = 0; dof < model->bulk.dof_count; dof++)
         solution->reaction[dof] = -solution->load[dof];
     for (int32_t e = 0; e < mesh->element_count; e++) {
         double position[ELEMENT_NODES_MAX][2];
@@ -116,8 +114,7 @@ static void find_reactions(const Simulation *simulation, StaticSolution *solutio
         for (int32_t a = 0; a < nodes; a++)
             memcpy(position[a], mesh->position + 2 * element[a], sizeof position[a]);
         ElementMatrices matrices;
-        element_matrices(mesh->kind[e], (const double(*)[2])position, &simulation->material,
-                         &matrices);
+        element_matrices(mesh->kind[e], (const double(*)[2])position, &model->material, &matrices);
         for (int32_t row = 0; row < 2 * nodes; row++) {
             double force = 0;
             for (int32_t column = 0; column < 2 * nodes; column++)
@@ -128,36 +125,39 @@ static void find_reactions(const Simulation *simulation, StaticSolution *solutio
     }
 }
 
-// simulation: mesh, bulk and interface are there; supports are held and the rod is built here. K
+// model: mesh, bulk and interface are there; supports are held and the rod is built here. K
 // alone may be singular (a block that only stands): its interface is lifted for the factor, and S
 // lowered again (bulk/interface_operator). ERROR_COMPUTE: no equilibrium, or K is singular in the
 // interior.
-bool static_solve(Simulation *simulation, StaticSolution *solution, Error *err)
+bool static_solve(Model *model, StaticSolution *solution, Error *err)
 {
     *solution = (StaticSolution){0};
-    Bulk *bulk = &simulation->bulk;
-    const Interface *interface = &simulation->interface;
+    Bulk *bulk = &model->bulk;
+    const Interface *interface = &model->interface;
     InterfaceOperator *stiffness = NULL;
     BulkOperator system = {0};
     double *g = NEW_ARRAY(double, interface->count, err);
     double *bound = NEW_ARRAY(double, interface->count, err);
     if (!g || !bound) goto cleanup;
-    TRY(make_room(simulation, solution, err));
-    TRY(model_build_rod(simulation, ROD_PUSHES, err));
+    TRY(make_room(model, solution, err));
+    const Scene *scene = model->scene;
+    RodKind kind = scene->rod.kind == ROD_BONDED ? ROD_IS_BONDED : ROD_PUSHES;
+    TRY(model_build_rod(model, kind, &solution->rod, err));
+    solution->law = (FrictionLaw){.kind = FRICTION_COULOMB, .mu_static = scene->friction.mu_static};
     memcpy(solution->load, bulk->load, (size_t)bulk->dof_count * sizeof(double));
-    TRY(model_hold_supports(simulation, err));
-    TRY(bulk_operator_create(bulk, simulation->mesh.position, interface->dofs, interface->count,
-                             &system, err));
+    TRY(model_hold_supports(model, err));
+    TRY(bulk_operator_create(bulk, model->mesh.position, interface->dofs, interface->count, &system,
+                             err));
     OperatorTerms terms = {.stiffness = 1, .lift = true};
     stiffness = interface_operator_create(&system, terms, err);
     if (!stiffness) goto cleanup;
     TRY(interface_operator_condense(stiffness, bulk->load, g, err));
-    TRY(solve_contact(simulation, stiffness, g, bound, solution, err));
+    TRY(solve_contact(model, stiffness, g, bound, solution, err));
     TRY(interface_operator_expand(stiffness, solution->contact_displacement, solution->displacement,
                                   err));
     for (int32_t k = 0; k < interface->count; k++)
         solution->displacement[interface->dofs[k]] = solution->contact_displacement[k];
-    find_reactions(simulation, solution);
+    find_reactions(model, solution);
 cleanup:
     interface_operator_destroy(stiffness);
     bulk_operator_destroy(&system);
@@ -170,10 +170,9 @@ cleanup:
 
 // Sums of what the plane does to the block, in its sense: upwards is positive. The rod's resultant
 // height is NaN without a force.
-static void sum_contact(const Simulation *simulation, const StaticSolution *solution,
-                        StaticSummary *summary)
+static void sum_contact(const Model *model, const StaticSolution *solution, StaticSummary *summary)
 {
-    const Interface *interface = &simulation->interface;
+    const Interface *interface = &model->interface;
     for (int32_t i = 0; i < interface->contact_count; i++) {
         const double *force = solution->reaction + 2 * interface->node[i];
         summary->shear_force += force[0];
@@ -193,12 +192,12 @@ static void sum_contact(const Simulation *simulation, const StaticSolution *solu
 }
 
 // The largest nodal force that nothing gives, and that the interface gives otherwise than it says.
-static double find_residual(const Simulation *simulation, const StaticSolution *solution,
+static double find_residual(const Model *model, const StaticSolution *solution,
                             double *interface_force)
 {
-    const Interface *interface = &simulation->interface;
-    const uint8_t *held = simulation->bulk.held;
-    int32_t dofs = simulation->bulk.dof_count;
+    const Interface *interface = &model->interface;
+    const uint8_t *held = model->bulk.held;
+    int32_t dofs = model->bulk.dof_count;
     memset(interface_force, 0, (size_t)dofs * sizeof(double));
     for (int32_t k = 0; k < interface->count; k++)
         interface_force[interface->dofs[k]] = solution->contact_reaction[k];
@@ -208,29 +207,27 @@ static double find_residual(const Simulation *simulation, const StaticSolution *
     return worst;
 }
 
-static double contact_violation(const Simulation *simulation, const StaticSolution *solution,
-                                double *bound)
+static double contact_violation(const Model *model, const StaticSolution *solution, double *bound)
 {
-    const Interface *interface = &simulation->interface;
-    FrictionLaw coulomb;
-    ContactProblem problem = contact_problem(simulation, &coulomb, bound);
+    const Interface *interface = &model->interface;
+    ContactProblem problem = contact_problem(model, solution, bound);
     double force = dense_max_abs(solution->contact_reaction, interface->count);
-    double length = dense_max_abs(solution->displacement, simulation->bulk.dof_count);
+    double length = dense_max_abs(solution->displacement, model->bulk.dof_count);
     ContactResidual residual = contact_residual(&problem, solution->contact_displacement,
                                                 solution->contact_reaction, force > 0 ? force : 1,
                                                 length > 0 ? length : 1);
     return contact_residual_max(&residual);
 }
 
-StaticSummary static_summarise(const Simulation *simulation, StaticSolution *solution)
+StaticSummary static_summarise(const Model *model, StaticSolution *solution)
 {
-    const Mesh *mesh = &simulation->mesh;
-    int32_t dofs = simulation->bulk.dof_count;
+    const Mesh *mesh = &model->mesh;
+    int32_t dofs = model->bulk.dof_count;
     StaticSummary summary = {.nodes = mesh->node_count,
-                             .contact_nodes = simulation->interface.contact_count,
-                             .rod_nodes = simulation->interface.rod_count,
+                             .contact_nodes = model->interface.contact_count,
+                             .rod_nodes = model->interface.rod_count,
                              .iterations = solution->iterations};
-    sum_contact(simulation, solution, &summary);
+    sum_contact(model, solution, &summary);
     double force[2] = {0}, moment = 0, moved = 0, internal_work = 0, reaction_work = 0, size = 0;
     for (int32_t node = 0; node < mesh->node_count; node++) {
         const double *load = solution->load + 2 * node, *r = solution->reaction + 2 * node;
@@ -249,16 +246,15 @@ StaticSummary static_summarise(const Simulation *simulation, StaticSolution *sol
     double scale = moved > 0 ? moved : 1;
     double largest =
         fmax(dense_max_abs(solution->reaction, dofs), dense_max_abs(solution->load, dofs));
-    summary.residual = find_residual(simulation, solution, solution->work) /
-                       (largest > 0 ? largest : 1);
+    summary.residual = find_residual(model, solution, solution->work) / (largest > 0 ? largest : 1);
     summary.force_balance = fmax(fabs(force[0]), fabs(force[1])) / scale;
     summary.moment_balance = fabs(moment) / (scale * (size > 0 ? size : 1));
     double applied = summary.load_work;
-    for (int32_t k = 0; k < simulation->interface.count; k++)
+    for (int32_t k = 0; k < model->interface.count; k++)
         applied += solution->contact_reaction[k] * solution->contact_displacement[k];
     summary.energy_balance = fabs(internal_work - applied) /
                              fmax(fabs(internal_work), fabs(reaction_work) + 1e-300);
-    summary.complementarity = contact_violation(simulation, solution, solution->work);
+    summary.complementarity = contact_violation(model, solution, solution->work);
     return summary;
 }
 
@@ -266,20 +262,18 @@ StaticSummary static_summarise(const Simulation *simulation, StaticSolution *sol
 bool amontons_static(const Scene *scene, const char *folder, bool overwrite, StaticSummary *summary,
                      Error *err)
 {
+    Model model = {.scene = scene};
     StaticSolution solution = {0};
     *summary = (StaticSummary){0};
-    Simulation *simulation = NEW_ARRAY(Simulation, 1, err);
-    if (!simulation) goto cleanup;
-    simulation->scene = *scene;
     dense_use_one_thread();
     if (folder) TRY(result_folder_prepare(folder, overwrite, err));
-    TRY(model_read_mesh(simulation, err));
-    TRY(model_build_bulk(simulation, err));
-    TRY(static_solve(simulation, &solution, err));
-    *summary = static_summarise(simulation, &solution);
-    if (folder) TRY(static_report_write(folder, simulation, &solution, summary, err));
+    TRY(model_read_mesh(&model, err));
+    TRY(model_build_bulk(&model, err));
+    TRY(static_solve(&model, &solution, err));
+    *summary = static_summarise(&model, &solution);
+    if (folder) TRY(static_report_write(folder, &model, &solution, summary, err));
 cleanup:
     static_solution_destroy(&solution);
-    amontons_simulation_destroy(simulation);
+    model_destroy(&model);
     return error_is_clean(err);
 }

@@ -11,8 +11,9 @@
 #ifndef AMONTONS_RUN_STATIC_SOLVE_H
 #define AMONTONS_RUN_STATIC_SOLVE_H
 
+#include "amontons.h"
 #include "contact/contact_solver.h"
-#include "model/model.h"
+#include "model/assemble.h"
 
 typedef struct StaticSolution {
     double *displacement;   // u [dof_count]; owned, like all that follows
@@ -23,19 +24,21 @@ typedef struct StaticSolution {
     uint8_t *status;   // [contact_count] ContactStatus
     uint8_t *rod_touches;   // [rod_count]
     double *work;   // [dof_count]
+    Rod rod;
+    FrictionLaw law;   // Coulomb's with mu_static
     int64_t iterations;
 } StaticSolution;
 
-// simulation: mesh read, bulk built, supports not yet held (this does it). ERROR_COMPUTE: none
+// model: mesh read, bulk built, supports not yet held (this does it). ERROR_COMPUTE: none
 // found.
-bool static_solve(Simulation *simulation, StaticSolution *solution, Error *err);
+bool static_solve(Model *model, StaticSolution *solution, Error *err);
 void static_solution_destroy(StaticSolution *solution);
 
 // Sums, and how well everything balances.
-StaticSummary static_summarise(const Simulation *simulation, StaticSolution *solution);
+StaticSummary static_summarise(const Model *model, StaticSolution *solution);
 
 // static.json, static.h5, static.vtu in `folder`.
-bool static_report_write(const char *folder, const Simulation *simulation, StaticSolution *solution,
+bool static_report_write(const char *folder, const Model *model, StaticSolution *solution,
                          const StaticSummary *summary, Error *err);
 
 #endif

@@ -8,6 +8,21 @@
 #include <math.h>
 #include <stdio.h>
 
+StepView step_view(const Observation *seen, const Events *events, double t_end)
+{
+    const int32_t *kinds = events->kinds;
+    return (StepView){.t = seen->t,
+                      .U = seen->U,
+                      .mu = seen->mu,
+                      .step_size = seen->step_size,
+                      .front = seen->front,
+                      .max_slip_rate = seen->max_slip_rate,
+                      .fraction = fmin(seen->t / t_end, 1),
+                      .certified = seen->certified,
+                      .events = kinds[EVENT_BOUNDED] + kinds[EVENT_LEADING],
+                      .slidings = kinds[EVENT_LEADING]};
+}
+
 // There are fewer phases than RUN_PHASES_MAX: the list below is fixed. A note that is too long is
 // cut.
 static void add_phase(RunSummary *summary, const char *name, double seconds, int64_t count,
@@ -26,29 +41,29 @@ static void list_phases(const Simulation *simulation, RunSummary *summary)
     const StepControl *control = &simulation->control;
     const ContactSolver *solver = &control->scheme.solver;
     const Certificate *certificate = &control->certificate;
-    const RunModel *model = &simulation->model;
-    bool cached = model->from_cache, reduced = simulation->reduced.count > 0;
+    const Model *model = &simulation->model;
+    bool cached = model->from_cache, reduced = model->reduced.count > 0;
     bool fields = simulation->fields.written > 0;
     double inside = solver->seconds + certificate->seconds + control->ladder.seconds;
     char note[96];
-    add_phase(summary, "mesh", timing->mesh, model->elements,
-              simulation->mesh.element_count == 0 ? "skipped: the shape is in the cache"
-              : fields && cached                  ? "elements: fields need the mesh"
-                                                  : "elements, read through gmsh");
+    add_phase(summary, "mesh", model->seconds_mesh, model->elements,
+              model->mesh.element_count == 0 ? "skipped: the shape is in the cache"
+              : fields && cached             ? "elements: fields need the mesh"
+                                             : "elements, read through gmsh");
     snprintf(note, sizeof note, "unknowns for %d%s", model->full_dofs,
              cached    ? ", from the cache"
              : reduced ? ""
                        : ": not reduced");
-    add_phase(summary, "assemble, reduce", timing->reduce, model->reduced_dofs, note);
-    add_phase(summary, "relax", timing->relax, model->relaxation_steps, "steps before t = 0");
-    add_phase(summary, "rungs", control->ladder.seconds, simulation->system.factorisations,
+    add_phase(summary, "assemble, reduce", model->seconds_reduce, model->system.dof_count, note);
+    add_phase(summary, "relax", timing->relax, simulation->relaxation_steps, "steps before t = 0");
+    add_phase(summary, "rungs", control->ladder.seconds, simulation->model.system.factorisations,
               "factorisations, each when first used");
     add_phase(summary, "contact", solver->seconds, solver->iterations, "Newton steps");
     add_phase(summary, "certificate", certificate->seconds, certificate->checks,
               simulation->scene.time.certificate ? "small factorisations"
                                                  : "skipped: switched off");
     add_phase(summary, "bulk", fmax(timing->solve + timing->relax - inside, 0),
-              simulation->system.solves, "stages: products and substitutions");
+              simulation->model.system.solves, "stages: products and substitutions");
     add_phase(summary, "history", simulation->history.seconds, simulation->history.rows,
               simulation->history.rows > 0 ? "rows" : "skipped: output.history is false");
     add_phase(summary, "fields", simulation->fields.seconds, simulation->fields.written,
@@ -72,8 +87,8 @@ RunCounters summary_count(const Simulation *simulation)
                          .rejected_uncertified = steps->rejected_uncertified,
                          .over_swings = steps->over_swings,
                          .unsolved_retries = steps->unsolved,
-                         .factorisations = simulation->system.factorisations,
-                         .solves = simulation->system.solves,
+                         .factorisations = simulation->model.system.factorisations,
+                         .solves = simulation->model.system.solves,
                          .contact_solves = solver->solves,
                          .contact_iterations = solver->iterations,
                          .contact_fallbacks = solver->fallbacks,

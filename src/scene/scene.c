@@ -10,6 +10,7 @@
 
 #include "amontons.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "scene/check.h"
 #include "scene/keys.h"
 #include "scene/value.h"
@@ -371,4 +372,9 @@ bool amontons_scene_reference(FILE *out, Error *err)
     if (fflush(out) != 0 || ferror(out)) FAIL(err, ERROR_FILE, "cannot write the key reference");
 cleanup:
     return error_is_clean(err);
+}
+
+int32_t amontons_nearest_name(const char *word, const char *const *names, int32_t count)
+{
+    return text_nearest(word, names, count);
 }

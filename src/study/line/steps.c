@@ -7,7 +7,7 @@
 
 #include "record/recorder.h"
 #include "model/step_rule.h"
-#include "run/step_view.h"
+#include "run/summary.h"
 
 #include <math.h>
 

@@ -34,7 +34,7 @@ static void write_results(JsonWriter *json, const StabilitySummary *summary)
 // The path's table: one entry per front position, rates in 1/time.
 static void write_points(JsonWriter *json, const StabilityPath *path)
 {
-    double length = path->simulation->model.length;
+    double length = path->model->length;
     json_begin_list(json, "points");
     for (int32_t k = 0; k < path->count; k++) {
         const StabilityPoint *point = &path->points[k];
@@ -84,7 +84,7 @@ static bool write_numbers(const StabilityPath *path, const StabilitySummary *sum
     json_begin_object(json, NULL);
     json_text(json, "status", "done");
     json_text(json, "version", AMONTONS_VERSION);
-    scene_write_json(&path->simulation->scene, json, "scene");
+    scene_write_json(path->model->scene, json, "scene");
     json_integer(json, "slidings_before", path->options->slidings);
     write_results(json, summary);
     write_pads(json, summary);
@@ -111,7 +111,7 @@ static bool add_series(ArrayFile *file, const ArraySeries *series, const double 
 // [points], rate [points][2].
 static bool fill_arrays(ArrayFile *file, const StabilityPath *path, Error *err)
 {
-    const Interface *interface = &path->simulation->interface;
+    const Interface *interface = &path->model->interface;
     int32_t nodes = interface->contact_count;
     ArraySeries x = {"nodes/x", ARRAY_FLOAT64, 1, "length", "position of the contact nodes"};
     ArraySeries critical = {"critical/slip", ARRAY_FLOAT64, 1, "1",

@@ -34,13 +34,13 @@ typedef struct PadWork {
 // S_K (lifted, where the free block leaves it singular), a trial state and room for one pad.
 static bool work_create(StabilityPath *path, PadWork *work, Error *err)
 {
-    Simulation *simulation = path->simulation;
-    int64_t count = simulation->interface.contact_count;
-    *work = (PadWork){.path = path, .interface = &simulation->interface};
+    Model *model = path->model;
+    int64_t count = model->interface.contact_count;
+    *work = (PadWork){.path = path, .interface = &model->interface};
     OperatorTerms terms = {.stiffness = 1, .lift = true};
-    work->stiffness = interface_operator_create(&simulation->system, terms, err);
+    work->stiffness = interface_operator_create(&model->system, terms, err);
     if (!work->stiffness) goto cleanup;
-    TRY(state_create(&simulation->system, work->interface, &work->trial, err));
+    TRY(state_create(&model->system, work->interface, &work->trial, err));
     work->nodes = NEW_ARRAY(int32_t, count, err);
     work->matrix = NEW_ARRAY(double, count *count, err);
     work->values = NEW_ARRAY(double, count, err);
@@ -164,7 +164,7 @@ cleanup:
 
 bool stability_measure_pads(StabilityPath *path, StabilitySummary *summary, Error *err)
 {
-    const Interface *interface = &path->simulation->interface;
+    const Interface *interface = &path->model->interface;
     PadWork work = {0};
     double most = 0;
     if (path->at_rod < 0) {   // it slides because all of it slips, nothing grows before

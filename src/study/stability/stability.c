@@ -31,16 +31,6 @@ enum {
     POINTS_BEYOND = 2   // front positions that are shown beyond l_c
 };
 
-// The slip that the friction drop drives, (mu_S - mu_K) P H/E, length; with Coulomb's law, which
-// has no drop, mu_S P H/E. It scales the rod's way in a step.
-static double friction_slip(const Simulation *simulation)
-{
-    const FrictionLaw *law = &simulation->law;
-    double drop = law->kind == FRICTION_COULOMB ? law->mu_static : law->mu_static - law->mu_kinetic;
-    return drop * simulation->scales.load / simulation->model.length * simulation->model.height /
-           simulation->material.young;
-}
-
 static bool check_scene(const Scene *scene, const StabilityOptions *options, Error *err)
 {
     bool driven = scene->rod.kind != ROD_NONE && scene->rod.velocity > 0;
@@ -103,32 +93,33 @@ cleanup:
 // the simulation's rod is. Memory for a point per contact node and the two ends.
 static bool open_path(StabilityPath *path, Error *err)
 {
-    Simulation *simulation = path->simulation;
-    const Interface *interface = &simulation->interface;
+    Model *model = path->model;
+    const Interface *interface = &model->interface;
+    const Simulation *before = path->simulation;
     double elements = interface->contact_count;
-    double slip = friction_slip(simulation) * fmin(PATH_SLIP, PATH_ELEMENTS / elements);
-    double step = PATH_STEP * simulation->scales.time;
+    double slip = model_friction_slip(model) * fmin(PATH_SLIP, PATH_ELEMENTS / elements);
+    double step = PATH_STEP * model->scales.time;
     StepControlDef def = {.tolerance = INFINITY,
                           .step_max = step,
                           .step_min = 1e-12 * step,
                           .wave_step = INFINITY,
                           .growth_max = 2,
                           .use_certificate = false};
-    Block block = {.system = &simulation->system,
-                   .interface = interface,
-                   .law = &simulation->law,
-                   .rod = &simulation->rod};
+    Block block = {
+        .system = &model->system, .interface = interface, .law = &model->law, .rod = &path->rod};
+    TRY(model_build_rod(model, before->rod.kind, &path->rod, err));
     TRY(step_control_create(&block, &def, &path->control, err));
-    TRY(state_create(&simulation->system, interface, &path->last, err));
-    TRY(state_create(&simulation->system, interface, &path->runaway, err));
-    state_copy(&simulation->control.now, &path->control.now);
-    path->U_start = simulation->rod.velocity * path->control.now.time;
-    for (int32_t j = 0; j < interface->rod_count; j++) simulation->rod.origin[j] += path->U_start;
-    simulation->rod.velocity = slip / step;
+    TRY(state_create(&model->system, interface, &path->last, err));
+    TRY(state_create(&model->system, interface, &path->runaway, err));
+    state_copy(&before->control.now, &path->control.now);
+    path->U_start = before->rod.velocity * path->control.now.time;
+    for (int32_t j = 0; j < interface->rod_count; j++)
+        path->rod.origin[j] = before->rod.origin[j] + path->U_start;
+    path->rod.velocity = slip / step;
     step_control_restart(&path->control);
-    double speed = material_slip_speed(&simulation->material);
-    GrowthDef growth = growth_def(simulation->model.length, speed, interface->contact_count);
-    growth.slowest = fmin(growth.slowest, speed / (4 * simulation->model.height));   // a tall one
+    double speed = material_slip_speed(&model->material);
+    GrowthDef growth = growth_def(model->length, speed, interface->contact_count);
+    growth.slowest = fmin(growth.slowest, speed / (4 * model->height));   // a tall one
     path->growth = growth_create(&block, &growth, err);
     path->room = interface->contact_count + 2;
     path->points = NEW_ARRAY(StabilityPoint, path->room, err);
@@ -158,7 +149,7 @@ static int32_t count_slipping(const State *state)
 static double half_period(const StabilityPath *path, int32_t k)
 {
     const StabilityPoint *point = &path->points[k];
-    double ratio = path->simulation->law.critical_velocity / path->simulation->scene.rod.velocity;
+    double ratio = path->model->law.critical_velocity / path->model->scene->rod.velocity;
     if (!(point->rate_re > 0)) return -INFINITY;
     if (!(point->rate_im > 0)) return INFINITY;
     return M_PI * point->rate_re / point->rate_im - log(ratio);
@@ -174,7 +165,7 @@ static bool runs_away(const StabilityPath *path, int32_t k)
 // of the first real one, and the state at which slip first runs away.
 static bool add_point(StabilityPath *path, const Observation *seen, Error *err)
 {
-    const Interface *interface = &path->simulation->interface;
+    const Interface *interface = &path->model->interface;
     StabilityPoint *point = &path->points[path->count];
     GrowthRates rates;
     double started = clock_seconds();
@@ -234,7 +225,7 @@ cleanup:
 // The path's long steps damp the jump and go on; in time it may be a sliding.
 static bool follow_path(StabilityPath *path, Error *err)
 {
-    const Interface *interface = &path->simulation->interface;
+    const Interface *interface = &path->model->interface;
     double end = interface->x[interface->contact_count - 1];
     Observation before = {0};
     int32_t most = 0;   // nodes that slipped at a time, so far
@@ -242,9 +233,9 @@ static bool follow_path(StabilityPath *path, Error *err)
         if (stop_wanted(path, err)) goto cleanup;
         state_copy(&path->control.now, &path->last);
         TRY(step_control_advance(&path->control, INFINITY, err));
-        Observation seen = observe(&path->control, &path->simulation->scales);
+        Observation seen = observe(&path->control, &path->model->scales);
         int32_t slipping = count_slipping(&path->control.now);
-        bool snaps = seen.max_slip_rate > SNAP * path->simulation->rod.velocity;
+        bool snaps = seen.max_slip_rate > SNAP * path->rod.velocity;
         if (snaps && step > 0 && isnan(path->mu_snap)) path->mu_snap = before.mu;
         if (step > 0 && slipping > most) TRY(add_point(path, &before, err));
         if (slipping > most) most = slipping;
@@ -273,7 +264,7 @@ typedef double (*Margin)(const StabilityPath *path, int32_t k);
 static bool is_next(const StabilityPath *path, int32_t k)
 {
     const StabilityPoint *point = &path->points[k];
-    const Interface *interface = &path->simulation->interface;
+    const Interface *interface = &path->model->interface;
     int32_t passed = 0;
     for (int32_t i = 0; i < interface->contact_count; i++)
         passed += interface->x[i] > point[-1].front && interface->x[i] <= point->front;
@@ -360,8 +351,8 @@ static StabilityPoint first_sliding(const StabilityPath *path, Margin margin)
 // l_sc, l_c and mu there. At the scene's V slip cannot run away later than for V -> 0.
 static void summarise(const StabilityPath *path, StabilitySummary *summary)
 {
-    const Interface *interface = &path->simulation->interface;
-    double length = path->simulation->model.length;
+    const Interface *interface = &path->model->interface;
+    double length = path->model->length;
     StabilityPoint swings = first_loss(path, real_part);
     StabilityPoint slides = first_sliding(path, frequency_square);
     StabilityPoint rod = first_sliding(path, half_period);
@@ -392,6 +383,7 @@ static void path_destroy(StabilityPath *path)
     step_control_destroy(&path->control);
     state_destroy(&path->last);
     state_destroy(&path->runaway);
+    rod_destroy(&path->rod);
     amontons_simulation_destroy(path->simulation);
     memory_free(path->points);
     memory_free(path->modes);
@@ -410,6 +402,7 @@ bool amontons_stability(const Scene *scene, const StabilityOptions *options,
     if (options->folder) TRY(result_folder_prepare(options->folder, options->overwrite, err));
     RunOptions run = {.on_step = options->on_step, .context = options->context};
     TRY(amontons_simulation_create(scene, &run, &path.simulation, err));
+    path.model = &path.simulation->model;
     if (!options->at_end) TRY(run_slidings(&path, err));
     double before = clock_seconds();
     if (options->at_end) {

@@ -13,7 +13,9 @@
 
 typedef struct StabilityPath {
     const StabilityOptions *options;   // not owned
-    Simulation *simulation;   // its model, and the run before the path; owned, like what follows
+    Simulation *simulation;   // the run before the path; owned
+    Model *model;   // the simulation's
+    Rod rod;   // of the path; owned, like what follows
     StepControl control;   // of the path
     State last;   // before the newest step
     Growth *growth;

@@ -135,10 +135,10 @@ static void test_allocations(void **state)
     int32_t growing = 0;
     while (!finished) {
         int64_t before = memory_counters().allocations;
-        int64_t built = simulation->system.factorisations;
+        int64_t built = simulation->model.system.factorisations;
         assert_true(amontons_simulation_step(simulation, NULL, &finished, &err));
         bool asked = memory_counters().allocations != before;
-        if (asked) assert_true(simulation->system.factorisations > built);
+        if (asked) assert_true(simulation->model.system.factorisations > built);
         growing += asked;
     }
     assert_true(growing <= simulation->control.ladder.rung_count);

@@ -23,7 +23,7 @@ static Simulation *simulation_of(const char *const *more)
 static double normal_force(const Simulation *simulation)
 {
     double sum = 0;
-    for (int32_t i = 0; i < simulation->interface.contact_count; i++)
+    for (int32_t i = 0; i < simulation->model.interface.contact_count; i++)
         sum += simulation->control.now.reaction[interface_normal(i)];
     return sum;
 }
@@ -31,7 +31,7 @@ static double normal_force(const Simulation *simulation)
 static double shear_force(const Simulation *simulation)
 {
     double sum = 0;
-    for (int32_t i = 0; i < simulation->interface.contact_count; i++)
+    for (int32_t i = 0; i < simulation->model.interface.contact_count; i++)
         sum += simulation->control.now.reaction[interface_tangent(i)];
     return sum;
 }
@@ -45,8 +45,8 @@ static void test_friction_while_relaxing(void **state)
             (const char *const[]){on ? "start.friction=on" : "start.friction=off", NULL});
         const State *now = &simulation->control.now;
         double largest = 0, uneven = 0;
-        for (int32_t i = 0; i < simulation->interface.contact_count; i++) {
-            double weight = simulation->interface.weight[i];
+        for (int32_t i = 0; i < simulation->model.interface.contact_count; i++) {
+            double weight = simulation->model.interface.weight[i];
             double p = now->reaction[interface_normal(i)] / weight;
             largest = fmax(largest, fabs(now->reaction[interface_tangent(i)] / weight));
             uneven = fmax(uneven, fabs(p - PRESSURE));
@@ -80,16 +80,17 @@ static void test_rod_at_the_start(void **state)
         Simulation *simulation = simulation_of(
             (const char *const[]){cases[k].kind, cases[k].start, "time.until={t: 10}", NULL});
         assert_int_equal(simulation->rod.kind, cases[k].found);
-        double force = rod_force(&simulation->interface, simulation->control.now.reaction);
+        double force = rod_force(&simulation->model.interface, simulation->control.now.reaction);
         if (cases[k].presses) assert_true(force > 1e-3 * PRESSURE);
         if (!cases[k].presses) assert_near("F_T", force, 0, 1e-6 * PRESSURE);
         assert_near("balance", shear_force(simulation), -force, 1e-6 * PRESSURE);
-        for (int32_t j = 0; j < simulation->interface.rod_count; j++) {
-            int32_t at = interface_rod(&simulation->interface, j);
-            double u = simulation->control.now.displacement[simulation->system.interface_dofs[at]];
+        for (int32_t j = 0; j < simulation->model.interface.rod_count; j++) {
+            int32_t at = interface_rod(&simulation->model.interface, j);
+            double u =
+                simulation->control.now.displacement[simulation->model.system.interface_dofs[at]];
             assert_near("touches", simulation->rod.origin[j], u, 1e-18);
         }
-        if (simulation->interface.rod_count > 0)
+        if (simulation->model.interface.rod_count > 0)
             assert_near("V", simulation->rod.velocity, 1e-5, 0);
         amontons_simulation_destroy(simulation);
     }
@@ -102,7 +103,7 @@ static void test_loads(void **state)
     Simulation *simulation = simulation_of((const char *const[]){
         "load.tractions=[{group: top, x: 1e-4, z: -1e-3}, {group: leading, x: -2e-4, z: 0}]",
         NULL});
-    assert_near("F_N", simulation->scales.load, 0.004, 1e-15);
+    assert_near("F_N", simulation->model.scales.load, 0.004, 1e-15);
     assert_near("normal", normal_force(simulation), 0.004, 1e-9);
     // 1e-4 on the top, length 1; -2e-4 on the leading face, height 0.5: nothing for friction.
     assert_near("shear", shear_force(simulation), 0, 1e-8);
@@ -117,16 +118,16 @@ static void test_material(void **state)
     Simulation *simulation = simulation_of((const char *const[]){
         "material={young: 2, poisson: 0.3, density: 3, eta1: 0.5, eta2: 0.7, plane: strain}",
         "start.friction=off", "reduction.use=never", NULL});
-    const Material *material = &simulation->material;
+    const Material *material = &simulation->model.material;
     assert_true(material->young == 2 && material->poisson == 0.3 && material->plane_strain);
     assert_true(material->density == 3 && material->eta1 == 0.5 && material->eta2 == 0.7);
-    const Mesh *mesh = &simulation->mesh;
+    const Mesh *mesh = &simulation->model.mesh;
     for (int32_t node = 0; node < mesh->node_count; node++) {
         if (mesh->position[2 * node + 1] < 0.5 - 1e-12) continue;
         double wanted = -PRESSURE * 0.5 * (1 - 0.3 * 0.3) / 2;
         assert_near("u_z", simulation->control.now.displacement[2 * node + 1], wanted, 1e-9);
     }
-    assert_near("mass", simulation->system.mass_total, 3 * 0.5, 1e-12);
+    assert_near("mass", simulation->model.system.mass_total, 3 * 0.5, 1e-12);
     amontons_simulation_destroy(simulation);
 }
 
@@ -180,7 +181,7 @@ static void test_extreme_speeds(void **state)
     (void)state;
     Simulation *simulation =
         simulation_of((const char *const[]){"time.until={t: 1e-7}", "rod.kind=none", NULL});
-    assert_true(simulation->model.relaxation_steps < 200);
+    assert_true(simulation->relaxation_steps < 200);
     const StepControl *control = &simulation->control;
     assert_near("longest step", ladder_step(&control->ladder, control->coarsest), 2e-9, 1e-20);
     amontons_simulation_destroy(simulation);

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The one place that translates a scene's words on mesh, loads, supports and contact into the
+// definitions of the layers below.
+#include "model/assemble.h"
+
+#include "base/clock.h"
+#include "base/dense.h"
+#include "model/shape_cache.h"
+
+#include <math.h>
+
+// Through gmsh, the slowest part of a small run (76 ms to load).
+bool model_read_mesh(Model *model, Error *err)
+{
+    const Scene *scene = model->scene;
+    double started = clock_seconds();
+    MeshFile file = {0};
+    TRY(mesh_file_read(scene->mesh.file, scene->mesh.parameters, scene->mesh.parameter_count, &file,
+                       err));
+    TRY(mesh_build(&file, scene->mesh.file, &model->mesh, err));
+    const Mesh *mesh = &model->mesh;
+    model->length = mesh->x_max - mesh->x_min;
+    model->height = mesh->z_max - mesh->z_min;
+    model->elements = mesh->element_count;
+cleanup:
+    mesh_file_destroy(&file);
+    model->seconds_mesh = clock_seconds() - started;
+    return error_is_clean(err);
+}
+
+// A force to measure by where no load presses: the loads' size, or the impact's.
+// Force per width: of an impact, the stress rho c_L v over the length.
+static double free_scale(const Model *model, double load)
+{
+    const Material *material = &model->material;
+    double impedance = material->density * material_speeds(material).longitudinal;
+    double impact = impedance * fabs(model->scene->start.velocity_z) * model->length;
+    if (impact > 0) return impact;
+    return load < 0 ? -load : material->young * model->length;
+}
+
+// Pressure and tractions onto the bulk's load, first per unit of load_reference(): so what the
+// cache keeps of them has the same bits whichever pressure asked first. F_N, their resultant
+// towards the plane, becomes the force that others are measured with.
+static bool add_loads(Model *model, Error *err)
+{
+    const Scene *scene = model->scene;
+    Bulk *bulk = &model->bulk;
+    MeshCurve curve;
+    double reference = load_reference(scene), unit = 0;
+    if (scene->load.pressure != 0) {
+        double traction[2] = {0, -scene->load.pressure / reference};
+        TRY(mesh_curve(&model->mesh, scene->groups.top, &curve, err));
+        bulk_add_traction(&model->mesh, &curve, traction, bulk);
+    }
+    for (int32_t k = 0; k < scene->load.traction_count; k++) {
+        const SceneTraction *given = &scene->load.tractions[k];
+        double traction[2] = {given->x / reference, given->z / reference};
+        TRY(mesh_curve(&model->mesh, given->group, &curve, err));
+        bulk_add_traction(&model->mesh, &curve, traction, bulk);
+    }
+    for (int32_t dof = 1; dof < bulk->dof_count; dof += 2) unit -= bulk->load[dof];
+    model->unit_load.size = dense_max_abs(bulk->load, bulk->dof_count);
+    model->unit_load.resultant = unit;
+    for (int32_t dof = 0; dof < bulk->dof_count; dof++) bulk->load[dof] *= reference;
+    double load = unit * reference;
+    // What is held needs no load, and what flies towards the plane has its momentum.
+    bool held = scene->load.support_count > 0 || scene->start.velocity_z < 0;
+    if (!(load > 0) && held) {
+        load = free_scale(model, load);
+        model->unit_load.resultant = load / reference;
+    }
+    if (!(load > 0))
+        FAIL(err, ERROR_INPUT,
+             "%s: the loads do not press the block onto the plane (their resultant along -z is %g)",
+             scene->path, load);
+    model->scales.load = load;
+cleanup:
+    return error_is_clean(err);
+}
+
+// The assembled bulk of the full mesh, its loads and its interface; needed to build a basis, to
+// find one by content, and wherever nothing is reduced.
+bool model_build_bulk(Model *model, Error *err)
+{
+    const Scene *scene = model->scene;
+    double middle = 0, width = 0;
+    model_rod_strip(scene, model->height, &middle, &width);
+    model_set_materials(model);
+    TRY(bulk_assemble(&model->mesh, &model->material, &model->bulk, err));
+    TRY(add_loads(model, err));
+    InterfaceDef def = {.contact_name_count = scene->groups.contact.count,
+                        .contact_names = scene->groups.contact.name,
+                        .has_rod = scene->rod.kind != ROD_NONE,
+                        .rod_name = scene->groups.rod,
+                        .rod_height = middle,
+                        .rod_width = width,
+                        .rod_in_part = scene->rod.ends == ROD_ENDS_EXACT};
+    TRY(interface_build(&model->mesh, &def, &model->interface, err));
+    model->full_dofs = model->bulk.dof_count;
+cleanup:
+    return error_is_clean(err);
+}
+
+// Supports are no part of the cached shape: their unknowns leave the assembled matrices.
+bool model_hold_supports(Model *model, Error *err)
+{
+    const Scene *scene = model->scene;
+    for (int32_t k = 0; k < scene->load.support_count; k++) {
+        const SceneSupport *support = &scene->load.supports[k];
+        MeshCurve curve;
+        if (!mesh_curve(&model->mesh, support->group, &curve, err)) return false;
+        for (int32_t i = 0; i < curve.node_count; i++) {
+            if (support->x) bulk_hold(2 * curve.nodes[i], &model->bulk);
+            if (support->z) bulk_hold(2 * curve.nodes[i] + 1, &model->bulk);
+        }
+    }
+    return true;
+}

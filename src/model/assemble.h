@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// From a scene to the assembled block: mesh, bulk, loads, interface, supports. Called by
+// model/obtain where the cache does not hold the shape, and by run/static_solve.
+#ifndef AMONTONS_MODEL_ASSEMBLE_H
+#define AMONTONS_MODEL_ASSEMBLE_H
+
+#include "model/model.h"
+
+// Each needs the ones before it; model->scene stands.
+bool model_read_mesh(Model *model, Error *err);
+bool model_build_bulk(Model *model, Error *err);   // material, bulk, loads, interface
+bool model_hold_supports(Model *model, Error *err);   // takes their unknowns out of the bulk
+
+#endif

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A Shape (model/shape_cache) is what of the mesh the time loop needs: interface, sizes, how a
+// rigid rotation moves the interface, and the name of a basis. With fields asked for the mesh is
+// read in any case, since VTU files need its nodes.
+#include "model/obtain.h"
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "bulk/reduction_block.h"
+#include "model/assemble.h"
+#include "model/basis_cache.h"
+
+#include <math.h>
+
+// Of the interior's responses, in the energy norm.
+static const double REDUCTION_TOLERANCES[] = {
+    [ACCURACY_DRAFT] = 5e-2, [ACCURACY_STANDARD] = 2e-2, [ACCURACY_FINE] = 2e-3};
+
+// A reduced bulk follows what the interface does: not a load put on at once, nor a velocity that
+// supports stop.
+static bool starts_at_interface(const Scene *scene)
+{
+    if (scene->start.state == START_UNDEFORMED) return false;
+    for (int32_t k = 0; k < scene->load.support_count; k++) {
+        const SceneSupport *support = &scene->load.supports[k];
+        if (support->x && scene->start.velocity_x != 0) return false;
+        if (support->z && scene->start.velocity_z != 0) return false;
+    }
+    return true;
+}
+
+// E, eta, rho L^2 and the size of the load: what the reduced matrices are normalised with.
+static BulkScales bulk_scales(const Model *model, double load)
+{
+    const Material *material = &model->material;
+    double length = model->length;
+    return (BulkScales){.stiffness = material->young,
+                        .damping = material->eta1 + material->eta2,
+                        .mass = material->density * length * length,
+                        .load = load};
+}
+
+// As the scene says, else by the accuracy it wants.
+static double reduction_tolerance(const Scene *scene)
+{
+    return scene->reduction.tolerance > 0 ? scene->reduction.tolerance
+                                          : REDUCTION_TOLERANCES[scene->time.accuracy];
+}
+
+// Moves the interface of `shape` into the model and steps on the reduced bulk that is there.
+// Matrices are kept normalised; the scales of this scene (E, eta, rho L^2, load) are set here and
+// multiply whatever is asked of them.
+static bool adopt_shape(Model *model, Shape *shape, Error *err)
+{
+    double load = shape->sizes.load_size * load_reference(model->scene);
+    model->interface = shape->interface;
+    shape->interface = (Interface){0};
+    model->length = shape->sizes.length;
+    model->height = shape->sizes.height;
+    model->elements = (int32_t)shape->sizes.elements;
+    model->full_dofs = (int32_t)shape->sizes.full_dofs;
+    model->reduced.scales = bulk_scales(model, load);
+    model->scales.load = shape->sizes.load_resultant * load_reference(model->scene);
+    return bulk_operator_reduce(&model->reduced, shape->rotation,
+                                shape->sizes.area * model->material.density, &model->system, err);
+}
+
+// What the unit rotation about the trailing end does to the interface's unknowns.
+static bool list_rotation(const Model *model, const ReductionBlock *block, Shape *shape, Error *err)
+{
+    const Interface *interface = &shape->interface;
+    shape->rotation = NEW_ARRAY(double, interface->count, err);
+    for (int32_t k = 0; shape->rotation && k < interface->count; k++) {
+        const double *at = block->position + 2 * (interface->dofs[k] / 2);
+        double turned = interface->dofs[k] % 2 == 0 ? -at[1] : at[0];
+        shape->rotation[k] = turned * model->length;
+    }
+    return shape->rotation != NULL;
+}
+
+// The basis of `block`, from the cache or built and kept there; where it is kept, its name goes
+// into the shape. Of processes that need it at once one builds it and the others wait.
+static bool obtain_basis(Model *model, const ReductionBlock *block, Shape *shape, Error *err)
+{
+    const Scene *scene = model->scene;
+    const Interface *interface = &shape->interface;
+    ReductionDef def = {.tolerance = reduction_tolerance(scene),
+                        .scales = {.stiffness = 1, .damping = 1, .mass = 1, .load = 1}};
+    bool *found = &model->from_cache;
+    bool with_modes = scene->output.fields;
+    char *note = model->cache_note;
+    FileLock lock = {0};
+    if (scene->reduction.cache) {
+        Hash hash = hash_start();
+        hash_text(&hash, BASIS_FORMAT);
+        hash_number(&hash, def.tolerance);
+        reduction_block_hash(block, &model->mesh, interface->dofs, interface->count, &hash);
+        hash_write(&hash, shape->basis);
+    }
+    TRY(basis_cache_load(shape->basis, with_modes, &model->reduced, found, note, err));
+    if (*found) goto cleanup;
+    if (basis_cache_lock(shape->basis, &lock))
+        TRY(basis_cache_load(shape->basis, with_modes, &model->reduced, found, note, err));
+    if (*found) goto cleanup;
+    TRY(reduction_build(&block->bulk, interface->dofs, interface->count, &def, &model->reduced,
+                        err));
+    if (!basis_cache_store(shape->basis, &model->reduced, note)) shape->basis[0] = 0;
+cleanup:
+    file_lock_release(&lock);
+    return error_is_clean(err);
+}
+
+// Reduces the assembled bulk; key: where the cache keeps the shape, empty for nowhere.
+static bool reduce_bulk(Model *model, const char *key, Error *err)
+{
+    const Bulk *bulk = &model->bulk;
+    double load = model->unit_load.size * load_reference(model->scene);
+    ReductionBlock block = {0};
+    Shape shape = {.sizes = {.length = model->length,
+                             .height = model->height,
+                             .area = bulk->area,
+                             .elements = model->elements,
+                             .full_dofs = bulk->dof_count,
+                             .load_size = model->unit_load.size,
+                             .load_resultant = model->unit_load.resultant}};
+    shape.interface = model->interface;
+    model->interface = (Interface){0};
+    TRY(reduction_block_create(&model->mesh, bulk, &model->material, load, &block, err));
+    TRY(list_rotation(model, &block, &shape, err));
+    TRY(obtain_basis(model, &block, &shape, err));
+    if (shape.basis[0]) shape_cache_store(key, &shape, model->cache_note);
+    TRY(adopt_shape(model, &shape, err));
+cleanup:
+    reduction_block_destroy(&block);
+    shape_destroy(&shape);
+    return error_is_clean(err);
+}
+
+// The scene's bulk can be reduced: stepped implicitly, with viscosity, from states the interface
+// made.
+static bool is_reducible(const Scene *scene)
+{
+    bool implicit = scene->time.scheme != SCHEME_EXPLICIT;   // explicit steps are those of the mesh
+    return scene->reduction.use != REDUCE_NEVER && implicit && scene->material.eta1 > 0 &&
+           starts_at_interface(scene);
+}
+
+// Seconds, by n unknowns of the mesh and m of the interface; of set A to 160 x 160 cells. A stage
+// costs about 10 products with some 3 m x 3 m entries when reduced, and passes over the factor's
+// entries, about 5 n log2 n of them, when not. A basis costs dense products of n x m responses.
+static const double REDUCED_STAGE = 16e-9, FULL_STAGE = 14e-9, REDUCTION = 4e-9;
+static const double STAGES = 3000;   // of a run with some slidings; more, and it pays sooner
+static const double REDUCTION_BYTES = 64, REDUCTION_BYTES_MAX = 4e9;   // each n m; in all
+
+// Building a basis and stepping on it is expected to be done before stepping on the sparse factors
+// would be. From about 200 x 200 cells on it is not.
+static bool reduction_pays(const Model *model)
+{
+    if (model->scene->reduction.use == REDUCE_ALWAYS) return true;
+    double m = model->interface.count, n = model->bulk.dof_count;
+    double reduced = REDUCTION * n * m * m + STAGES * REDUCED_STAGE * m * m;
+    return reduced < STAGES * FULL_STAGE * n * log2(n) &&
+           REDUCTION_BYTES * n * m < REDUCTION_BYTES_MAX;
+}
+
+// Any rod node on the leading half.
+static bool rod_leads(const Model *model)
+{
+    const Interface *interface = &model->interface;
+    const Mesh *mesh = &model->mesh;
+    double middle = 0.5 * (mesh->x_min + mesh->x_max);
+    for (int32_t j = 0; j < interface->rod_count; j++)
+        if (mesh->position[2 * interface->rod_node[j]] > middle) return true;
+    return false;
+}
+
+static bool assemble_operator(Model *model, const char *key, Error *err)
+{
+    const Interface *interface = &model->interface;
+    TRY(model_build_bulk(model, err));
+    // A pushing rod comes from behind: on the leading face it would have to stand inside the block.
+    bool leads = rod_leads(model);
+    if (leads && model->scene->rod.kind == ROD_PUSH)
+        FAIL(err, ERROR_INPUT,
+             "%s: rod.kind: push, but group `%s` is on the leading half of the block, which a rod "
+             "that moves along +x cannot push; let it pull there (rod.kind: bonded) or name the "
+             "trailing face (groups.rod)",
+             model->scene->path, model->scene->groups.rod);
+    if (leads) key = "";   // a push must not find it in the cache
+    TRY(model_hold_supports(model, err));
+    if (is_reducible(model->scene) && reduction_pays(model))
+        TRY(reduce_bulk(model, key, err));
+    else
+        TRY(bulk_operator_create(&model->bulk, model->mesh.position, interface->dofs,
+                                 interface->count, &model->system, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// The shape's key, where it can be kept: supports are part of the assembled bulk only.
+static bool find_key(Model *model, char key[HASH_TEXT_SIZE], Error *err)
+{
+    const Scene *scene = model->scene;
+    key[0] = 0;
+    bool moves = scene->start.velocity_x != 0 || scene->start.velocity_z != 0;
+    if (!is_reducible(scene) || scene->load.support_count > 0 || moves) return true;
+    return shape_key(scene, reduction_tolerance(scene), key, err);
+}
+
+// A shape and its basis, both from the cache; *found: they were there.
+static bool find_shape(Model *model, const char *key, Shape *shape, bool *found, Error *err)
+{
+    *found = false;
+    if (!key[0]) return true;
+    TRY(shape_cache_load(key, shape, found, model->cache_note, err));
+    if (*found)
+        TRY(basis_cache_load(shape->basis, model->scene->output.fields, &model->reduced, found,
+                             model->cache_note, err));
+    *found = *found && model->reduced.interface_count == shape->interface.count;
+    if (!*found) {
+        shape_destroy(shape);
+        reduction_destroy(&model->reduced);
+    }
+    model->from_cache = *found;
+cleanup:
+    return error_is_clean(err);
+}
+
+// What velocities and times are measured with.
+static void set_scales(Model *model)
+{
+    const Scene *scene = model->scene;
+    const Material *material = &model->material;
+    double length = model->length;
+    model->scales.length = length;
+    model->scales.time = length / material_speeds(material).longitudinal +
+                         (material->eta1 + material->eta2) / material->young;
+    model->scales.slip_velocity = scene->rod.velocity > 0 ? scene->rod.velocity
+                                                          : scene->friction.critical_velocity;
+    // Nothing gives a velocity: that with which the load would deform the block in that time.
+    if (!(model->scales.slip_velocity > 0))
+        model->scales.slip_velocity = model->scales.load / material->young / model->scales.time;
+}
+
+// Three ways, the shortest that is open: shape and basis from the cache; meshed and assembled, the
+// basis from the cache; all made here.
+bool model_obtain(const Scene *scene, Model *model, Error *err)
+{
+    double started = clock_seconds();
+    char key[HASH_TEXT_SIZE];
+    Shape shape = {0};
+    bool found = false;
+    *model = (Model){.scene = scene};
+    model_set_materials(model);
+    TRY(find_key(model, key, err));
+    TRY(find_shape(model, key, &shape, &found, err));
+    if (!found || scene->output.fields) TRY(model_read_mesh(model, err));
+    if (found)
+        TRY(adopt_shape(model, &shape, err));
+    else
+        TRY(assemble_operator(model, key, err));
+    set_scales(model);
+cleanup:
+    shape_destroy(&shape);
+    model->seconds_reduce = clock_seconds() - started - model->seconds_mesh;
+    return error_is_clean(err);
+}

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The model that a scene is stepped with: read, assembled and reduced, or taken from the cache.
+#ifndef AMONTONS_MODEL_OBTAIN_H
+#define AMONTONS_MODEL_OBTAIN_H
+
+#include "model/model.h"
+
+// The shortest way to model->system: what the scene does not need of it is not done, and a shape in
+// the cache is neither meshed nor assembled. On failure `model` holds what was made.
+bool model_obtain(const Scene *scene, Model *model, Error *err);
+
+#endif
