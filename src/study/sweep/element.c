@@ -7,13 +7,15 @@
 //
 // Element e computes points[e]. Its scene is made anew and must have the hash that it had when the
 // sweep began: a study that was changed meanwhile would answer another question.
-#include "study/sweep/sweep.h"
+#include "study/sweep/element.h"
 
 #include "base/dense.h"
 #include "base/memory.h"
 #include "io/json_reader.h"
 #include "io/json_writer.h"
 #include "io/text_file.h"
+#include "study/sweep/study_point.h"
+#include "study/sweep/study_read.h"
 
 #include <errno.h>
 #include <stdlib.h>

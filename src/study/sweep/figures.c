@@ -2,11 +2,12 @@
 // A sweep's figures. Each is first a description in render/plot_file's format, figures/NAME.json,
 // which a user may edit and draw again (`amontons render`); the module `render` makes the picture.
 // Open marks: points whose peaks do not repeat.
-#include "study/sweep/sweep.h"
+#include "study/sweep/figures.h"
 
 #include "base/memory.h"
 #include "io/json_writer.h"
 #include "scene/keys.h"
+#include "study/sweep/study_point.h"
 
 #include <errno.h>
 #include <math.h>

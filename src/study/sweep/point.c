@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What stands on disk of a sweep's point, and under which name.
-#include "study/sweep/sweep.h"
+#include "study/sweep/point.h"
 
 #include "base/memory.h"
 #include "io/json_reader.h"
 #include "io/json_writer.h"
 #include "io/text_file.h"
 #include "scene/keys.h"
+#include "study/sweep/study_point.h"
 
 #include <limits.h>
 #include <string.h>

@@ -2,10 +2,11 @@
 // Computes pending points, each in a child process: what breaks in one, down to a crash, stays
 // there. A pipe from each child brings the message of what could not be written to run.json, and
 // tells by its end that the child is gone.
-#include "study/sweep/sweep.h"
+#include "study/sweep/pool.h"
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "study/sweep/tally.h"
 
 #include <errno.h>
 #include <poll.h>

@@ -2,11 +2,12 @@
 // A study's points in the order of one result. A gain is value / baseline - 1. Two points whose
 // bounds of mu_M (of mu_trusted, ranked by that) overlap are not told apart by these runs: such a
 // point is marked as good as the best.
-#include "study/sweep/sweep.h"
+#include "study/sweep/rank.h"
 
 #include "base/memory.h"
 #include "io/csv_writer.h"
 #include "io/json_reader.h"
+#include "study/sweep/study_point.h"
 
 #include <math.h>
 #include <stdlib.h>

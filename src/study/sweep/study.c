@@ -1,24 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Reading a study. Values are checked when the scenes of its points are made
-// (study/sweep/study_point).
-//
-// Order matters: `cases` and `vary` say which keys are columns, --set must know them to refuse
-// those that vary, and `set` comes after --set, as that may replace a formula. Lists are bounded
-// (study.h), so that a slip of the keyboard ends in a message and not in a week of runs.
+// What the files that read a study share.
 #include "study/sweep/study.h"
-
-#include "base/memory.h"
-#include "base/text.h"
-#include "scene/keys.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define KEYS(X) X("title") X("scene") X("set") X("cases") X("vary") X("record") X("rank") X("plot")
-
-// --- what stands in the file --------------------------------------------------------------------
 
 // Always false, so that a reader can return it.
 bool study_refuse(const Study *study, YamlNode node, const char *name, const char *allowed,
@@ -30,169 +17,6 @@ bool study_refuse(const Study *study, YamlNode node, const char *name, const cha
     return false;
 }
 
-// A mistyped key would silently change the study.
-static bool check_keys(const Study *study, Error *err)
-{
-    static const char *const known[] = {
-#define X(name) name,
-        KEYS(X)
-#undef X
-    };
-    enum { COUNT = sizeof known / sizeof known[0] };
-    for (YamlNode item = yaml_first(study->file, YAML_ROOT); item != YAML_NO_NODE;
-         item = yaml_next(study->file, item)) {
-        const char *key = yaml_key(study->file, item);
-        bool is_known = false;
-        for (int32_t k = 0; k < COUNT; k++) is_known = is_known || strcmp(key, known[k]) == 0;
-        if (is_known) continue;
-        int32_t nearest = text_nearest(key, known, COUNT);
-        if (nearest >= 0)
-            yaml_key_error(study->file, item, err,
-                           "%.60s: unknown key of a study; did you mean `%s`?", key,
-                           known[nearest]);
-        else
-            yaml_key_error(study->file, item, err,
-                           "%.60s: unknown key of a study; allowed: title, scene, set, cases, "
-                           "vary, record, rank, plot",
-                           key);
-        return false;
-    }
-    return true;
-}
-
-// text stays as it is where the key is missing.
-static bool read_text(const Study *study, const char *key, char text[SCENE_TEXT_SIZE], Error *err)
-{
-    YamlNode node = yaml_look_up(study->file, key);
-    if (node == YAML_NO_NODE) return true;
-    const char *value = yaml_text(study->file, node);
-    bool fits = yaml_kind(study->file, node) == YAML_SCALAR && strlen(value) < SCENE_TEXT_SIZE;
-    if (!fits) return study_refuse(study, node, key, "a text of at most 511 bytes", err);
-    memcpy(text, value, strlen(value) + 1);
-    return true;
-}
-
-// Relative to the study's folder, whatever the working directory.
-// Whether the file is there shows when the first point's scene is read.
-static bool read_scene_path(Study *study, Error *err)
-{
-    char given[SCENE_TEXT_SIZE] = "";
-    TRY(read_text(study, "scene", given, err));
-    if (!*given) {
-        yaml_error(study->file, YAML_ROOT, err,
-                   "scene: must be given: the scene that is varied, as in `scene: fig1.yaml`");
-        goto cleanup;
-    }
-    const char *slash = strrchr(study->path, '/');
-    int folder = slash && *given != '/' ? (int)(slash - study->path) + 1 : 0;
-    if (snprintf(study->scene, sizeof study->scene, "%.*s%s", folder, study->path, given) >=
-        (int)sizeof study->scene)
-        FAIL(err, ERROR_INPUT, "%s: the path of the scene is longer than 511 bytes", study->path);
-cleanup:
-    return error_is_clean(err);
-}
-
-// --- what varies --------------------------------------------------------------------------------
-
-// A key that stands in several places is one column.
-static bool add_column(Study *study, const char *key, Error *err)
-{
-    for (int32_t k = 0; k < study->column_count; k++)
-        if (strcmp(study->columns[k], key) == 0) return true;
-    if (study->column_count == STUDY_COLUMNS_MAX)
-        FAIL(err, ERROR_INPUT, "%s: more than %d keys vary", study->path, STUDY_COLUMNS_MAX);
-    snprintf(study->columns[study->column_count++], STUDY_NAME_SIZE, "%s", key);
-cleanup:
-    return error_is_clean(err);
-}
-
-// The keys that a value given under `key` sets: itself, or those of the map below it.
-static bool add_columns(Study *study, const char *key, const YamlDocument *document, YamlNode node,
-                        Error *err)
-{
-    bool opens = yaml_kind(document, node) == YAML_MAP;
-    bool is_map_of_keys = strcmp(key, "mesh.set") == 0 || strcmp(key, "output.fields") == 0 ||
-                          (scene_key_is_group(key) && scene_key_index(key) < 0);
-    if (!opens || !is_map_of_keys) return add_column(study, key, err);
-    for (YamlNode item = yaml_first(document, node); item != YAML_NO_NODE;
-         item = yaml_next(document, item)) {
-        char path[STUDY_NAME_SIZE];
-        snprintf(path, sizeof path, "%.40s.%.50s", key, yaml_key(document, item));
-        TRY(add_columns(study, path, document, item, err));
-    }
-cleanup:
-    return error_is_clean(err);
-}
-
-// A key as one would type it after --set: one of the scene's, a map of them, or mesh.set.NAME.
-// Whether the key can be set is known here; whether its value is right when a scene is made.
-static bool check_key(const Study *study, YamlNode item, Error *err)
-{
-    const char *key = yaml_key(study->file, item), *nearest = scene_key_nearest(key);
-    bool is_known = scene_key_index(key) >= 0 || scene_key_is_group(key) ||
-                    strncmp(key, "mesh.set.", 9) == 0;
-    if (strlen(key) >= STUDY_NAME_SIZE)
-        yaml_key_error(study->file, item, err, "a key of more than %d bytes", STUDY_NAME_SIZE - 1);
-    else if (!is_known && nearest)
-        yaml_key_error(study->file, item, err,
-                       "%s: unknown key of a scene; did you mean `%s`? (`amontons info keys` lists "
-                       "them all)",
-                       key, nearest);
-    else if (!is_known)
-        yaml_key_error(study->file, item, err,
-                       "%s: unknown key of a scene (`amontons info keys` lists them all)", key);
-    return error_is_clean(err);
-}
-
-// `= 0.5 * mesh.set.length`; in quotes it is a text that begins with `=`.
-static bool is_formula(const YamlDocument *document, YamlNode node)
-{
-    return yaml_kind(document, node) == YAML_SCALAR && !yaml_is_quoted(document, node) &&
-           yaml_text(document, node)[0] == '=';
-}
-
-// Formulas make columns, since their values differ from point to point; plain values do not.
-static bool read_set(Study *study, Error *err)
-{
-    study->set = yaml_look_up(study->file, "set");
-    if (study->set == YAML_NO_NODE) return true;
-    if (yaml_kind(study->file, study->set) != YAML_MAP)
-        return study_refuse(study, study->set, "set", "a map of the scene's keys", err);
-    for (YamlNode item = yaml_first(study->file, study->set); item != YAML_NO_NODE;
-         item = yaml_next(study->file, item)) {
-        TRY(check_key(study, item, err));
-        if (is_formula(study->file, item)) TRY(add_column(study, yaml_key(study->file, item), err));
-    }
-cleanup:
-    return error_is_clean(err);
-}
-
-// Every key of any case is a column; a case without it has the base scene's value there.
-static bool read_cases(Study *study, Error *err)
-{
-    study->case_count = 1;
-    study->cases = yaml_look_up(study->file, "cases");
-    if (study->cases == YAML_NO_NODE) return true;
-    study->case_count = yaml_count(study->file, study->cases);
-    if (yaml_kind(study->file, study->cases) != YAML_LIST || study->case_count == 0)
-        return study_refuse(study, study->cases, "cases", "a list of maps of the scene's keys",
-                            err);
-    for (YamlNode one = yaml_first(study->file, study->cases); one != YAML_NO_NODE;
-         one = yaml_next(study->file, one)) {
-        if (yaml_kind(study->file, one) != YAML_MAP)
-            return study_refuse(study, one, "cases", "a map of the scene's keys", err);
-        for (YamlNode item = yaml_first(study->file, one); item != YAML_NO_NODE;
-             item = yaml_next(study->file, item)) {
-            TRY(check_key(study, item, err));
-            TRY(add_columns(study, yaml_key(study->file, item), study->file, item, err));
-        }
-    }
-cleanup:
-    return error_is_clean(err);
-}
-
-// --- ranges -------------------------------------------------------------------------------------
-
 // Without a unit, and finite.
 bool study_plain_number(const Study *study, YamlNode node, double *value)
 {
@@ -202,190 +26,39 @@ bool study_plain_number(const Study *study, YamlNode node, double *value)
     return yaml_kind(study->file, node) == YAML_SCALAR && *text && !*end && isfinite(*value);
 }
 
-// {log: [from, to], points: n} or {linear: [from, to], points: n}; ends are met exactly, what lies
-// between is rounded to 6 digits, so that it can be quoted.
-// *text: a YAML list, the caller's to free, so that values of a range are read by the same parser
-// as those that stand in the file.
-static bool write_range(const double bounds[2], bool is_log, int32_t points, char **text,
-                        Error *err)
+// `= 0.5 * mesh.set.length`; in quotes it is a text that begins with `=`.
+bool study_is_formula(const YamlDocument *document, YamlNode node)
 {
-    enum { NUMBER_SIZE = 32 };
-    double from = bounds[0], to = bounds[1];
-    *text = NEW_ARRAY(char, (int64_t)points *NUMBER_SIZE + 8, err);
-    if (!*text) return false;
-    int64_t used = 1;
-    (*text)[0] = '[';
-    for (int32_t k = 0; k < points; k++) {
-        double part = points > 1 ? (double)k / (points - 1) : 0;
-        double value = is_log ? from * pow(to / from, part) : from + (to - from) * part;
-        int digits = 6;
-        if (k == 0 || k == points - 1) {
-            value = k == 0 ? from : to;
-            for (digits = 6; digits < 17; digits++) {
-                char trial[NUMBER_SIZE];
-                snprintf(trial, sizeof trial, "%.*g", digits, value);
-                if (strtod(trial, NULL) == value) break;
-            }
-        }
-        used += snprintf(*text + used, NUMBER_SIZE, "%s%.*g", k ? ", " : "", digits, value);
-    }
-    (*text)[used] = ']';
-    return true;
+    return yaml_kind(document, node) == YAML_SCALAR && !yaml_is_quoted(document, node) &&
+           yaml_text(document, node)[0] == '=';
 }
 
-// The document made of it belongs to the study (made), and errors in its values name the range's
-// place.
-static bool read_range(Study *study, YamlNode node, StudyAxis *axis, Error *err)
+// -1: no key of this name varies.
+int32_t study_column(const Study *study, const char *name)
 {
-    static const char allowed[] = "a list of values, {log: [from, to], points: n} or "
-                                  "{linear: [from, to], points: n}";
-    YamlNode ends = YAML_NO_NODE, points = YAML_NO_NODE;
-    bool is_log = false, is_known = true;
-    double bounds[2] = {0, 0}, count = 0;
-    char *text = NULL, name[SCENE_TEXT_SIZE + 80];
-    for (YamlNode item = yaml_first(study->file, node); item != YAML_NO_NODE;
-         item = yaml_next(study->file, item)) {
-        const char *key = yaml_key(study->file, item);
-        if (strcmp(key, "log") == 0 || strcmp(key, "linear") == 0) {
-            is_known = is_known && ends == YAML_NO_NODE;
-            ends = item;
-            is_log = key[1] == 'o';
-        } else if (strcmp(key, "points") == 0) {
-            points = item;
-        } else {
-            is_known = false;
-        }
-    }
-    if (!is_known || ends == YAML_NO_NODE || points == YAML_NO_NODE)
-        return study_refuse(study, node, axis->key, allowed, err);
-    YamlNode first = yaml_first(study->file, ends);
-    bool good = yaml_kind(study->file, ends) == YAML_LIST && yaml_count(study->file, ends) == 2 &&
-                study_plain_number(study, first, &bounds[0]) &&
-                study_plain_number(study, yaml_next(study->file, first), &bounds[1]);
-    if (!good) return study_refuse(study, ends, axis->key, "two numbers, [from, to]", err);
-    if (is_log && !(bounds[0] > 0 && bounds[1] > 0))
-        return study_refuse(study, ends, axis->key, "two numbers > 0 in a range of logarithms",
-                            err);
-    if (!study_plain_number(study, points, &count) || count != floor(count) || count < 1 ||
-        count > STUDY_RANGE_MAX)
-        return study_refuse(study, points, axis->key, "a whole number of points, from 1 to 10000",
-                            err);
-    TRY(write_range(bounds, is_log, (int32_t)count, &text, err));
-    snprintf(name, sizeof name, "%s:%d:%d, values of the range", study->path,
-             yaml_line(study->file, node), yaml_column(study->file, node));
-    TRY(yaml_parse(name, text, 0, &study->made[study->made_count], err));
-    axis->document = study->made[study->made_count++];
-    axis->list = YAML_ROOT;
-cleanup:
-    memory_free(text);
-    return error_is_clean(err);
-}
-
-// A key of `vary`: its values as they stand, or those of a range, made into a document of their
-// own.
-static bool read_axis(Study *study, YamlNode item, Error *err)
-{
-    StudyAxis *axis = &study->axes[study->axis_count];
-    TRY(check_key(study, item, err));
-    snprintf(axis->key, sizeof axis->key, "%s", yaml_key(study->file, item));
-    axis->document = study->file;
-    axis->list = item;
-    YamlKind kind = yaml_kind(study->file, item);
-    if (kind == YAML_MAP) TRY(read_range(study, item, axis, err));
-    axis->count = yaml_count(axis->document, axis->list);
-    if ((kind != YAML_MAP && kind != YAML_LIST) || axis->count == 0)
-        return study_refuse(study, item, axis->key,
-                            "a list of values, {log: [from, to], points: n} or "
-                            "{linear: [from, to], points: n}",
-                            err);
-    study->axis_count++;
-    for (YamlNode value = yaml_first(axis->document, axis->list); value != YAML_NO_NODE;
-         value = yaml_next(axis->document, value))
-        TRY(add_columns(study, axis->key, axis->document, value, err));
-cleanup:
-    return error_is_clean(err);
-}
-
-static bool read_vary(Study *study, Error *err)
-{
-    YamlNode vary = yaml_look_up(study->file, "vary");
-    if (vary == YAML_NO_NODE) return true;
-    if (yaml_kind(study->file, vary) != YAML_MAP || yaml_count(study->file, vary) > STUDY_AXES_MAX)
-        return study_refuse(study, vary, "vary", "a map of at most 16 keys of the scene", err);
-    for (YamlNode item = yaml_first(study->file, vary); item != YAML_NO_NODE;
-         item = yaml_next(study->file, item))
-        TRY(read_axis(study, item, err));
-cleanup:
-    return error_is_clean(err);
-}
-
-// --- the whole ----------------------------------------------------------------------------------
-
-// A key that varies is refused, rather than silently losing to `vary`.
-static bool read_override(Study *study, const char *text, Error *err)
-{
-    char shown[STUDY_NAME_SIZE + 8];
-    char *key = study->override_keys[study->override_count];
-    const char *equals = strchr(text, '=');
-    if (!equals || equals == text || equals - text >= STUDY_NAME_SIZE)
-        FAIL(err, ERROR_INPUT, "--set %.80s: wanted is key=value, as in load.pressure=0.006", text);
-    memcpy(key, text, (size_t)(equals - text));
     for (int32_t k = 0; k < study->column_count; k++)
-        if (strcmp(study->columns[k], key) == 0)
-            FAIL(err, ERROR_INPUT, "--set %s: %s varies this key", key, study->path);
-    snprintf(shown, sizeof shown, "--set %s", key);
-    YamlDocument **document = &study->made[study->made_count];
-    TRY(yaml_parse(shown, text, (int32_t)(equals - text) + 1, document, err));
-    study->made_count++;
-    study->overrides[study->override_count++] =
-        (SceneSetting){.key = key, .document = *document, .node = YAML_ROOT};
-cleanup:
-    return error_is_clean(err);
+        if (strcmp(study->columns[k], name) == 0) return k;
+    return -1;
 }
 
-// Counted in 64 bits: a product of lists overflows 32 sooner than it looks.
-static bool count_points(Study *study, Error *err)
+// `key` itself, or a map that it is in.
+static bool sets(const char *given, const char *key)
 {
-    int64_t count = study->case_count;
-    for (int32_t k = 0; k < study->axis_count && count <= STUDY_POINTS_MAX; k++)
-        count *= study->axes[k].count;
-    if (count > STUDY_POINTS_MAX)
-        FAIL(err, ERROR_INPUT, "%s: more than %d points", study->path, STUDY_POINTS_MAX);
-    study->point_count = (int32_t)count;
-cleanup:
-    return error_is_clean(err);
+    size_t length = strlen(given);
+    return strncmp(key, given, length) == 0 && (!key[length] || key[length] == '.');
 }
 
-// What is wrong with values shows when scenes are made, point by point (study_point_scene).
-bool study_read(const char *path, const char *const *overrides, int32_t override_count,
-                Study *study, Error *err)
+bool study_is_chosen(const Study *study, const char *key)
 {
-    *study = (Study){.set = YAML_NO_NODE, .cases = YAML_NO_NODE, .rank.baseline = YAML_NO_NODE};
-    if (strlen(path) >= sizeof study->path)
-        FAIL(err, ERROR_INPUT, "%.80s...: a path of more than 511 bytes", path);
-    memcpy(study->path, path, strlen(path) + 1);
-    if (override_count > STUDY_SETTINGS_MAX - STUDY_AXES_MAX - 1)
-        FAIL(err, ERROR_INPUT, "more than %d settings by --set",
-             STUDY_SETTINGS_MAX - STUDY_AXES_MAX - 1);
-    TRY(yaml_read(path, &study->file, err));
-    if (yaml_kind(study->file, YAML_ROOT) != YAML_MAP) {
-        yaml_error(study->file, YAML_ROOT, err,
-                   "not a study: a study is a map of keys, as in `scene: fig1.yaml`");
-        goto cleanup;
-    }
-    TRY(check_keys(study, err));
-    TRY(yaml_parse("what a sweep sets", STUDY_STANDARD, 0, &study->made[0], err));
-    study->standard = study->made[study->made_count++];
-    TRY(read_text(study, "title", study->title, err));
-    TRY(read_scene_path(study, err));
-    TRY(read_cases(study, err));
-    TRY(read_vary(study, err));
-    for (int32_t i = 0; i < override_count; i++) TRY(read_override(study, overrides[i], err));
-    TRY(read_set(study, err));   // after --set, which may replace a formula
-    TRY(study_read_wanted(study, err));
-    TRY(count_points(study, err));
-cleanup:
-    return error_is_clean(err);
+    for (int32_t k = 0; k < study->axis_count; k++)
+        if (sets(study->axes[k].key, key)) return true;
+    if (study->cases == YAML_NO_NODE) return false;
+    for (YamlNode one = yaml_first(study->file, study->cases); one != YAML_NO_NODE;
+         one = yaml_next(study->file, one))
+        for (YamlNode item = yaml_first(study->file, one); item != YAML_NO_NODE;
+             item = yaml_next(study->file, item))
+            if (sets(yaml_key(study->file, item), key)) return true;
+    return false;
 }
 
 // Also of one half read.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A study: one base scene and how it is varied. Read from a YAML file; the points it stands for are
-// scenes, each made on demand. Called by study/sweep/sweep.
+// scenes, each made on demand (study_point). study_read reads it, by study_vary and study_wanted.
 //
 //     title: mu_M against pressure
 //     scene: fig1.yaml                          # relative to the study's folder
@@ -95,26 +95,15 @@ typedef struct Study {
     StudyPlot plot;
 } Study;
 
-// overrides: "key=value" as after --set, for every point; a key that is varied is refused.
-// ERROR_INPUT: file:line:column, the key, what was found and what is allowed.
-bool study_read(const char *path, const char *const *overrides, int32_t override_count,
-                Study *study, Error *err);
-void study_destroy(Study *study);
+void study_destroy(Study *study);   // also of one half read
 
-// The scene of `point`, 0 to point_count - 1: cases outermost, then the keys of `vary` in order.
-bool study_point_scene(const Study *study, int32_t point, Scene *scene, Error *err);
-// The scene that is measured against: `point` with the keys of rank.baseline.
-bool study_baseline_scene(const Study *study, int32_t point, Scene *scene, Error *err);
-
-// The value of a column's key in a scene, as text; *number is NaN where it is no number.
-void study_scene_value(const Scene *scene, const char *key, char *words, int32_t size,
-                       double *number);
-
-// A key that `vary` or `cases` sets, alone or in a map; not one that follows by a formula of `set`.
+// --- what the files that read a study share
+// The index in `columns` of the key `name`; -1: it does not vary.
+int32_t study_column(const Study *study, const char *name);
+// Whether `vary` or `cases` sets the key, alone or in a map; a formula of `set` does not count.
 bool study_is_chosen(const Study *study, const char *key);
-
-// --- shared by the files that read a study
-bool study_read_wanted(Study *study, Error *err);   // record, rank, plot
+// `= 0.5 * mesh.set.length`; in quotes it is a text that begins with `=`.
+bool study_is_formula(const YamlDocument *document, YamlNode node);
 bool study_plain_number(const Study *study, YamlNode node, double *value);   // false: is none
 // Sets ERROR_INPUT: "NAME: found ...; allowed: ..."; false.
 bool study_refuse(const Study *study, YamlNode node, const char *name, const char *allowed,

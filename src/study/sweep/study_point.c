@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The scene of one point of a study: settings are gathered in order, then the formulas are worked
 // out one by one, each over the scene as it stands after those before it.
-#include "study/sweep/study.h"
+#include "study/sweep/study_point.h"
 
 #include "base/memory.h"
 #include "scene/keys.h"
@@ -70,9 +70,7 @@ void study_scene_value(const Scene *scene, const char *key, char *words, int32_t
 // Formulas are put aside, to be worked out when all plain values are in.
 static bool add(PointSettings *settings, const SceneSetting *setting, Error *err)
 {
-    bool is_formula = yaml_kind(setting->document, setting->node) == YAML_SCALAR &&
-                      !yaml_is_quoted(setting->document, setting->node) &&
-                      yaml_text(setting->document, setting->node)[0] == '=';
+    bool is_formula = study_is_formula(setting->document, setting->node);
     int32_t room = is_formula ? STUDY_FORMULAS_MAX : STUDY_SETTINGS_MAX;
     int32_t *count = is_formula ? &settings->formula_count : &settings->count;
     if (*count == room)

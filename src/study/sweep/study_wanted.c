@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a study wants to know: the columns of its table (`record`), the best of its points (`rank`)
-// and a figure (`plot`).
-#include "study/sweep/study.h"
+// What is ranked by or drawn becomes a column of the table where it is none yet.
+#include "study/sweep/study_wanted.h"
 
 #include "base/text.h"
 #include "scene/keys.h"
@@ -137,34 +136,6 @@ static bool read_choice(const Study *study, const WantedKey *key, const char *co
     return study_refuse(study, key->node, key->name, allowed, err);
 }
 
-// -1: no key of this name varies.
-static int32_t find_column(const Study *study, const char *name)
-{
-    for (int32_t k = 0; k < study->column_count; k++)
-        if (strcmp(study->columns[k], name) == 0) return k;
-    return -1;
-}
-
-// `key` itself, or a map that it is in.
-static bool sets(const char *given, const char *key)
-{
-    size_t length = strlen(given);
-    return strncmp(key, given, length) == 0 && (!key[length] || key[length] == '.');
-}
-
-bool study_is_chosen(const Study *study, const char *key)
-{
-    for (int32_t k = 0; k < study->axis_count; k++)
-        if (sets(study->axes[k].key, key)) return true;
-    if (study->cases == YAML_NO_NODE) return false;
-    for (YamlNode one = yaml_first(study->file, study->cases); one != YAML_NO_NODE;
-         one = yaml_next(study->file, one))
-        for (YamlNode item = yaml_first(study->file, one); item != YAML_NO_NODE;
-             item = yaml_next(study->file, item))
-            if (sets(yaml_key(study->file, item), key)) return true;
-    return false;
-}
-
 // --- rank ---------------------------------------------------------------------------------------
 
 // first, best, or the keys that make a point its own baseline.
@@ -233,7 +204,7 @@ static bool read_axis(Study *study, const WantedKey *key, StudyAxisData *axis, E
                    "plot: `%s` must be given, as in {x: load.pressure, y: mu_M}", key->name);
         return false;
     }
-    axis->index = find_column(study, yaml_text(study->file, key->node));
+    axis->index = study_column(study, yaml_text(study->file, key->node));
     axis->is_record = axis->index < 0;
     const char *name = yaml_text(study->file, key->node);
     if (axis->is_record && (scene_key_index(name) >= 0 || strncmp(name, "mesh.set.", 9) == 0)) {
@@ -257,7 +228,7 @@ static bool read_plot(Study *study, Error *err)
     TRY(read_choice(study, &keys[3], logs, 4, &log, err));
     plot->series = -1;
     if (keys[2].node != YAML_NO_NODE) {
-        plot->series = find_column(study, yaml_text(study->file, keys[2].node));
+        plot->series = study_column(study, yaml_text(study->file, keys[2].node));
         if (plot->series < 0)
             return study_refuse(study, keys[2].node, "series", "a key that varies", err);
     }

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // study read -> every scene checked and hashed -> finished points found -> the rest computed ->
 // table, and what the study wants shown of it.
-#include "study/sweep/sweep.h"
-
 #include "base/clock.h"
 #include "base/dense.h"
 #include "base/memory.h"
-#include "io/json_reader.h"
+#include "study/sweep/figures.h"
+#include "study/sweep/pool.h"
+#include "study/sweep/slurm.h"
+#include "study/sweep/study_point.h"
+#include "study/sweep/study_read.h"
+#include "study/sweep/tally.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <math.h>
 #include <string.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -103,117 +105,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Tells the caller that point `k` has ended and left `report` (NULL: none).
-static void tell(Sweep *sweep, int32_t k, const char *report)
-{
-    const SweepPoint *point = &sweep->points[k];
-    char words[POINT_WORDS_SIZE] = "", message[ERROR_MESSAGE_SIZE] = "";
-    Error ignored = {0};
-    Scene *scene = NULL;
-    sweep->finished++;
-    if (point->status == POINT_FAILED) sweep->failed++;
-    if (!sweep->options->on_point) return;
-    scene = NEW_ARRAY(Scene, 1, &ignored);
-    if (scene && study_point_scene(&sweep->study, k, scene, &ignored))
-        point_words(sweep, scene, words);
-    memory_free(scene);
-    SweepView view = {.words = words,
-                      .mu_M = NAN,
-                      .seconds = point->seconds,
-                      .seconds_left = NAN,
-                      .finished = sweep->finished,
-                      .failed = sweep->failed,
-                      .points = sweep->study.point_count,
-                      .reused = point->reused};
-    if (report) json_find_number(report, "results.mu_M", &view.mu_M);
-    if (point->status == POINT_FAILED) {
-        if (report) json_find_text(report, "message", message, sizeof message);
-        view.message = message;
-    }
-    if (sweep->computed > 0)
-        view.seconds_left = (clock_seconds() - sweep->started) / sweep->computed *
-                            (sweep->study.point_count - sweep->finished);
-    sweep->options->on_point(&view, sweep->options->context);
-}
-
-// Points finished by an earlier sweep.
-static bool find_finished(Sweep *sweep, Error *err)
-{
-    for (int32_t k = 0; k < sweep->study.point_count; k++) {
-        SweepPoint *point = &sweep->points[k];
-        if (point->same_as < k) continue;
-        char *report = point_report(sweep, k, err);
-        TRY(error_is_clean(err));
-        point->status = point_status(report);
-        if (sweep->options->fresh || (sweep->options->retry && point->status == POINT_FAILED))
-            point->status = POINT_PENDING;
-        point->reused = point->status != POINT_PENDING;
-        if (point->reused) {
-            sweep->reused++;
-            tell(sweep, k, report);
-        } else if (report) {
-            point_remove(sweep, k);
-        }
-        memory_free(report);
-    }
-cleanup:
-    return error_is_clean(err);
-}
-
-// What one computation decided holds for all points of the same scene.
-// Called when all are computed, before the table, which has a row for each.
-static void share_results(Sweep *sweep)
-{
-    for (int32_t k = 0; k < sweep->study.point_count; k++) {
-        SweepPoint *point = &sweep->points[k];
-        const SweepPoint *first = &sweep->points[point->same_as];
-        point->status = first->status;
-        if (point->same_as < k) point->reused = first->status != POINT_PENDING;
-    }
-}
-
-// Looked at between points; what the caller does about those under way is his.
-bool sweep_check_stop(const Sweep *sweep, Error *err)
-{
-    const volatile sig_atomic_t *stop = sweep->options->stop;
-    if (stop && *stop)
-        FAIL(err, ERROR_INTERRUPT, "interrupted; the same command goes on where this one stopped");
-cleanup:
-    return error_is_clean(err);
-}
-
-// A point whose scene an earlier one has waits for that one, not by itself.
-bool sweep_is_waiting(const Sweep *sweep, int32_t point)
-{
-    return sweep->points[point].status == POINT_PENDING && sweep->points[point].same_as == point;
-}
-
-// Called as points end, in whatever order that is; the table keeps the study's.
-bool sweep_take_ended(Sweep *sweep, int32_t point, double seconds, bool *left, Error *err)
-{
-    char *report = point_report(sweep, point, err);
-    TRY(error_is_clean(err));
-    *left = point_status(report) != POINT_PENDING;
-    if (!*left) goto cleanup;
-    if (isnan(seconds) && !json_find_number(report, "timing_s.total", &seconds)) seconds = 0;
-    sweep->points[point].status = point_status(report);
-    sweep->points[point].seconds = seconds;
-    sweep->computed++;
-    tell(sweep, point, report);
-cleanup:
-    memory_free(report);
-    return error_is_clean(err);
-}
-
-// The report is read back rather than made up: what is counted is what the next sweep will find.
-bool sweep_take_lost(Sweep *sweep, int32_t point, double seconds, const char *failure,
-                     const char *message, Error *err)
-{
-    bool left = false;
-    return point_write_failure(sweep, point, failure, message, err) &&
-           sweep_take_ended(sweep, point, seconds, &left, err);
-}
-
 // The ranked table and the figures that the study asks for; those of a sweep that was stopped are
 // not drawn.
 static bool show_results(const Sweep *sweep, bool whole, Error *err)
@@ -234,19 +125,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-static void summarise(const Sweep *sweep, SweepSummary *summary)
-{
-    *summary = (SweepSummary){.points = sweep->study.point_count,
-                              .computed = sweep->computed,
-                              .seconds = clock_seconds() - sweep->started};
-    for (int32_t k = 0; k < sweep->study.point_count; k++) {
-        const SweepPoint *point = &sweep->points[k];
-        summary->reused += point->reused;
-        summary->failed += point->status == POINT_FAILED;
-        summary->pending += point->status == POINT_PENDING;
-    }
-}
-
 // A stopped sweep still leaves its table, with what is not done marked as pending.
 bool amontons_sweep(const char *path, const SweepOptions *options, SweepSummary *summary,
                     Error *err)
@@ -262,11 +140,11 @@ bool amontons_sweep(const char *path, const SweepOptions *options, SweepSummary 
     TRY(study_read(path, options->overrides, options->override_count, &sweep->study, err));
     TRY(plan_points(sweep, err));
     TRY(take_folder(sweep, err));
-    TRY(find_finished(sweep, err));
+    TRY(sweep_take_finished(sweep, err));
     TRY(slurm_end_leftovers(sweep, err));
     bool whole = options->slurm ? slurm_run(sweep, &stopped) : pool_run(sweep, &stopped);
-    share_results(sweep);
-    summarise(sweep, summary);
+    sweep_share_results(sweep);
+    sweep_summarise(sweep, summary);
     if (!whole && stopped.code != ERROR_INTERRUPT) {
         *err = stopped;
         goto cleanup;

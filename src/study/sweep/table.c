@@ -4,12 +4,13 @@
 //
 // Both files hold the same rows: the CSV for spreadsheets and eyes, the arrays for programs, which
 // have no words: a word is its index in a list that is an attribute beside its column.
-#include "study/sweep/sweep.h"
+#include "study/sweep/table.h"
 
 #include "base/memory.h"
 #include "io/array_file.h"
 #include "io/csv_writer.h"
 #include "io/json_reader.h"
+#include "study/sweep/study_point.h"
 
 #include <math.h>
 #include <string.h>

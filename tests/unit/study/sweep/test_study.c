@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Studies: which points they stand for, what each point's scene holds, and what is wrong where.
-#include "study/sweep/study.h"
+#include "study/sweep/study_read.h"
 
 #include "base/memory.h"
 #include "scene/keys.h"
+#include "study/sweep/study_point.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// One point in a process that somebody else starts: an element of a Slurm array. That process calls
+// amontons_sweep_element (amontons.h).
+#ifndef AMONTONS_STUDY_SWEEP_ELEMENT_H
+#define AMONTONS_STUDY_SWEEP_ELEMENT_H
+
+#include "study/sweep/point.h"
+
+// The list that the elements read: element e computes points[e] ([count]).
+bool elements_write(const Sweep *sweep, const char *path, const int32_t *points, int32_t count,
+                    Error *err);
+
+#endif

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A sweep, its points, and what of them stands on disk. An interrupted point is not finished.
+//
+//     DIR/points/<hash>/run.json   one finished point, under a hash of its full scene
+//     DIR/sweep.csv, DIR/sweep.h5  the table, a row a point in the study's order
+//     DIR/ranking.csv              the same points, the best first, where the study asks (`rank`)
+//     DIR/figures/*.png            pictures of the ranking and of the study's `plot`
+//     DIR/slurm/                   scripts and output of the elements, with --slurm
+//     DIR/lock                     one sweep at a time
+//
+// A point is an ordinary run: with `output.history: true` in the study its folder holds all of a
+// result. It is finished when its run.json stands there.
+#ifndef AMONTONS_STUDY_SWEEP_POINT_H
+#define AMONTONS_STUDY_SWEEP_POINT_H
+
+#include "amontons.h"
+#include "base/hash.h"
+#include "study/sweep/study.h"
+
+typedef enum PointStatus { POINT_PENDING, POINT_DONE, POINT_FAILED } PointStatus;
+
+typedef struct SweepPoint {
+    PointStatus status;
+    char hash[HASH_TEXT_SIZE];
+    int32_t same_as;   // an earlier point with the same scene; its own index: none
+    int32_t baseline;   // the point that `rank` measures it against; -1: none
+    bool reused;   // was finished when the sweep began
+    double seconds;   // in this sweep
+} SweepPoint;
+
+typedef struct Sweep {
+    const SweepOptions *options;   // not owned
+    Study study;   // owned
+    char folder[AMONTONS_PATH_SIZE];
+    int lock;   // file descriptor; -1: none
+    SweepPoint *points;   // [study.point_count]; owned
+    double started;   // wall clock, s
+    double busy;   // seconds of all points computed so far
+    int32_t computed, failed, finished;
+} Sweep;
+
+enum { POINT_PATH_SIZE = AMONTONS_PATH_SIZE + 64, POINT_WORDS_SIZE = 512 };
+// The mesh file hashed last: one shared by all points is read once. Begins zeroed.
+typedef struct PointMesh {
+    Hash hash;
+    char path[SCENE_TEXT_SIZE];
+} PointMesh;
+
+// A name for all that decides what a point comes to: version, mesh file, every key but the title.
+bool point_hash(const Scene *scene, PointMesh *mesh, char hash[HASH_TEXT_SIZE], Error *err);
+void point_folder(const Sweep *sweep, int32_t point, char folder[POINT_PATH_SIZE]);
+// run.json of the point (memory_free); NULL without an error when there is none.
+char *point_report(const Sweep *sweep, int32_t point, Error *err);
+PointStatus point_status(const char *report);   // of a run.json, or NULL
+const char *point_status_name(PointStatus status);   // "pending"; static storage
+void point_remove(const Sweep *sweep, int32_t point);
+bool point_run(const Sweep *sweep, int32_t point, Error *err);   // in this process
+// run.json for a point that left none: `failure` in a word or two, `message` in full.
+bool point_write_failure(const Sweep *sweep, int32_t point, const char *failure,
+                         const char *message, Error *err);
+// "load.pressure=0.003 mesh.set.nx=40"
+void point_words(const Sweep *sweep, const Scene *scene, char words[POINT_WORDS_SIZE]);
+
+#endif

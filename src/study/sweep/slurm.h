@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Computes pending points as Slurm job arrays, an element a point, and waits for them.
+#ifndef AMONTONS_STUDY_SWEEP_SLURM_H
+#define AMONTONS_STUDY_SWEEP_SLURM_H
+
+#include "study/sweep/point.h"
+
+bool slurm_run(Sweep *sweep, Error *err);
+// Cancels what an earlier sweep in this folder, itself killed, left to Slurm.
+bool slurm_end_leftovers(const Sweep *sweep, Error *err);
+
+#endif
