@@ -11,8 +11,8 @@ bool sweep_take_finished(Sweep *sweep, Error *err);
 bool sweep_is_waiting(const Sweep *sweep, int32_t point);   // to be computed, by itself
 // ERROR_INTERRUPT once options->stop is set.
 bool sweep_check_stop(const Sweep *sweep, Error *err);
-// The process of `point` has ended: its report is counted and the caller told. seconds: it took; NaN:
-// as the report says. *left: whether there is a report.
+// The process of `point` has ended: its report is counted and the caller told. seconds: it took;
+// NaN: as the report says. *left: whether there is a report.
 bool sweep_take_ended(Sweep *sweep, int32_t point, double seconds, bool *left, Error *err);
 // The same of one that left none: first the report of its failure is written, `failure` in a word
 // or two, `message` in full.
