@@ -12,6 +12,9 @@
 #include <math.h>
 #include <string.h>
 
+// An old matrix is given up when the residual of a step is above this part of that before it.
+static const double CHORD_GAIN = 0.1;
+
 // The header says what the numbers rest on.
 ContactSolverDef contact_solver_def(void)
 {
@@ -515,8 +518,8 @@ static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
         double residual = equations_residual(solver, problem, solution, free_count);
         if (!isfinite(residual)) break;
         bool equations_hold = residual <= solver->def.tolerance * scales.force;
-        // An old matrix that no longer brings a digit a step has had its time.
-        if (!equations_hold && reused && residual > 0.1 * course.before) solver->kept_schur = NULL;
+        if (!equations_hold && reused && residual > CHORD_GAIN * course.before)
+            solver->kept_schur = NULL;
         course.before = reused ? residual : INFINITY;
         if (!equations_hold && !reused && has_stalled(&course, residual / scales.force)) break;
         // First solve for these statuses, where steps are not Newton's own or only one may change.

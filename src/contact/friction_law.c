@@ -60,10 +60,13 @@ bool friction_weakens(const FrictionLaw *law, double speed)
     return friction_slope(law, speed) < 0.0;
 }
 
-// Where exp(-5) is left of the drop, under 1 %, or none.
+// Of v_c: where exp(-5) is left of the exponential law's drop, under 1 %.
+static const double SPENT = 5;
+
+// Where next to nothing is left of the drop, or none.
 double friction_spent_speed(const FrictionLaw *law)
 {
-    return law->critical_velocity * (law->kind == FRICTION_EXPONENTIAL_WEAKENING ? 5 : 1);
+    return law->critical_velocity * (law->kind == FRICTION_EXPONENTIAL_WEAKENING ? SPENT : 1);
 }
 
 // Solves mu = mu_K + (mu_S - mu_K) phi for phi: 1 at rest, 0 from v_c on, and for the linear law

@@ -8,6 +8,8 @@
 #include <math.h>
 
 static const double PI = 3.14159265358979323846;
+// Softness over ln(1/w)/(pi E*); the header says what it is fitted to.
+static const double END_SOFTNESS = 4;
 
 // origin is 0 here: where the nodes stand when the rod begins to move is set once the block is at
 // rest. false with ERROR_MEMORY: *rod is half built, rod_destroy frees it.
@@ -26,12 +28,13 @@ void rod_destroy(Rod *rod)
     *rod = (Rod){0};
 }
 
-// 4 ln(1/w) / (pi E*) with w the node's share in (0, 1]; 0, rigid, for a node wholly in the strip.
+// END_SOFTNESS ln(1/w) / (pi E*) with w the node's share in (0, 1]; 0, rigid, for a node wholly in
+// the strip.
 void rod_soften(const Interface *interface, double modulus, double viscosity, Rod *rod)
 {
     rod->lag = viscosity / modulus;
     for (int32_t j = 0; j < interface->rod_count; j++)
-        rod->softness[j] = -4 * log(interface->rod_share[j]) / (PI * modulus);
+        rod->softness[j] = -END_SOFTNESS * log(interface->rod_share[j]) / (PI * modulus);
 }
 
 // Length over time. A rigid node goes to origin + V t within the stage: v = (origin + V t -

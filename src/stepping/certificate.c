@@ -20,6 +20,9 @@ static const double BETWEEN_RUNGS = 1.0606601717798212;
 // they begin with all that weakens.
 static const double START_PART = 1e-6;
 
+// A load that changes by less than this part in a power of the iteration has settled.
+static const double SETTLED = 1e-6;
+
 // block is borrowed. S_C is condensed from C alone, lifted as C may be singular in the interface's
 // own motion (bulk/interface_operator), once for all states.
 bool certificate_create(const Block *block, ClosedOperator *closed, Certificate *certificate,
@@ -183,8 +186,8 @@ bool certificate_swings_less(Certificate *certificate, const State *state,
 }
 
 // Powers of ((S_t + sign(v) mu S_n)[F,F])^-1 W.
-// W takes all but J out of the vector before each solve. 1e-6 of the load is enough to tell it from
-// 1. On short steps mass decides, nodes bear nearly the same and powers settle slowly, far below 1:
+// W takes all but J out of the vector before each solve. SETTLED is enough to tell the load from 1.
+// On short steps mass decides, nodes bear nearly the same and powers settle slowly, far below 1:
 // there, and where the vector turns, its growth over all n powers bounds the load, as load^n times
 // START_PART is at most |x_n|/|x_0|. The bound is up to START_PART^(-1/n), 7 %, too large.
 static double largest_load(Certificate *certificate, const State *state, const double *schur)
@@ -201,7 +204,7 @@ static double largest_load(Certificate *certificate, const State *state, const d
         for (int32_t a = 0; a < count; a++) x[a] *= certificate->weakening[a] / norm;
         dense_lu_solve(certificate->matrix, count, certificate->pivots, x);
         load = norm = sqrt(dense_dot(x, x, count));
-        if (fabs(load - before) <= 1e-6 * load) return load;
+        if (fabs(load - before) <= SETTLED * load) return load;
         logarithm += log(load);
     }
     return fmax(load, exp((logarithm - log(START_PART)) / POWERS_MAX));
