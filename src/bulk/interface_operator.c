@@ -125,7 +125,7 @@ void bulk_operator_recover(const BulkOperator *system, const double *x, double *
     if (system->bulk)
         memcpy(full, x, (size_t)system->dof_count * sizeof(double));
     else
-        reduction_recover(system->reduced, x, full);
+        reduced_bulk_recover(system->reduced, x, full);
 }
 
 // The share of inertia in A, normalised as bulk/reduction has it.
@@ -134,7 +134,7 @@ double bulk_operator_error(const BulkOperator *system, OperatorTerms terms)
     if (!system->reduced) return 0;
     const BulkScales *scales = &system->reduced->scales;
     double rest = terms.damping * scales->damping + terms.stiffness * scales->stiffness;
-    return reduction_error(system->reduced, terms.mass * scales->mass / rest);
+    return reduced_bulk_error(system->reduced, terms.mass * scales->mass / rest);
 }
 
 // A = m M + c C + k K; returns its largest diagonal entry on the interface.

@@ -12,7 +12,7 @@
 #define AMONTONS_BULK_INTERFACE_OPERATOR_H
 
 #include "bulk/assembly.h"
-#include "bulk/reduction.h"
+#include "bulk/reduced_bulk.h"
 
 typedef enum BulkTerm { BULK_STIFFNESS, BULK_DAMPING, BULK_MASS } BulkTerm;
 

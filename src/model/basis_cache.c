@@ -87,7 +87,7 @@ bool basis_cache_load(const char *name, bool with_modes, ReducedBulk *reduced, b
     if (reason[0]) snprintf(note, CACHE_NOTE_SIZE, "a cached basis is not used: %s", reason);
 cleanup:
     cache_file_destroy(&file);
-    if (!*found || !error_is_clean(err)) reduction_destroy(reduced);
+    if (!*found || !error_is_clean(err)) reduced_bulk_destroy(reduced);
     return error_is_clean(err);
 }
 

@@ -9,7 +9,7 @@
 #ifndef AMONTONS_MODEL_BASIS_CACHE_H
 #define AMONTONS_MODEL_BASIS_CACHE_H
 
-#include "bulk/reduction.h"
+#include "bulk/reduced_bulk.h"
 #include "bulk/reduction_block.h"
 #include "io/file_lock.h"
 #include "model/shape_cache.h"

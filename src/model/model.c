@@ -4,7 +4,7 @@
 void model_destroy(Model *model)
 {
     bulk_operator_destroy(&model->system);
-    reduction_destroy(&model->reduced);
+    reduced_bulk_destroy(&model->reduced);
     interface_destroy(&model->interface);
     bulk_destroy(&model->bulk);
     mesh_destroy(&model->mesh);

@@ -6,6 +6,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "bulk/reduction.h"
 #include "bulk/reduction_block.h"
 #include "model/assemble.h"
 #include "model/basis_cache.h"
@@ -219,7 +220,7 @@ static bool find_shape(Model *model, const char *key, Shape *shape, bool *found,
     *found = *found && model->reduced.interface_count == shape->interface.count;
     if (!*found) {
         shape_destroy(shape);
-        reduction_destroy(&model->reduced);
+        reduced_bulk_destroy(&model->reduced);
     }
     model->from_cache = *found;
 cleanup:

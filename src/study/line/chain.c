@@ -133,7 +133,7 @@ void chain_destroy(Chain *chain)
 {
     rod_destroy(&chain->rod);
     bulk_operator_destroy(&chain->system);
-    reduction_destroy(&chain->reduced);
+    reduced_bulk_destroy(&chain->reduced);
     interface_destroy(&chain->interface);
     *chain = (Chain){0};
 }

@@ -6,6 +6,7 @@
 #include "base/dense.h"
 #include "block_mesh.h"
 #include "bulk/interface_operator.h"
+#include "bulk/reduction.h"
 #include "dense_by_hand.h"
 
 typedef struct ReducedBlock {
@@ -57,7 +58,7 @@ static inline void reduced_block_build(const BlockDef *shape, const Material *ma
 
 static inline void reduced_block_destroy(ReducedBlock *block)
 {
-    reduction_destroy(&block->reduced);
+    reduced_bulk_destroy(&block->reduced);
     free(block->dofs);
     bulk_destroy(&block->bulk);
     mesh_destroy(&block->mesh);

@@ -151,7 +151,7 @@ static void test_rigid_motions_and_load(void **state)
             memset(x, 0, (size_t)reduced->count * sizeof *x);
             for (int32_t i = 0; i < m; i++) x[i] = wanted[block.dofs[i]];
             if (motion == 2) memcpy(turn, x, (size_t)m * sizeof *turn);
-            reduction_recover(reduced, x, full);
+            reduced_bulk_recover(reduced, x, full);
             assert_all_near("rigid", full, wanted, n, 1e-11);
         }
         BulkOperator system;
@@ -286,7 +286,7 @@ static void test_memory_faults(void **state)
         assert_int_equal(err.code, done ? ERROR_NONE : ERROR_MEMORY);
         interface_operator_destroy(rung);
         bulk_operator_destroy(&system);
-        reduction_destroy(&block.reduced);
+        reduced_bulk_destroy(&block.reduced);
         assert_int_equal(memory_counters().live, live);
         assert_true(k < 2000);
     }

@@ -59,7 +59,7 @@ static void test_error_is_known(void **state)
                 OperatorTerms terms = strip_terms(&block.def.scales, viscosity, inertia);
                 double error = response_error(&block, &block.reduced, terms);
                 double allowed = tolerances[t] * (tolerances[t] + 2.5 * inertia / element);
-                double said = reduction_error(&block.reduced, inertia);
+                double said = reduced_bulk_error(&block.reduced, inertia);
                 BulkOperator system;
                 Error err = {0};
                 double *turn = hand_matrix(block.interface_count, 1);
@@ -94,10 +94,10 @@ static void test_shortest_steps(void **state)
     for (double inertia = 2 * element; inertia < 1e8 * element; inertia *= 20) {
         double error =
             response_error(&block, &block.reduced, strip_terms(&block.def.scales, 1, inertia));
-        double said = reduction_error(&block.reduced, inertia);
+        double said = reduced_bulk_error(&block.reduced, inertia);
         if (error > 1.1 * said) fail_msg("inertia %g: error %g, said %g", inertia, error, said);
     }
-    assert_true(reduction_error(&block.reduced, 1e9 * element) > 0.06);
+    assert_true(reduced_bulk_error(&block.reduced, 1e9 * element) > 0.06);
     reduced_block_destroy(&block);
 }
 

@@ -61,7 +61,7 @@ static void store(const char *name, char note[CACHE_NOTE_SIZE])
     note[0] = 0;
     make_basis(5, &reduced);
     basis_cache_store(name, &reduced, note);
-    reduction_destroy(&reduced);
+    reduced_bulk_destroy(&reduced);
 }
 
 static bool load(const char *name, bool with_modes, ReducedBulk *reduced,
@@ -106,9 +106,9 @@ static void test_round_trip(void **state)
         assert_same(read.load, made.load, ALL);
         if (with_modes) assert_same(read.modes, made.modes, DOFS * ALL);
         if (!with_modes) assert_null(read.modes);
-        reduction_destroy(&read);
+        reduced_bulk_destroy(&read);
     }
-    reduction_destroy(&made);
+    reduced_bulk_destroy(&made);
     assert_int_equal(memory_counters().live, live);
 }
 
@@ -129,7 +129,7 @@ static void test_not_trusted(void **state)
     store(NAME, note);
     assert_int_equal(truncate(modes, 1000), 0);
     assert_true(load(NAME, false, &read, note));   // modes are not asked for
-    reduction_destroy(&read);
+    reduced_bulk_destroy(&read);
     assert_false(load(NAME, true, &read, note));
     assert_string_equal(note, "a cached basis is not used: it is cut off");
     assert_int_equal(unlink(modes), 0);
@@ -178,7 +178,7 @@ static void test_memory_faults(void **state)
         memory_fail_after(-1);
         assert_int_equal(err.code, done ? ERROR_NONE : ERROR_MEMORY);
         if (done) assert_true(found);
-        reduction_destroy(&read);
+        reduced_bulk_destroy(&read);
         assert_int_equal(memory_counters().live, live);
         assert_true(k < 10);
     }
@@ -187,7 +187,7 @@ static void test_memory_faults(void **state)
     basis_cache_store(NAME, &made, note);
     assert_non_null(strstr(note, "the basis is not kept for the next run: cannot write"));
     setenv("AMONTONS_CACHE", folder, 1);
-    reduction_destroy(&made);
+    reduced_bulk_destroy(&made);
 }
 
 // The recorded basis: of this block, in the format named. Trace of S at dt = 1, 0.1, 0.01, 1e-4,

@@ -5,6 +5,7 @@
 
 #include "base/dense.h"
 #include "block_mesh.h"
+#include "bulk/reduction.h"
 #include "dense_by_hand.h"
 
 #include <complex.h>
@@ -60,7 +61,7 @@ static void case_close(Case *test)
     rod_destroy(&test->rod);
     state_destroy(&test->state);
     bulk_operator_destroy(&test->system);
-    reduction_destroy(&test->reduced);
+    reduced_bulk_destroy(&test->reduced);
     interface_destroy(&test->interface);
     bulk_destroy(&test->bulk);
     mesh_destroy(&test->mesh);

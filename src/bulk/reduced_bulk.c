@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "bulk/reduced_bulk.h"
+
+#include "base/dense.h"
+#include "base/memory.h"
+
+#include <math.h>
+
+void reduced_bulk_destroy(ReducedBulk *reduced)
+{
+    if (reduced->storage) {
+        memory_free(reduced->storage);
+    } else {
+        memory_free(reduced->mass);
+        memory_free(reduced->damping);
+        memory_free(reduced->stiffness);
+        memory_free(reduced->viscous);
+        memory_free(reduced->load);
+    }
+    memory_free(reduced->modes);
+    *reduced = (ReducedBulk){0};
+}
+
+void reduced_bulk_recover(const ReducedBulk *reduced, const double *state, double *full)
+{
+    DenseView modes = {reduced->modes, reduced->full_dofs, reduced->count};
+    dense_apply(modes, state, 1, 0, full);
+}
+
+// Between two levels the error is not known; it was found to stay below the larger of theirs (a
+// test asks at random).
+double reduced_bulk_error(const ReducedBulk *reduced, double inertia)
+{
+    const ReductionErrors *errors = &reduced->errors;
+    if (errors->count == 0) return 0;
+    int32_t above = 0;
+    while (above < errors->count - 1 && errors->inertia[above] < inertia) above++;
+    double below = above > 0 ? errors->error[above - 1] : 0;
+    return fmax(below, errors->error[above]);
+}

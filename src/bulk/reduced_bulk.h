@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The bulk as a small dense system: the unknowns u_b of the interface first, then the coordinates
+// q of an interior basis,
+//
+//     u = [ I   0   ] [ u_b ]      K = [ S_K 0 ]      M, C full.
+//         [ Psi Phi ] [ q   ]          [ 0   I ]
+//
+// All matrices are normalised: K/E, C/eta, M/(rho L^2) with lengths over L; so one serves every
+// size and stiffness of a shape. Built by bulk/reduction, stored by model/basis_cache, used through
+// bulk/interface_operator.
+#ifndef AMONTONS_BULK_REDUCED_BULK_H
+#define AMONTONS_BULK_REDUCED_BULK_H
+
+#include <stdint.h>
+
+// What the normalised matrices are multiplied with to be those of a scene.
+typedef struct BulkScales {
+    double stiffness;   // E, stress
+    double damping;   // eta1 + eta2, stress * time
+    double mass;   // rho L^2, mass/width
+    double load;   // size of the load vector, force/width
+} BulkScales;
+
+enum { REDUCTION_LEVELS_MAX = 64 };
+
+// How far S was off on the full mesh: a Galerkin reduction is too stiff, never too soft, and
+//
+//     error = largest eigenvalue of L^-1 (S_reduced - S) L^-T,   S = L L',
+//
+// is the largest relative error of the resistance v'S v to any motion v of the interface.
+typedef struct ReductionErrors {
+    int32_t count;
+    double inertia[REDUCTION_LEVELS_MAX];   // [count] ascending; the last stands for infinity
+    double error[REDUCTION_LEVELS_MAX];   // [count] the larger of those at viscosity 0 and 1
+} ReductionErrors;
+
+typedef struct ReducedBulk {
+    int32_t full_dofs;
+    int32_t interface_count;   // m
+    int32_t interior_count;   // r
+    int32_t count;   // m + r
+    double *mass, *damping;   // [count^2] symmetric, both triangles, normalised; owned
+    double *stiffness;   // [m^2] S_K; the interior block is the unit matrix; owned
+    double *viscous;   // [m^2] S of C alone; owned; NULL: not at hand
+    double *load;   // [count] of the unit load; owned
+    double *modes;   // [full_dofs * count] u = modes [u_b; q]; owned; NULL: not at hand
+    double *storage;   // the array that those above lie in (a file's); owned; NULL: none
+    ReductionErrors errors;
+    BulkScales scales;
+} ReducedBulk;
+
+void reduced_bulk_destroy(ReducedBulk *reduced);
+
+// The error of S to expect at `inertia` (normalised, see bulk/reduction): the larger of those
+// measured on either side of it.
+double reduced_bulk_error(const ReducedBulk *reduced, double inertia);
+
+// full [full_dofs] = modes * state [count]. The modes must be at hand.
+void reduced_bulk_recover(const ReducedBulk *reduced, const double *state, double *full);
+
+#endif
