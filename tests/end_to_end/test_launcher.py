@@ -35,6 +35,7 @@ sudo)
 cmake)
     if [[ $1 == --build ]]; then
         [[ -n ${BUILD_SAYS-} ]] && { echo "$BUILD_SAYS"; exit 1; }
+        [[ -n ${BUILD_EDITS-} ]] && touch "$BUILD_EDITS"
         mkdir -p "$2/bin"
         printf '#!/bin/bash\nprintf "[%%s]" "$@"; pwd; exit ${PROGRAM_STATUS-0}\n' \
             >"$2/bin/amontons"
@@ -73,6 +74,9 @@ class Project(unittest.TestCase):
         self.tools.mkdir()
         self.calls_file.touch()
         shutil.copy(SOURCE / "amontons", self.root)
+        for name in ("CMakeLists.txt", "CMakePresets.json", "src/run/a.c", "render/canvas.c"):
+            (self.root / name).parent.mkdir(parents=True, exist_ok=True)
+            (self.root / name).touch()
         (self.tools / "tool").write_text(TOOL)
         (self.tools / "tool").chmod(0o755)
         for name in TOOLS:
@@ -99,8 +103,8 @@ class Project(unittest.TestCase):
         """A PATH that has what the launcher uses, but not the tools called `names`."""
         bare = self.folder / "bare"
         bare.mkdir()
-        for name in ["bash", "basename", "cat", "env", "flock", "grep", "mkdir", "pwd", "rm", "sed",
-                     "tail", "touch", "tr", "chmod", "readlink", *TOOLS]:
+        for name in ["bash", "basename", "cat", "chmod", "cp", "env", "find", "flock", "grep", "mkdir",
+                     "mv", "pwd", "readlink", "rm", "sed", "tail", "touch", "tr", *TOOLS]:
             if name not in names:
                 (bare / name).symlink_to(
                     self.tools / "tool" if name in TOOLS else shutil.which(name))
@@ -158,16 +162,60 @@ class PassThrough(Project):
 
         self.assertLess(median(self.root / "amontons") - median(program), 0.025)
 
-    def test_builds_again_after_a_pull(self):
-        log = self.root / ".git/logs/HEAD"
-        log.parent.mkdir(parents=True)
-        log.touch()
-        os.utime(log, (time.time() + 5, time.time() + 5))
+    def test_builds_again_after_a_change(self):
+        """An edited, a new and a deleted source, and edited build files: never a stale program."""
+        source = self.root / "src/run"
+        changes = {
+            "edited": lambda: (source / "a.c").write_text("int b;\n"),
+            "new": lambda: (source / "b.c").touch(),
+            "deleted": lambda: (source / "b.c").unlink(),
+            "picture": lambda: (self.root / "render/canvas.c").touch(),
+            "CMakeLists.txt": lambda: (self.root / "CMakeLists.txt").touch(),
+            "program": lambda: (self.root / "build/bin/amontons").unlink()}
+        for name, change in changes.items():
+            with self.subTest(name):
+                self.run_launcher("info")
+                self.assertEqual(self.calls(), [])
+                change()
+                done = self.run_launcher("info")
+                self.assertEqual(self.calls("cmake"),
+                                 [f"cmake --build {self.root}/build --target amontons"])
+                self.assertEqual(done.stderr, "amontons: building\n")
+
+    def test_change_while_building(self):
+        """... is in no program yet, so the next call builds once more."""
+        source = self.root / "src/run/a.c"
+        source.touch()
+        self.run_launcher("info", BUILD_EDITS=str(source))
+        self.assertEqual(len(self.calls("cmake --build")), 1)
         self.run_launcher("info")
         self.assertEqual(len(self.calls("cmake --build")), 1)
-        os.utime(log, (1, 1))
         self.run_launcher("info")
         self.assertEqual(self.calls(), [])
+
+    def test_changed_source_that_does_not_build(self):
+        (self.root / "src/run/a.c").touch()
+        for _ in range(2):
+            done = self.run_launcher("info", BUILD_SAYS="a.c:1:1: error: no such thing")
+            self.assertEqual((done.returncode, done.stdout), (1, ""))
+            self.assertIn("no such thing", done.stderr)
+
+    def test_changed_presets(self):
+        """Their flags reach the program only where it is configured again."""
+        (self.root / "CMakePresets.json").touch()
+        self.run_launcher("info")
+        self.assertEqual(len(self.calls("cmake --preset")), 1)
+        self.run_launcher("demo")
+        self.assertEqual(self.calls("cmake --preset"), [])
+
+    def test_without_build_tools(self):
+        """A program that is up to date needs none of them."""
+        self.without("cmake", "apt-get", "dpkg-query")
+        self.assertIn("[info]", self.run_launcher("info").stdout)
+        (self.root / "src/run/a.c").touch()
+        done = self.run_launcher("info")
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertIn("cmake", done.stderr)
 
 
 class FirstTime(Project):
@@ -186,10 +234,10 @@ class FirstTime(Project):
         self.assertEqual(self.calls("apt-get") + self.calls("sudo"), [])
         self.assertEqual(self.calls("cmake"), [
             f"cmake --preset release -S {self.root} -DBUILD_TESTING=OFF",
-            f"cmake --build {self.root}/build"])
+            f"cmake --build {self.root}/build --target amontons"])
         done = self.run_launcher("demo", script="./amontons")
         self.assertIn("[run][validation/paper/fig1.yaml][-o][results/fig1]", done.stdout)
-        self.assertEqual(self.calls(), ["cmake --build ./build"])
+        self.assertEqual(self.calls(), ["cmake --build ./build --target amontons"])
         self.assertEqual(done.stderr, "")
 
     def test_other_words_build_first(self):
@@ -242,7 +290,14 @@ class FirstTime(Project):
         self.root.chmod(0o555)
         done = self.run_as_user("demo")
         self.assertEqual(done.returncode, 1)
-        self.assertIn("cannot write into", done.stderr)
+        self.assertEqual(done.stderr.count("cannot write into"), 1, done.stderr)
+        self.root.chmod(0o777)
+        self.run_launcher("demo")
+        (self.root / "src/run/a.c").touch()
+        (self.root / "build").chmod(0o555)
+        done = self.run_as_user("demo")
+        self.assertEqual((done.returncode, done.stderr),
+                         (1, f"amontons: cannot write into {self.root}/build\n"))
 
 
 class Installing(Project):
