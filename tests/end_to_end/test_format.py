@@ -17,6 +17,7 @@ FILE_LINES, FUNCTION_LINES, ARGUMENTS, COLUMNS = 700, 90, 6, 100
 HEADER_LINES = {"amontons.h": 270}   # the public header; every other header: below 150
 HEADER_LINES_MAX = 150
 CLANG_FORMAT = "14"                  # Debian 12's; another major version formats otherwise
+MACHINE = re.compile(r"(?<![\w.])/(?:work|root|home|Users|media|mnt)/\w+")
 LICENCE = "SPDX-License-Identifier: GPL-2.0-or-later"
 
 
@@ -120,6 +121,22 @@ class Style(unittest.TestCase):
                 ("static Module *opened;", "src/base/module.c", 0)]:
             with self.subTest(line):
                 self.assertEqual(len(bad_habits(place, f"int a;\n\n{line}\n")), count)
+
+    def test_no_place_of_a_machine(self):
+        """Nothing names a folder of the machine it was made on, published tables least of all."""
+        checked = 0
+        for folder, folders, names in os.walk(SOURCE):
+            if Path(folder) == SOURCE:
+                folders[:] = [f for f in folders if f != "results" and f[0] != "."
+                              and not f.startswith("build")]
+            for path in (Path(folder, name) for name in names):
+                if path.suffix in (".png", ".pyc", ".log") or path.name[0] == ".":
+                    continue
+                with self.subTest(str(path.relative_to(SOURCE))):
+                    self.assertEqual(MACHINE.findall(path.read_text()), [])
+                checked += 1
+        self.assertGreater(checked, 200)
+        self.assertTrue(MACHINE.search("error: /home/" + "someone/scene.yaml: no"))
 
     def test_licence_of_the_rest(self):
         """Scripts, build files and meshes name the licence in their first three lines."""

@@ -7,9 +7,11 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 FOLDER = Path(os.environ["AMONTONS_SOURCE"], "validation", "benchmark")
 sys.path.insert(0, str(FOLDER))
+import measured_run  # noqa: E402
 import stress  # noqa: E402
 import stress_cases  # noqa: E402
 from measured_run import run  # noqa: E402
@@ -45,6 +47,11 @@ class Stress(unittest.TestCase):
         word, faults = self.judged(case)
         self.assertEqual((word, faults), ("refused", ["should have been computed"]))
 
+    def test_table_names_files_of_the_project(self):
+        """... relative to it, whatever machine the table is made on."""
+        said = run(stress.SCENE, ["groups.rod=leading"]).said
+        self.assertIn("error: validation/benchmark/stress.yaml: rod.kind: push", said)
+
     def test_missing_and_needless_warnings(self):
         """Said in run.json and on standard error where viscosity cannot bear the weakening."""
         thin = run(stress.SCENE, ["material.eta1=0.01", "material.eta2=0.01"], 20)
@@ -54,6 +61,15 @@ class Stress(unittest.TestCase):
         self.assertIn("ill-posed", none.said)
         usual = run(stress.SCENE, [], 20)
         self.assertEqual((usual.said, usual.report["results"]["warnings"]), ("", []))
+
+    def test_version_without_git(self):
+        """A source archive has no repository, a bare system no git."""
+        version = r"^\w.*\d+\.\d+\.\d+$"
+        with tempfile.TemporaryDirectory() as empty:
+            with mock.patch.dict(os.environ, PATH=empty):
+                self.assertRegex(measured_run.commit(), version)
+            with mock.patch.object(measured_run, "ROOT", Path(empty)):
+                self.assertRegex(measured_run.commit(), version)
 
 
 if __name__ == "__main__":

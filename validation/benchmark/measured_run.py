@@ -7,6 +7,7 @@ import math
 import os
 import re
 import resource
+import shutil
 import signal
 import subprocess
 import tempfile
@@ -27,7 +28,7 @@ class Measured:
     timed_out: bool
     seconds: float         # processor time, user and system
     memory: float          # largest resident size, MB
-    said: str              # standard error, its progress lines left out
+    said: str              # standard error without progress lines; paths relative to the project
     report: dict           # run.json; empty: none was written
     late_mu: float         # mean of mu over the second half of the time; NaN: no history
     phases: dict           # of --profile: name -> (wall seconds, count)
@@ -76,6 +77,7 @@ def run(scene, settings, cpu_limit=60, into=None):
             _, status, usage = os.wait4(process.pid, 0)
             said.seek(0)
             text = "\n".join(line for line in said.read().splitlines() if is_message(line))
+            text = text.replace(f"{ROOT}/", "")
         status = os.waitstatus_to_exitcode(status)
         process.returncode = status
         written = folder / "run.json"
@@ -93,10 +95,13 @@ def git(*words):
 
 def commit():
     """Which program was measured: the last commit that changed it, so that keeping a report is no
-    new version."""
+    new version; the program's own version where git or the repository is missing."""
     program = ("--", "src", "render", "meshes")
-    found = git("log", "-1", "--format=%h", *program).stdout.strip() or "unknown"
-    return found + "-dirty" * (git("diff", "--quiet", "HEAD", *program).returncode == 1)
+    if shutil.which("git") and (ROOT / ".git").exists():
+        found = git("log", "-1", "--format=%h", *program).stdout.strip()
+        if found:
+            return found + "-dirty" * (git("diff", "--quiet", "HEAD", *program).returncode == 1)
+    return subprocess.run([PROGRAM, "--version"], capture_output=True, text=True).stdout.strip()
 
 
 def markdown_row(cells):
