@@ -169,8 +169,8 @@ static void test_no_folder_writes_nothing(void **state)
     const char *source = getenv("AMONTONS_SOURCE"), *old_home = getenv("HOME");
     snprintf(home, sizeof home, "%s", old_home ? old_home : "/");
     if (!source || source[0] != '/') fail_msg("AMONTONS_SOURCE is no absolute path");
-    Scene *scene = small_scene((const char *const[]){"output.fields={at_events: true}",
-                                                     "output.figures=[force]", NULL});
+    Scene *scene = small_scene(
+        (const char *const[]){"output.fields={at_events: true}", "output.figures=[force]", NULL});
     assert_int_equal(chdir(place), 0);
     setenv("HOME", place, 1);
     RunOptions options = {0};
