@@ -266,6 +266,26 @@ class Sweep(unittest.TestCase):
         done = self.sweep(study=self.study(STUDY + "rank: {by: mu_M, against: {load.pressure: 7}}\n"), status=2)
         self.assertRegex(done.stderr, r":9:\d+: against: no point of the study has these values")
 
+    def test_bounds_of_each_result(self):
+        """A plot of mu_M has the bounds of mu_M, whatever the study is ranked by; bounds known are printed."""
+        study = self.study(STUDY + "rank: {by: mu_trusted, top: 8}\nplot: {x: load.pressure, y: mu_M, series: rod.kind}\n"
+                           "record: [mu_M, spread, period, low, high, mu_trusted, mu_trusted_error]\n")
+        shown = self.sweep(study=study).stdout.split("mu_trusted, highest first")[1].splitlines()
+        known = {}
+        for row in self.table():
+            mu, half = float(row["mu_M"]), float(row["spread"] or 0) / 2   # one peak has no spread, and no bounds
+            ends = (mu - half, mu + half) if row["period"] != "0" else (float(row["low"]), float(row["high"]))
+            known[mu] = ends if half else (None, None)
+        curves = [c for c in json.loads((self.folder / "out/figures/plot.json").read_text())["series"] if c["label"]]
+        drawn = {y: (low, high) for c in curves for y, low, high in zip(c["y"], c["low"], c["high"])}
+        self.assertEqual(drawn.keys(), known.keys())
+        for mu, bounds in drawn.items():
+            np.testing.assert_allclose(np.array(bounds, float), np.array(known[mu], float), rtol=1e-12)
+        self.assertEqual(shown[1].split(), ["rank", "mesh.set.length", "load.pressure", "rod.kind", "mu_trusted", "low", "high", "gain"])
+        best = max(self.table(), key=lambda row: float(row["mu_trusted"]))
+        mu, error = float(best["mu_trusted"]), float(best["mu_trusted_error"])
+        self.assertIn(f" {mu:.4g}  {mu - 2 * error:.4g}  {mu + 2 * error:.4g} ", shown[2])
+
     def test_equal_points_are_computed_once(self):
         study = self.study(STUDY.replace("[1, 2]", "[1, 1.0]"))
         self.assertIn("8 points: 4 computed", self.sweep(study=study).stdout)

@@ -196,13 +196,12 @@ cleanup:
 }
 
 // Marks of the rows that are periodic, or of those that are not; NaN leaves a row out.
-static void write_marks(Figure *figure, const SweepTable *table, const Ranking *ranking,
-                        int32_t shown, bool periodic)
+static void write_marks(Figure *figure, const Ranking *ranking, int32_t shown, bool periodic)
 {
     double x[ROWS_MAX], y[ROWS_MAX], low[ROWS_MAX], high[ROWS_MAX];
     for (int32_t k = 0; k < shown; k++) {
         const RankRow *row = &ranking->rows[k];
-        bool is_one = (table->period[row->point] > 0) == periodic;
+        bool is_one = (row->period > 0) == periodic;
         x[k] = is_one ? row->value : NAN;
         y[k] = shown - k;
         low[k] = row->low;
@@ -222,22 +221,16 @@ static void write_marks(Figure *figure, const SweepTable *table, const Ranking *
 }
 
 // An upright line at what gains are measured from, where that is one value.
-static void write_baseline(Figure *figure, const SweepTable *table, const Ranking *ranking,
-                           int32_t shown)
+static void write_baseline(Figure *figure, const Ranking *ranking, int32_t shown)
 {
-    const Study *study = &figure->sweep->study;
-    double base = ranking->rows[0].value;
-    if (study->rank.against == AGAINST_KEYS) return;
-    if (study->rank.against == AGAINST_FIRST)
-        base = table->records[(int64_t)study->rank.record * study->point_count];
-    double x[] = {base, base}, y[] = {0.5, shown + 0.5};
+    double x[] = {ranking->base, ranking->base}, y[] = {0.5, shown + 0.5};
+    if (isnan(ranking->base)) return;
     Curve line = {.label = "", .line = "dashed", .color = COLORS, .count = 2, .x = x, .y = y};
     write_curve(figure->json, &line);
 }
 
 // Nothing is drawn where no point has a value.
-bool figure_of_ranking(const Sweep *sweep, const SweepTable *table, const Ranking *ranking,
-                       Error *err)
+bool figure_of_ranking(const Sweep *sweep, const Ranking *ranking, Error *err)
 {
     Figure figure = {.sweep = sweep, .name = "ranking"};
     char label[LABEL_SIZE];
@@ -246,15 +239,15 @@ bool figure_of_ranking(const Sweep *sweep, const SweepTable *table, const Rankin
     if (shown > ROWS_MAX) shown = ROWS_MAX;
     if (shown == 0) return true;
     TRY(begin_figure(&figure, err));
-    for (int32_t k = 0; k < shown; k++) open += !(table->period[ranking->rows[k].point] > 0);
+    for (int32_t k = 0; k < shown; k++) open += !(ranking->rows[k].period > 0);
     record_label(&sweep->study.records[sweep->study.rank.record], label);
     json_number(figure.json, "height", fmax(0.3, HEIGHT_LEFT + ROW_HEIGHT * shown));
     write_axis(&figure, "x", label, false);
     TRY(write_names(&figure, ranking, shown, err));
     json_begin_list(figure.json, "series");
-    write_baseline(&figure, table, ranking, shown);
-    write_marks(&figure, table, ranking, shown, true);
-    if (open) write_marks(&figure, table, ranking, shown, false);
+    write_baseline(&figure, ranking, shown);
+    write_marks(&figure, ranking, shown, true);
+    if (open) write_marks(&figure, ranking, shown, false);
     json_end(figure.json);
 cleanup:
     return end_figure(&figure, err);
@@ -279,20 +272,17 @@ static const double *axis_values(const Study *study, const SweepTable *table, St
            (int64_t)axis.index * study->point_count;
 }
 
-// Only mu_M has bounds.
-static bool y_is_mu_M(const Study *study)
-{
-    return study->plot.y.is_record &&
-           strcmp(study->records[study->plot.y.index].path, "results.mu_M") == 0;
-}
-
 // The points of the curve whose key `series` has the value `wanted`, along x. Returns how many.
 static int32_t gather_points(const Study *study, const SweepTable *table, double wanted,
                              PlotPoint *points)
 {
     const double *x = axis_values(study, table, study->plot.x);
     const double *y = axis_values(study, table, study->plot.y);
-    bool has_bars = y_is_mu_M(study);
+    bool bounded = false;
+    // A key of the scene has no bounds; whether the point's peaks repeat is still known.
+    const Bounds *bounds = study->plot.y.is_record
+                               ? table_bounds(table, &study->records[study->plot.y.index], &bounded)
+                               : &table->mu_M;
     int32_t count = 0;
     for (int32_t k = 0; k < study->point_count; k++) {
         const double *series = &table->keys[(int64_t)study->plot.series * study->point_count];
@@ -300,9 +290,9 @@ static int32_t gather_points(const Study *study, const SweepTable *table, double
         if (!isfinite(x[k]) || !isfinite(y[k])) continue;
         points[count++] = (PlotPoint){.x = x[k],
                                       .y = y[k],
-                                      .low = has_bars ? table->low[k] : y[k],
-                                      .high = has_bars ? table->high[k] : y[k],
-                                      .periodic = table->period[k] > 0};
+                                      .low = bounded ? bounds->low[k] : y[k],
+                                      .high = bounded ? bounds->high[k] : y[k],
+                                      .periodic = bounds->period[k] > 0};
     }
     qsort(points, (size_t)count, sizeof *points, compare_x);
     return count;

@@ -17,15 +17,9 @@ enum { CELL_SIZE = 80, NOTE_SIZE = 120, CELLS_MAX = STUDY_COLUMNS_MAX + 6 };
 
 // --- order --------------------------------------------------------------------------------------
 
-// Bounds are known of mu_M and of mu_trusted only: other results are ranked without.
-static bool is_mu_M(const Study *study)
+static const StudyRecord *ranked_by(const Study *study)
 {
-    return strcmp(study->records[study->rank.record].path, "results.mu_M") == 0;
-}
-
-static bool is_mu_trusted(const Study *study)
-{
-    return strcmp(study->records[study->rank.record].path, "results.mu_trusted") == 0;
+    return &study->records[study->rank.record];
 }
 
 // Rows without a value stand last, equal ones in the study's order; falling values.
@@ -54,18 +48,24 @@ bool ranking_make(const Sweep *sweep, const SweepTable *table, Ranking *ranking,
     double sign = study->rank.lowest ? -1 : 1;
     const double *values = &table->records[(int64_t)study->rank.record * study->point_count];
     *ranking = (Ranking){.count = study->point_count};
+    const Bounds *bounds = table_bounds(table, ranked_by(study), &ranking->bounded);
     TRY((ranking->rows = NEW_ARRAY(RankRow, study->point_count, err)));
     for (int32_t k = 0; k < ranking->count; k++) {
-        ranking->rows[k] =
-            (RankRow){.point = k, .value = sign * values[k], .low = NAN, .high = NAN};
+        ranking->rows[k] = (RankRow){.point = k,
+                                     .value = sign * values[k],
+                                     .low = NAN,
+                                     .high = NAN,
+                                     .period = bounds->period[k]};
         if (isnan(values[k])) continue;
         ranking->ranked++;
-        if (!is_mu_M(study) && !is_mu_trusted(study)) continue;
-        ranking->rows[k].low = table->low[k];
-        ranking->rows[k].high = table->high[k];
+        if (!ranking->bounded) continue;
+        ranking->rows[k].low = bounds->low[k];
+        ranking->rows[k].high = bounds->high[k];
     }
     qsort(ranking->rows, (size_t)ranking->count, sizeof *ranking->rows, compare);
     const RankRow *best = &ranking->rows[0];
+    ranking->base = study->rank.against == AGAINST_KEYS ? (double)NAN
+                                                        : baseline_value(sweep, values, ranking, 0);
     for (int32_t k = 0; k < ranking->count; k++) {
         RankRow *row = &ranking->rows[k];
         row->value *= sign;
@@ -92,8 +92,8 @@ static void add_note(char note[NOTE_SIZE], const char *words)
 }
 
 // What makes a value doubtful, and the sentence in which the run itself warned ("": none).
-static bool row_notes(const Sweep *sweep, const SweepTable *table, const RankRow *row,
-                      char note[NOTE_SIZE], char warning[RUN_WARNING_SIZE], Error *err)
+static bool row_notes(const Sweep *sweep, const RankRow *row, char note[NOTE_SIZE],
+                      char warning[RUN_WARNING_SIZE], Error *err)
 {
     PointStatus status = sweep->points[row->point].status;
     char *report = status == POINT_DONE ? point_report(sweep, row->point, err) : NULL;
@@ -102,11 +102,11 @@ static bool row_notes(const Sweep *sweep, const SweepTable *table, const RankRow
     TRY(error_is_clean(err));
     if (status != POINT_DONE) add_note(note, point_status_name(status));
     if (status == POINT_DONE && isnan(row->value)) add_note(note, "no value");
-    if (table->period[row->point] == 0) add_note(note, "not periodic");
-    if (report && is_mu_trusted(&sweep->study) &&
+    if (row->period == 0) add_note(note, "not periodic");
+    if (report && strcmp(ranked_by(&sweep->study)->path, "results.mu_trusted") == 0 &&
         json_find_number(report, "results.falls.enough", &enough) && enough == 0)
         add_note(note, "too few falls");
-    if (table->period[row->point] > 1) add_note(note, "falls by turns");
+    if (row->period > 1) add_note(note, "falls by turns");
     if (row->as_good) add_note(note, "as good as the first");
     if (report && (json_find_text(report, "results.warnings.0", warning, RUN_WARNING_SIZE) ||
                    json_find_text(report, "warnings.0", warning, RUN_WARNING_SIZE)))
@@ -123,7 +123,7 @@ static void write_head(CsvWriter *csv, const Study *study)
     csv_text(csv, "rank");
     csv_text(csv, "point");
     for (int32_t k = 0; k < study->column_count; k++) csv_text(csv, study->columns[k]);
-    csv_text(csv, study->records[study->rank.record].name);
+    csv_text(csv, ranked_by(study)->name);
     csv_text(csv, "low");
     csv_text(csv, "high");
     csv_text(csv, "gain_percent");
@@ -133,20 +133,21 @@ static void write_head(CsvWriter *csv, const Study *study)
 }
 
 // rank is left empty for a point without a value; its note says why.
-static bool write_row(CsvWriter *csv, const Sweep *sweep, const SweepTable *table,
-                      const RankRow *row, int32_t rank, Error *err)
+static bool write_row(CsvWriter *csv, const Sweep *sweep, const Ranking *ranking, int32_t k,
+                      Error *err)
 {
+    const RankRow *row = &ranking->rows[k];
     const Study *study = &sweep->study;
     char cell[SCENE_TEXT_SIZE], note[NOTE_SIZE], warning[RUN_WARNING_SIZE];
     double ignored = 0;
     Scene *scene = NEW_ARRAY(Scene, 1, err);
     TRY(scene);
     TRY(study_point_scene(study, row->point, scene, err));
-    TRY(row_notes(sweep, table, row, note, warning, err));
-    csv_number(csv, isnan(row->value) ? (double)NAN : rank);
+    TRY(row_notes(sweep, row, note, warning, err));
+    csv_number(csv, isnan(row->value) ? (double)NAN : k + 1);
     csv_number(csv, row->point);
-    for (int32_t k = 0; k < study->column_count; k++) {
-        study_scene_value(scene, study->columns[k], cell, sizeof cell, &ignored);
+    for (int32_t c = 0; c < study->column_count; c++) {
+        study_scene_value(scene, study->columns[c], cell, sizeof cell, &ignored);
         csv_text(csv, cell);
     }
     csv_number(csv, row->value);
@@ -162,15 +163,14 @@ cleanup:
 }
 
 // All points, also those that a terminal does not show.
-bool ranking_write(const Sweep *sweep, const SweepTable *table, const Ranking *ranking, Error *err)
+bool ranking_write(const Sweep *sweep, const Ranking *ranking, Error *err)
 {
     char path[POINT_PATH_SIZE];
     CsvWriter *csv = NULL;
     snprintf(path, sizeof path, "%s/ranking.csv", sweep->folder);
     TRY((csv = csv_create(path, err)));
     write_head(csv, &sweep->study);
-    for (int32_t k = 0; k < ranking->count; k++)
-        TRY(write_row(csv, sweep, table, &ranking->rows[k], k + 1, err));
+    for (int32_t k = 0; k < ranking->count; k++) TRY(write_row(csv, sweep, ranking, k, err));
     CsvWriter *closing = csv;
     csv = NULL;
     TRY(csv_finish(closing, err));
@@ -199,15 +199,15 @@ static void add_number(PrintedRow *row, int32_t *count, const char *format, doub
 }
 
 // Row 0 is the head. *count: cells in a row.
-static void print_head(const Study *study, PrintedRow *row, int32_t *count)
+static void print_head(const Study *study, bool bounded, PrintedRow *row, int32_t *count)
 {
     *count = 0;
     snprintf(add_cell(row, count), CELL_SIZE, "rank");
     for (int32_t k = 0; k < study->column_count; k++)
         if (study_is_chosen(study, study->columns[k]))
             snprintf(add_cell(row, count), CELL_SIZE, "%.79s", study->columns[k]);
-    snprintf(add_cell(row, count), CELL_SIZE, "%.79s", study->records[study->rank.record].name);
-    if (is_mu_M(study)) {
+    snprintf(add_cell(row, count), CELL_SIZE, "%.79s", ranked_by(study)->name);
+    if (bounded) {
         snprintf(add_cell(row, count), CELL_SIZE, "low");
         snprintf(add_cell(row, count), CELL_SIZE, "high");
     }
@@ -215,9 +215,10 @@ static void print_head(const Study *study, PrintedRow *row, int32_t *count)
 }
 
 // Key columns that follow from formulas are left out: they tell no point from another.
-static bool print_row(const Sweep *sweep, const SweepTable *table, const RankRow *from,
-                      int32_t rank, PrintedRow *row, Error *err)
+static bool print_row(const Sweep *sweep, const Ranking *ranking, int32_t k, PrintedRow *row,
+                      Error *err)
 {
+    const RankRow *from = &ranking->rows[k];
     const Study *study = &sweep->study;
     char warning[RUN_WARNING_SIZE];
     int32_t count = 0;
@@ -225,17 +226,17 @@ static bool print_row(const Sweep *sweep, const SweepTable *table, const RankRow
     Scene *scene = NEW_ARRAY(Scene, 1, err);
     TRY(scene);
     TRY(study_point_scene(study, from->point, scene, err));
-    add_number(row, &count, "%.0f", rank);
-    for (int32_t k = 0; k < study->column_count; k++)
-        if (study_is_chosen(study, study->columns[k]))
-            study_scene_value(scene, study->columns[k], add_cell(row, &count), CELL_SIZE, &ignored);
+    add_number(row, &count, "%.0f", k + 1);
+    for (int32_t c = 0; c < study->column_count; c++)
+        if (study_is_chosen(study, study->columns[c]))
+            study_scene_value(scene, study->columns[c], add_cell(row, &count), CELL_SIZE, &ignored);
     add_number(row, &count, "%.4g", from->value);
-    if (is_mu_M(study)) {
+    if (ranking->bounded) {
         add_number(row, &count, "%.4g", from->low);
         add_number(row, &count, "%.4g", from->high);
     }
     add_number(row, &count, "%+.1f %%", 100 * from->gain);
-    TRY(row_notes(sweep, table, from, row->note, warning, err));
+    TRY(row_notes(sweep, from, row->note, warning, err));
 cleanup:
     memory_free(scene);
     return error_is_clean(err);
@@ -249,7 +250,7 @@ static bool print_title(const Sweep *sweep, FILE *out, Error *err)
     Scene *scene = NEW_ARRAY(Scene, 1, err);
     TRY(scene);
     TRY(study_point_scene(study, 0, scene, err));
-    fprintf(out, "\n%s, %s first; gain over ", study->records[study->rank.record].name,
+    fprintf(out, "\n%s, %s first; gain over ", ranked_by(study)->name,
             study->rank.lowest ? "lowest" : "highest");
     if (study->rank.against == AGAINST_BEST) fprintf(out, "the best");
     if (study->rank.against == AGAINST_FIRST) {
@@ -285,7 +286,7 @@ static void print_rows(const PrintedRow *rows, int32_t shown, int32_t cells, FIL
 }
 
 // Nothing is printed where the caller wants nothing (options->out NULL).
-bool ranking_print(const Sweep *sweep, const SweepTable *table, const Ranking *ranking, Error *err)
+bool ranking_print(const Sweep *sweep, const Ranking *ranking, Error *err)
 {
     FILE *out = sweep->options->out;
     int32_t cells = 0, shown = ranking->ranked;
@@ -293,9 +294,8 @@ bool ranking_print(const Sweep *sweep, const SweepTable *table, const Ranking *r
     if (!out) return true;
     if (shown > sweep->study.rank.top) shown = sweep->study.rank.top;
     TRY((rows = NEW_ARRAY(PrintedRow, shown + 1, err)));
-    print_head(&sweep->study, &rows[0], &cells);
-    for (int32_t k = 0; k < shown; k++)
-        TRY(print_row(sweep, table, &ranking->rows[k], k + 1, &rows[k + 1], err));
+    print_head(&sweep->study, ranking->bounded, &rows[0], &cells);
+    for (int32_t k = 0; k < shown; k++) TRY(print_row(sweep, ranking, k, &rows[k + 1], err));
     TRY(print_title(sweep, out, err));
     print_rows(rows, shown, cells, out);
     if (ranking->count > shown)

@@ -7,7 +7,9 @@
 
 typedef struct RankRow {
     int32_t point;
-    double value, low, high;   // what it is ranked by; bounds of mu_M or mu_trusted, else NaN
+    double value;   // what it is ranked by
+    double low, high;   // its bounds; NaN: not known
+    double period;   // of the peaks (table.h); NaN: not known
     double gain;   // over the baseline, 1; NaN: there is none
     bool as_good;   // its bounds meet those of the best
 } RankRow;
@@ -15,12 +17,14 @@ typedef struct RankRow {
 typedef struct Ranking {
     RankRow *rows;   // [count] the best first; points without a value last; owned
     int32_t count, ranked;   // all points; those with a value
+    bool bounded;   // low and high are known
+    double base;   // the value that gains are measured from; NaN: each row has its own
 } Ranking;
 
 bool ranking_make(const Sweep *sweep, const SweepTable *table, Ranking *ranking, Error *err);
-bool ranking_write(const Sweep *sweep, const SweepTable *table, const Ranking *ranking, Error *err);
+bool ranking_write(const Sweep *sweep, const Ranking *ranking, Error *err);
 // The first rows, as many as `rank` says, to options->out.
-bool ranking_print(const Sweep *sweep, const SweepTable *table, const Ranking *ranking, Error *err);
+bool ranking_print(const Sweep *sweep, const Ranking *ranking, Error *err);
 void ranking_destroy(Ranking *ranking);   // zeroed is fine
 
 #endif

@@ -80,40 +80,46 @@ static void write_records(TableWriter *writer, int32_t point, const char *report
     }
 }
 
-// Studies that rank by falls ask whether falls repeat, the others whether peaks do.
-static bool ranks_by_falls(const Study *study)
+// Without a report, or one of a failed point, nothing is known.
+static void clear_bounds(Bounds *bounds, int32_t point)
 {
-    return study->rank.wanted &&
-           strcmp(study->records[study->rank.record].path, "results.mu_trusted") == 0;
+    bounds->low[point] = bounds->high[point] = bounds->period[point] = NAN;
 }
 
-// What mu_M may be: the range of the peaks that count where they repeat, else of all but the first.
-static void note_peaks(SweepTable *table, int32_t point, const char *report)
+// mu_M: the range of the peaks that count where they repeat, else of all but the first.
+static void note_peaks(Bounds *bounds, int32_t point, const char *report)
 {
     double mu = NAN, spread = NAN;
-    json_find_number(report, "results.period", &table->period[point]);
+    json_find_number(report, "results.period", &bounds->period[point]);
     json_find_number(report, "results.mu_M", &mu);
     json_find_number(report, "results.mu_M_spread", &spread);
-    if (table->period[point] > 0) {   // two peaks at least
-        table->low[point] = mu - spread / 2;
-        table->high[point] = mu + spread / 2;
+    if (bounds->period[point] > 0) {   // two peaks at least
+        bounds->low[point] = mu - spread / 2;
+        bounds->high[point] = mu + spread / 2;
         return;
     }
-    json_find_number(report, "results.mu_peaks_low", &table->low[point]);
-    json_find_number(report, "results.mu_peaks_high", &table->high[point]);
-    if (table->low[point] == table->high[point])   // one peak bounds nothing
-        table->low[point] = table->high[point] = NAN;
+    json_find_number(report, "results.mu_peaks_low", &bounds->low[point]);
+    json_find_number(report, "results.mu_peaks_high", &bounds->high[point]);
+    if (bounds->low[point] == bounds->high[point])   // one peak bounds nothing
+        bounds->low[point] = bounds->high[point] = NAN;
 }
 
-// What mu to trust may be: two standard errors to either side.
-static void note_falls(SweepTable *table, int32_t point, const char *report)
+// mu_trusted: two standard errors to either side.
+static void note_falls(Bounds *bounds, int32_t point, const char *report)
 {
     double mu = NAN, error = NAN;
-    json_find_number(report, "results.falls.period", &table->period[point]);
+    json_find_number(report, "results.falls.period", &bounds->period[point]);
     json_find_number(report, "results.mu_trusted", &mu);
     json_find_number(report, "results.mu_trusted_error", &error);
-    table->low[point] = mu - 2 * error;
-    table->high[point] = mu + 2 * error;
+    bounds->low[point] = mu - 2 * error;
+    bounds->high[point] = mu + 2 * error;
+}
+
+const Bounds *table_bounds(const SweepTable *table, const StudyRecord *record, bool *bounded)
+{
+    bool trusted = strcmp(record->path, "results.mu_trusted") == 0;
+    *bounded = trusted || strcmp(record->path, "results.mu_M") == 0;
+    return trusted ? &table->mu_trusted : &table->mu_M;
 }
 
 // A failed point keeps its keys and its message, and has no results.
@@ -129,9 +135,12 @@ static bool write_row(TableWriter *writer, int32_t point, Scene *scene, Error *e
     write_keys(writer, point, scene);
     // What a failed point came to before it failed is no result.
     write_records(writer, point, at->status == POINT_DONE ? report : NULL);
-    writer->table->period[point] = writer->table->low[point] = writer->table->high[point] = NAN;
-    if (at->status == POINT_DONE && report)
-        (ranks_by_falls(&sweep->study) ? note_falls : note_peaks)(writer->table, point, report);
+    clear_bounds(&writer->table->mu_M, point);
+    clear_bounds(&writer->table->mu_trusted, point);
+    if (at->status == POINT_DONE && report) {
+        note_peaks(&writer->table->mu_M, point, report);
+        note_falls(&writer->table->mu_trusted, point, report);
+    }
     csv_text(writer->csv, point_status_name(at->status));
     *writer->cell = 0;
     if (at->status == POINT_FAILED && report)
@@ -213,6 +222,22 @@ cleanup:
     return error_is_clean(err);
 }
 
+static bool make_bounds(int64_t count, Bounds *bounds, Error *err)
+{
+    TRY((bounds->low = NEW_ARRAY(double, count, err)));
+    TRY((bounds->high = NEW_ARRAY(double, count, err)));
+    TRY((bounds->period = NEW_ARRAY(double, count, err)));
+cleanup:
+    return error_is_clean(err);
+}
+
+static void destroy_bounds(Bounds *bounds)
+{
+    memory_free(bounds->low);
+    memory_free(bounds->high);
+    memory_free(bounds->period);
+}
+
 // On failure the table is the caller's to destroy.
 static bool make_room(const Study *study, SweepTable *table, Error *err)
 {
@@ -220,9 +245,8 @@ static bool make_room(const Study *study, SweepTable *table, Error *err)
     TRY((table->keys = NEW_ARRAY(double, count * study->column_count, err)));
     TRY((table->records = NEW_ARRAY(double, count * study->record_count, err)));
     TRY((table->status = NEW_ARRAY(double, count, err)));
-    TRY((table->period = NEW_ARRAY(double, count, err)));
-    TRY((table->low = NEW_ARRAY(double, count, err)));
-    TRY((table->high = NEW_ARRAY(double, count, err)));
+    TRY(make_bounds(count, &table->mu_M, err));
+    TRY(make_bounds(count, &table->mu_trusted, err));
     TRY((table->words = NEW_ARRAY(WordList, study->column_count, err)));
 cleanup:
     return error_is_clean(err);
@@ -258,9 +282,8 @@ void table_destroy(SweepTable *table)
     memory_free(table->keys);
     memory_free(table->records);
     memory_free(table->status);
-    memory_free(table->period);
-    memory_free(table->low);
-    memory_free(table->high);
+    destroy_bounds(&table->mu_M);
+    destroy_bounds(&table->mu_trusted);
     memory_free(table->words);
     *table = (SweepTable){0};
 }

@@ -13,18 +13,26 @@ typedef struct WordList {
     char words[WORDS_MAX][WORD_SIZE];
 } WordList;
 
+// What is known of a coefficient of friction at each point; NaN: nothing. [point_count] each.
+typedef struct Bounds {
+    double *low, *high;   // owned, like the next
+    double *period;   // its values repeat after so many slidings; 0: they do not
+} Bounds;
+
 // The numbers of the table, column after column; NaN where there is none.
 typedef struct SweepTable {
     double *keys;   // [column_count][point_count]; owned, like all below
     double *records;   // [record_count][point_count]
     double *status;   // [point_count] a PointStatus
-    double *period;   // [point_count] of peaks or, ranked by them, of falls; 0: none
-    double *low, *high;   // [point_count] bounds of mu_M: of its own peaks where they are
-        // periodic, of all peaks but the first where not; ranked by mu_trusted: bounds of that
+    Bounds mu_M;   // of its own peaks where they are periodic, of all but the first where not
+    Bounds mu_trusted;
     WordList *words;   // [column_count]
 } SweepTable;
 
 bool table_write(const Sweep *sweep, SweepTable *table, Error *err);
+// Whether the column `record` repeats, and within what bounds it lies: those of mu_trusted for
+// mu_trusted, those of mu_M for all others, of which *bounded says that low and high are not its own.
+const Bounds *table_bounds(const SweepTable *table, const StudyRecord *record, bool *bounded);
 void table_destroy(SweepTable *table);   // zeroed is fine
 
 #endif
