@@ -33,14 +33,15 @@ static inline void hand_contact_size(HandContact *hand, int32_t contacts, int32_
     hand->rod_kind = ROD_PUSHES;
 }
 
-static inline ContactProblem hand_problem(const HandContact *hand)
+// matrix: of hand->schur; NULL: to be judged only.
+static inline ContactProblem hand_problem(const HandContact *hand, ContactMatrix *matrix)
 {
     return (ContactProblem){.interface = &hand->interface,
                             .law = &hand->law,
                             .rod_kind = hand->rod_kind,
                             .rod_softness = hand->rod_softness,
                             .rod_reach = hand->rod_reach,
-                            .schur = hand->schur,
+                            .matrix = matrix,
                             .g = hand->g,
                             .bound = hand->bound};
 }
@@ -56,12 +57,14 @@ static inline bool hand_contact_solve_by(HandContact *hand, bool follows_path, H
 {
     Error err = {0};
     ContactSolver solver;
+    ContactMatrix matrix;
+    assert_true(contact_matrix_create(hand->schur, hand->interface.count, &matrix, &err));
     assert_true(contact_solver_create(&hand->interface, contact_solver_def(), &solver, &err));
     solver.follows_path = follows_path;
     memset(hand->velocity, 0, sizeof hand->velocity);
     memset(hand->reaction, 0, sizeof hand->reaction);
     ContactSolution solution = {hand->velocity, hand->reaction, hand->status, hand->rod_touches};
-    ContactProblem problem = hand_problem(hand);
+    ContactProblem problem = hand_problem(hand, &matrix);
     int64_t allocations = memory_counters().allocations;
     bool solved = contact_solve(&solver, &problem, &solution);
     assert_int_equal(memory_counters().allocations, allocations);
@@ -69,6 +72,7 @@ static inline bool hand_contact_solve_by(HandContact *hand, bool follows_path, H
     assert_int_equal(solver.unsolved, !solved);
     *counts = (HandCounts){solver.iterations, solver.rescued, solver.path.steps};
     contact_solver_destroy(&solver);
+    contact_matrix_destroy(&matrix);
     return solved;
 }
 
@@ -87,7 +91,7 @@ static inline double hand_contact_error(const HandContact *hand)
         force = fmax(force, fmax(fabs(hand->g[k]), fabs(hand->reaction[k])));
         diagonal = fmax(diagonal, hand->schur[k * count + k]);
     }
-    ContactProblem problem = hand_problem(hand);
+    ContactProblem problem = hand_problem(hand, NULL);
     ContactResidual residual =
         contact_residual(&problem, hand->velocity, hand->reaction, force, force / diagonal);
     worst = contact_residual_max(&residual);

@@ -148,7 +148,7 @@ static void find_reaction(Walk *walk)
 {
     int32_t count = walk->path->count;
     double *reaction = walk->at->reaction;
-    dense_symmetric_apply(walk->problem->schur, count, walk->at->velocity, reaction);
+    dense_symmetric_apply(walk->problem->matrix->schur, count, walk->at->velocity, reaction);
     for (int32_t k = 0; k < count; k++)
         reaction[k] += walk->tau * walk->path->lift[k] - walk->problem->g[k];
 }
@@ -183,12 +183,13 @@ static bool factor(Walk *walk, const double *last)
     int32_t free_count = walk->free_count, size = free_count + 1;
     for (int32_t a = 0; a < free_count; a++) {
         int32_t row = path->free[a], i = slipping_at(walk, row);
-        const double *own = walk->problem->schur + (int64_t)row * path->count, *normal = own;
+        const double *own = walk->problem->matrix->schur + (int64_t)row * path->count,
+                     *normal = own;
         double *out = path->matrix + a, signed_mu = 0, slope = 0;
         if (i >= 0) {
             signed_mu = status_direction(walk->at->status[i]) *
                         side_friction(walk, i, fabs(walk->at->velocity[row]), &slope);
-            normal = walk->problem->schur + (int64_t)interface_normal(i) * path->count;
+            normal = walk->problem->matrix->schur + (int64_t)interface_normal(i) * path->count;
         }
         for (int32_t b = 0; b < free_count; b++)
             out[(int64_t)b * size] = own[path->free[b]] + signed_mu * normal[path->free[b]];
@@ -217,7 +218,8 @@ static bool find_tangent(Walk *walk)
     memset(path->velocity_rate, 0, (size_t)count * sizeof(double));
     for (int32_t a = 0; a < free_count; a++) path->velocity_rate[path->free[a]] = tangent[a];
     walk->tau_rate = tangent[free_count];
-    dense_symmetric_apply(walk->problem->schur, count, path->velocity_rate, path->reaction_rate);
+    dense_symmetric_apply(walk->problem->matrix->schur, count, path->velocity_rate,
+                          path->reaction_rate);
     for (int32_t k = 0; k < count; k++) path->reaction_rate[k] += walk->tau_rate * path->lift[k];
     return true;
 }
@@ -294,7 +296,7 @@ static double worst_condition(const Walk *walk, Bound *worst)
 static void add_reaction_row(Walk *walk, int32_t k, double factor)
 {
     ContactPath *path = walk->path;
-    const double *own = walk->problem->schur + (int64_t)k * path->count;
+    const double *own = walk->problem->matrix->schur + (int64_t)k * path->count;
     for (int32_t b = 0; b < walk->free_count; b++) path->row[b] += factor * own[path->free[b]];
     path->row[walk->free_count] += factor * path->lift[k];
 }
@@ -432,7 +434,7 @@ static void find_scales(Walk *walk)
     int32_t count = walk->path->count;
     double diagonal = 0;
     for (int32_t k = 0; k < count; k++)
-        diagonal = fmax(diagonal, walk->problem->schur[(int64_t)k * count + k]);
+        diagonal = fmax(diagonal, walk->problem->matrix->schur[(int64_t)k * count + k]);
     walk->force = dense_max_abs(walk->problem->g, count);
     if (walk->force == 0) walk->force = 1;
     walk->velocity = walk->force / diagonal;

@@ -14,21 +14,10 @@
 #ifndef AMONTONS_CONTACT_CONTACT_PROBLEM_H
 #define AMONTONS_CONTACT_CONTACT_PROBLEM_H
 
+#include "contact/contact_matrix.h"
+#include "contact/contact_status.h"
 #include "contact/friction_law.h"
 #include "contact/rod.h"
-
-// symbol, name
-#define CONTACT_STATUSES(X)                                                                        \
-    X(CONTACT_OPEN, "open")                                                                        \
-    X(CONTACT_STICK, "stick")                                                                      \
-    X(CONTACT_SLIP_FORWARD, "slip forward")                                                        \
-    X(CONTACT_SLIP_BACKWARD, "slip backward")
-
-typedef enum ContactStatus {
-#define X(symbol, name) symbol,
-    CONTACT_STATUSES(X)
-#undef X
-} ContactStatus;
 
 // Nothing is owned.
 typedef struct ContactProblem {
@@ -37,7 +26,7 @@ typedef struct ContactProblem {
     RodKind rod_kind;
     const double *rod_softness;   // [rod_count] length per force/width, 0: rigid; NULL: all are
     double rod_reach;   // r_x softness over (bound_x - v_x) at a soft node, time
-    const double *schur;   // S [count * count], symmetric
+    ContactMatrix *matrix;   // S and what was computed from it; NULL: judged only, not solved
     const double *g;   // [count]
     const double *bound;   // [count] of normals and rod; entries of tangents are not used
 } ContactProblem;
@@ -55,17 +44,6 @@ static inline double rod_stiffness(const ContactProblem *problem, int32_t j)
 {
     bool soft = problem->rod_softness && problem->rod_softness[j] > 0;
     return soft ? problem->rod_reach / problem->rod_softness[j] : 0;
-}
-
-static inline bool status_slips(uint8_t status)
-{
-    return status == CONTACT_SLIP_FORWARD || status == CONTACT_SLIP_BACKWARD;
-}
-
-// +1 or -1: the direction of v_t.
-static inline double status_direction(uint8_t status)
-{
-    return status == CONTACT_SLIP_FORWARD ? 1.0 : -1.0;
 }
 
 #endif

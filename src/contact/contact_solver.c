@@ -31,29 +31,19 @@ bool contact_solver_create(const Interface *interface, ContactSolverDef def, Con
     *solver = (ContactSolver){.def = def, .follows_path = true};
     solver->free = NEW_ARRAY(int32_t, count, err);
     solver->open = NEW_ARRAY(int32_t, count, err);
-    solver->pivots = NEW_ARRAY(int32_t, count, err);
-    solver->matrix = NEW_ARRAY(double, count *count, err);
     solver->step = NEW_ARRAY(double, count, err);
     solver->pull = NEW_ARRAY(double, count, err);
-    solver->kept_free = NEW_ARRAY(int32_t, count, err);
-    solver->kept_status = NEW_ARRAY(uint8_t, interface->contact_count + interface->rod_count, err);
     solver->anchor = NEW_ARRAY(uint8_t, interface->contact_count + interface->rod_count, err);
-    return error_is_clean(err) && closed_operator_create(interface, &solver->closed, err) &&
-           contact_path_create(interface, &solver->path, err);
+    return error_is_clean(err) && contact_path_create(interface, &solver->path, err);
 }
 
 void contact_solver_destroy(ContactSolver *solver)
 {
     contact_path_destroy(&solver->path);
-    closed_operator_destroy(&solver->closed);
     memory_free(solver->free);
     memory_free(solver->open);
-    memory_free(solver->pivots);
-    memory_free(solver->matrix);
     memory_free(solver->step);
     memory_free(solver->pull);
-    memory_free(solver->kept_free);
-    memory_free(solver->kept_status);
     memory_free(solver->anchor);
     *solver = (ContactSolver){0};
 }
@@ -78,7 +68,7 @@ static Scales problem_scales(const ContactProblem *problem, const ContactSolutio
     int32_t count = problem->interface->count;
     double diagonal = 0;
     for (int32_t k = 0; k < count; k++)
-        diagonal = fmax(diagonal, problem->schur[(int64_t)k * count + k]);
+        diagonal = fmax(diagonal, problem->matrix->schur[(int64_t)k * count + k]);
     Scales scales;
     scales.force = fmax(dense_max_abs(problem->g, count), dense_max_abs(solution->reaction, count));
     if (scales.force == 0) scales.force = 1;
@@ -107,7 +97,7 @@ static void hold_unknowns(const ContactProblem *problem, ContactSolution *soluti
 }
 
 // Into free: tangents of nodes that slip, rod nodes that are soft or have let go. How many they
-// are; ascending. Open nodes are free as well, and condensed out (contact/closed_operator): their
+// are; ascending. Open nodes are free as well, and condensed out (contact/contact_matrix): their
 // unknowns go into solver->open.
 static int32_t list_free(ContactSolver *solver, const ContactProblem *problem,
                          const ContactSolution *solution)
@@ -132,7 +122,7 @@ static int32_t list_free(ContactSolver *solver, const ContactProblem *problem,
 static void compute_reaction(const ContactProblem *problem, ContactSolution *solution)
 {
     int32_t count = problem->interface->count;
-    dense_symmetric_apply(problem->schur, count, solution->velocity, solution->reaction);
+    dense_symmetric_apply(problem->matrix->schur, count, solution->velocity, solution->reaction);
     for (int32_t k = 0; k < count; k++) solution->reaction[k] -= problem->g[k];
 }
 
@@ -167,16 +157,20 @@ static double equation(const ContactProblem *problem, const ContactSolution *sol
            status_direction(solution->status[i]) * mu * solution->reaction[interface_normal(i)];
 }
 
-// The factored matrix of an earlier step still fits: same operator, same unknowns, same directions.
+// The factors of an earlier step still fit: same matrix, same unknowns, same directions. Of the
+// last factorisation only: what was left behind at another step size has aged too far to gain a
+// digit a step (on Figure 1 it cost 2 % of Newton's steps more).
 static bool kept_fits(const ContactSolver *solver, const ContactProblem *problem,
                       const ContactSolution *solution, int32_t free_count)
 {
     size_t contacts = (size_t)problem->interface->contact_count;
     size_t rods = (size_t)problem->interface->rod_count;
-    return solver->kept_schur == problem->schur && solver->kept_count == free_count &&
-           memcmp(solver->kept_status, solution->status, contacts) == 0 &&
-           memcmp(solver->kept_status + contacts, solution->rod_touches, rods) == 0 &&
-           memcmp(solver->kept_free, solver->free, (size_t)free_count * sizeof(int32_t)) == 0;
+    const ContactMatrix *kept = problem->matrix;
+    return kept->factored == solver->factorisations && kept->factored > 0 &&
+           kept->free_count == free_count &&
+           memcmp(kept->status, solution->status, contacts) == 0 &&
+           memcmp(kept->status + contacts, solution->rod_touches, rods) == 0 &&
+           memcmp(kept->free, solver->free, (size_t)free_count * sizeof(int32_t)) == 0;
 }
 
 // The derivative of `equation` by the free unknowns, column after column [free_count^2], and its
@@ -184,17 +178,17 @@ static bool kept_fits(const ContactSolver *solver, const ContactProblem *problem
 //     row of a slipping tangent t:  S'_t + s mu S'_n + mu'(|v_t|) r_n e_t
 //     any other:                    S'_row + spring e_row
 // S' (`closed`): S with what is open condensed out. s^2 = 1 makes the last term of a slipping row
-// free of the direction: d|v_t|/dv_t = s. false: it is singular. Remembers what it was factored
-// for; kept_schur stays NULL while it holds no factors.
+// free of the direction: d|v_t|/dv_t = s. false: it is singular. The matrix keeps it.
 static bool factor_matrix(ContactSolver *solver, const ContactProblem *problem,
                           const ContactSolution *solution, const double *closed, int32_t free_count)
 {
     int32_t count = problem->interface->count;
+    ContactMatrix *kept = problem->matrix;
     for (int32_t a = 0; a < free_count; a++) {
         int32_t row = solver->free[a];
         const double *own = closed + (int64_t)row * count;   // symmetric
         int32_t i = slipping_node(problem, solution, row);
-        double *out = solver->matrix + a;
+        double *out = kept->factors + a;
         for (int32_t b = 0; b < free_count; b++)
             out[(int64_t)b * free_count] = own[solver->free[b]];
         out[(int64_t)a * free_count] += spring_of(problem, solution, row);
@@ -209,16 +203,14 @@ static bool factor_matrix(ContactSolver *solver, const ContactProblem *problem,
                                         solution->reaction[interface_normal(i)];
     }
     solver->factorisations++;
-    solver->kept_schur = NULL;
-    if (!dense_lu(solver->matrix, free_count, solver->pivots)) return false;
-    solver->kept_schur = problem->schur;
-    solver->kept_count = free_count;
+    bool regular = dense_lu(kept->factors, free_count, kept->pivots);
+    kept->factored = regular ? solver->factorisations : 0;
+    kept->free_count = free_count;
     size_t contacts = (size_t)problem->interface->contact_count;
-    memcpy(solver->kept_status, solution->status, contacts);
-    memcpy(solver->kept_status + contacts, solution->rod_touches,
-           (size_t)problem->interface->rod_count);
-    memcpy(solver->kept_free, solver->free, (size_t)free_count * sizeof(int32_t));
-    return true;
+    memcpy(kept->status, solution->status, contacts);
+    memcpy(kept->status + contacts, solution->rod_touches, (size_t)problem->interface->rod_count);
+    memcpy(kept->free, solver->free, (size_t)free_count * sizeof(int32_t));
+    return regular;
 }
 
 // pull = closed e_O: what the residual of open nodes, which shall bear nothing, asks of all others
@@ -258,7 +250,7 @@ static bool newton_step(ContactSolver *solver, const ContactProblem *problem,
         solver->step[a] += status_direction(solution->status[i]) * mu *
                            solver->pull[interface_normal(i)];
     }
-    dense_lu_solve(solver->matrix, free_count, solver->pivots, solver->step);
+    dense_lu_solve(problem->matrix->factors, free_count, problem->matrix->pivots, solver->step);
     for (int32_t a = 0; a < free_count; a++) {
         int32_t unknown = solver->free[a];
         solution->velocity[unknown] += solver->step[a];
@@ -460,8 +452,7 @@ static void note_start(const ContactProblem *problem, const ContactSolution *sol
 // A node that is overloaded where it sticks, yet slips backwards by Newton's first step from there:
 // friction falls faster with its slip than the block resists, the others' statuses as they are.
 // Beyond the weakening lies what solves that. false: it is not so.
-static bool starts_fast(ContactSolver *solver, const ContactProblem *problem,
-                        ContactSolution *solution, Course *course)
+static bool starts_fast(const ContactProblem *problem, ContactSolution *solution, Course *course)
 {
     int32_t node = course->started;
     course->started = -1;
@@ -470,7 +461,7 @@ static bool starts_fast(ContactSolver *solver, const ContactProblem *problem,
     double direction = status_direction(solution->status[node]);
     if (*slip_rate * direction >= 0) return false;
     *slip_rate = direction * friction_spent_speed(problem->law);
-    solver->kept_schur = NULL;
+    problem->matrix->factored = 0;
     course->least = INFINITY;
     course->stalled = 0;
     compute_reaction(problem, solution);
@@ -482,7 +473,8 @@ static bool starts_fast(ContactSolver *solver, const ContactProblem *problem,
 static const double *close_open(ContactSolver *solver, const ContactProblem *problem,
                                 ContactSolution *solution, Course *course)
 {
-    const double *closed = closed_operator_of(&solver->closed, problem->schur, solution->status);
+    const double *closed =
+        contact_matrix_close(problem->matrix, solution->status, problem->interface->contact_count);
     if (closed || course->landed) return closed;
     course->landed = true;
     for (int32_t i = 0; i < problem->interface->contact_count; i++)
@@ -490,7 +482,7 @@ static const double *close_open(ContactSolver *solver, const ContactProblem *pro
     note_statuses(solver, problem, solution, course);
     hold_unknowns(problem, solution);
     compute_reaction(problem, solution);
-    return problem->schur;
+    return problem->matrix->schur;
 }
 
 // true: equations and all statuses hold, reactions of open nodes are 0 to the bit. false: `limit`
@@ -513,13 +505,13 @@ static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
         bool reused = false;
         if (!newton_step(solver, problem, solution, closed, free_count, &reused)) break;
         compute_reaction(problem, solution);
-        if (starts_fast(solver, problem, solution, &course)) continue;
+        if (starts_fast(problem, solution, &course)) continue;
         Scales scales = problem_scales(problem, solution);
         double residual = equations_residual(solver, problem, solution, free_count);
         if (!isfinite(residual)) break;
         bool equations_hold = residual <= solver->def.tolerance * scales.force;
         if (!equations_hold && reused && residual > CHORD_GAIN * course.before)
-            solver->kept_schur = NULL;
+            problem->matrix->factored = 0;
         course.before = reused ? residual : INFINITY;
         if (!equations_hold && !reused && has_stalled(&course, residual / scales.force)) break;
         // First solve for these statuses, where steps are not Newton's own or only one may change.

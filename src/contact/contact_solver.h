@@ -7,9 +7,9 @@
 //     row of a slipping tangent:   S_t + s mu S_n + mu'(|v_t|) r_n e_t,     s = sign of slip,
 //
 // then every status is checked against its own conditions and changed where it breaks them. Open
-// nodes are condensed out (contact/closed_operator). The linear system is dense and unsymmetric;
-// its factors are kept and used again (by the next iteration, stage or step) while operator and
-// statuses stay and they still gain a digit a step. When statuses cycle, only the worst one is
+// nodes are condensed out (contact/contact_matrix). The linear system is dense and unsymmetric;
+// its factors are kept with the matrix and used again (by the next iteration, stage or step)
+// while statuses stay and they still gain a digit a step. When statuses cycle, only the worst one is
 // changed at a time; when that does not settle either, or equations come no nearer, a path to a
 // solution is followed (contact/contact_path): there is one, as S is positive definite and mu
 // bounded and continuous. Where even that is not found, or the caller would rather not wait for it,
@@ -17,7 +17,6 @@
 #ifndef AMONTONS_CONTACT_CONTACT_SOLVER_H
 #define AMONTONS_CONTACT_CONTACT_SOLVER_H
 
-#include "contact/closed_operator.h"
 #include "contact/contact_path.h"
 #include "contact/contact_problem.h"
 
@@ -36,17 +35,9 @@ typedef struct ContactSolver {
     int32_t *free;   // [count] work: the unknowns solved for; owned
     int32_t *open;   // [count] work, open_count of them used: unknowns of open nodes; owned
     int32_t open_count;
-    int32_t *pivots;   // [count] work; owned
-    double *matrix;   // [count^2] work; owned
     double *step;   // [count] work; owned
     double *pull;   // [count] work: of what is open; owned
-    ClosedOperator closed;   // owned
-    int32_t *kept_free;   // [count] unknowns `matrix` is factored for; owned
-    uint8_t *kept_status;   // [contact_count + rod_count] statuses and touching rod nodes it is
-        // factored for; owned
     uint8_t *anchor;   // [contact_count + rod_count] work: statuses met before; owned
-    int32_t kept_count;   // of kept_free
-    const double *kept_schur;   // operator it is factored for; NULL: it holds no factors
     int64_t factorisations;   // counted
     int64_t solves;   // counted
     int64_t iterations;   // counted, Newton steps

@@ -80,15 +80,17 @@ static bool solve_contact(const Model *model, InterfaceOperator *stiffness, cons
 {
     const Interface *interface = &model->interface;
     ContactSolver solver = {0};
+    ContactMatrix matrix = {0};
     for (int32_t j = 0; j < interface->rod_count; j++) solution->rod_touches[j] = 1;
     for (int32_t i = 0; i < interface->contact_count; i++) solution->status[i] = CONTACT_STICK;
     ContactProblem problem = contact_problem(model, solution, bound);
-    problem.schur = interface_operator_schur(stiffness);
+    problem.matrix = &matrix;
     problem.g = g;
     ContactSolution contact = {.velocity = solution->contact_displacement,
                                .reaction = solution->contact_reaction,
                                .status = solution->status,
                                .rod_touches = solution->rod_touches};
+    TRY(contact_matrix_create(interface_operator_schur(stiffness), interface->count, &matrix, err));
     TRY(contact_solver_create(interface, contact_solver_def(), &solver, err));
     if (!contact_solve(&solver, &problem, &contact))
         FAIL(err, ERROR_COMPUTE,
@@ -98,6 +100,7 @@ static bool solve_contact(const Model *model, InterfaceOperator *stiffness, cons
     solution->iterations = solver.iterations;
 cleanup:
     contact_solver_destroy(&solver);
+    contact_matrix_destroy(&matrix);
     return error_is_clean(err);
 }
 

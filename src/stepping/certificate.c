@@ -25,11 +25,10 @@ static const double SETTLED = 1e-6;
 
 // block is borrowed. S_C is condensed from C alone, lifted as C may be singular in the interface's
 // own motion (bulk/interface_operator), once for all states.
-bool certificate_create(const Block *block, ClosedOperator *closed, Certificate *certificate,
-                        Error *err)
+bool certificate_create(const Block *block, Certificate *certificate, Error *err)
 {
-    *certificate = (Certificate){
-        .interface = block->interface, .law = block->law, .rod = block->rod, .closed = closed};
+    *certificate =
+        (Certificate){.interface = block->interface, .law = block->law, .rod = block->rod};
     int64_t count = block->interface->count;
     certificate->matrix = NEW_ARRAY(double, count *count, err);
     certificate->weakening = NEW_ARRAY(double, count, err);
@@ -42,11 +41,15 @@ bool certificate_create(const Block *block, ClosedOperator *closed, Certificate 
     certificate->damping = interface_operator_create(block->system, terms, err);
     // Without viscosity (or with eta1 = 0) there is nothing that could certify a weakening slip.
     if (err->code == ERROR_COMPUTE) error_clear(err);
-    return error_is_clean(err);
+    return error_is_clean(err) &&
+           (!certificate->damping ||
+            contact_matrix_create(interface_operator_schur(certificate->damping), (int32_t)count,
+                                  &certificate->damping_contact, err));
 }
 
 void certificate_destroy(Certificate *certificate)
 {
+    contact_matrix_destroy(&certificate->damping_contact);
     interface_operator_destroy(certificate->damping);
     memory_free(certificate->matrix);
     memory_free(certificate->weakening);
@@ -86,27 +89,24 @@ static bool list_moving(Certificate *certificate, const State *state, int32_t *m
     return weakens;
 }
 
-// S with open nodes condensed out; NULL where S is, or they alone are singular in it.
-static const double *close_operator(Certificate *certificate, const State *state,
-                                    const double *schur)
+// S with open nodes condensed out; NULL where they alone are singular in it.
+static const double *close_operator(const State *state, ContactMatrix *matrix)
 {
-    return schur ? closed_operator_of(certificate->closed, schur, state->status) : NULL;
+    return contact_matrix_close(matrix, state->status, state->contact_count);
 }
 
-// part S + (1 - part) S_C - W on F, part < 1; schur: S. S_C is NULL where C itself is singular.
+// part S + (1 - part) S_C - W on F, part < 1; rung: of S, NULL where part is 0.
 // true: positive definite. Only lower triangles are filled, as Cholesky reads no more. Where
 // nothing weakens no factorisation is done, nor counted. Parts of condensed operators are less than
 // their parts condensed: with open nodes the test is a little stricter between its ends.
-static bool is_definite(Certificate *certificate, const State *state, const double *schur,
+static bool is_definite(Certificate *certificate, const State *state, ContactMatrix *rung,
                         double part)
 {
     int32_t count = 0;
     if (!list_moving(certificate, state, &count)) return true;   // S itself is never indefinite
     const double *damping = NULL, *own = NULL;
-    if (certificate->damping)
-        damping =
-            close_operator(certificate, state, interface_operator_schur(certificate->damping));
-    if (part > 0) own = close_operator(certificate, state, schur);
+    if (certificate->damping) damping = close_operator(state, &certificate->damping_contact);
+    if (part > 0) own = close_operator(state, rung);
     if (!damping || (part > 0 && !own)) return false;
     int64_t size = certificate->interface->count;
     for (int32_t b = 0; b < count; b++) {
@@ -134,10 +134,10 @@ bool certificate_holds(Certificate *certificate, const State *state)
 // where there is no such matrix.
 // Unsymmetric: row of a slipping tangent plus s mu times the row of its normal; W is left for the
 // caller to subtract, who may need the matrix without it.
-static int32_t fill_coupled(Certificate *certificate, const State *state, const double *schur)
+static int32_t fill_coupled(Certificate *certificate, const State *state, ContactMatrix *rung)
 {
     int32_t count = 0;
-    const double *closed = close_operator(certificate, state, schur);
+    const double *closed = close_operator(state, rung);
     if (!closed) return -1;
     list_moving(certificate, state, &count);
     int64_t size = certificate->interface->count;
@@ -163,9 +163,9 @@ static int32_t fill_coupled(Certificate *certificate, const State *state, const 
 // det J > 0
 // The sign of det J is that of the product of U's diagonal and of the row swaps: the determinant
 // itself would overflow.
-static bool coupled_is_positive(Certificate *certificate, const State *state, const double *schur)
+static bool coupled_is_positive(Certificate *certificate, const State *state, ContactMatrix *rung)
 {
-    int32_t count = fill_coupled(certificate, state, schur);
+    int32_t count = fill_coupled(certificate, state, rung);
     if (count < 0) return false;
     for (int64_t a = 0; a < count; a++)
         certificate->matrix[a * count + a] -= certificate->weakening[a];
@@ -175,12 +175,12 @@ static bool coupled_is_positive(Certificate *certificate, const State *state, co
 
 // growth > 1. part: a = cos(arctan(pi/log g)) of the header, written as ratio/sqrt(1 + ratio^2),
 // ratio = log g/pi, and less by what s between the rungs may hide.
-bool certificate_swings_less(Certificate *certificate, const State *state,
-                             const InterfaceOperator *rung, double growth)
+bool certificate_swings_less(Certificate *certificate, const State *state, ContactMatrix *rung,
+                             double growth)
 {
     double started = clock_seconds(), ratio = log(growth) / M_PI;
     double part = ratio / sqrt(1 + ratio * ratio) / BETWEEN_RUNGS;
-    bool less = is_definite(certificate, state, interface_operator_schur(rung), part);
+    bool less = is_definite(certificate, state, rung, part);
     certificate->seconds += clock_seconds() - started;
     return less;
 }
@@ -190,10 +190,10 @@ bool certificate_swings_less(Certificate *certificate, const State *state,
 // On short steps mass decides, nodes bear nearly the same and powers settle slowly, far below 1:
 // there, and where the vector turns, its growth over all n powers bounds the load, as load^n times
 // START_PART is at most |x_n|/|x_0|. The bound is up to START_PART^(-1/n), 7 %, too large.
-static double largest_load(Certificate *certificate, const State *state, const double *schur)
+static double largest_load(Certificate *certificate, const State *state, ContactMatrix *rung)
 {
     enum { POWERS_MAX = 200 };
-    int32_t count = fill_coupled(certificate, state, schur);
+    int32_t count = fill_coupled(certificate, state, rung);
     double *x = certificate->vector, load = INFINITY;
     if (count < 0 || !dense_lu(certificate->matrix, count, certificate->pivots)) return INFINITY;
     for (int32_t a = 0; a < count; a++) x[a] = certificate->weakening[a] > 0 ? 1 : 0;
@@ -210,20 +210,18 @@ static double largest_load(Certificate *certificate, const State *state, const d
     return fmax(load, exp((logarithm - log(START_PART)) / POWERS_MAX));
 }
 
-double certificate_load(Certificate *certificate, const State *state, const InterfaceOperator *rung)
+double certificate_load(Certificate *certificate, const State *state, ContactMatrix *rung)
 {
-    const double *schur = interface_operator_schur(rung);
     double started = clock_seconds();
-    double load = largest_load(certificate, state, schur);
+    double load = largest_load(certificate, state, rung);
     certificate->seconds += clock_seconds() - started;
     return load;
 }
 
-bool certificate_step_resolves(Certificate *certificate, const State *state,
-                               const InterfaceOperator *rung)
+bool certificate_step_resolves(Certificate *certificate, const State *state, ContactMatrix *rung)
 {
     double started = clock_seconds();
-    bool resolves = coupled_is_positive(certificate, state, interface_operator_schur(rung));
+    bool resolves = coupled_is_positive(certificate, state, rung);
     certificate->seconds += clock_seconds() - started;
     return resolves;
 }

@@ -35,7 +35,6 @@
 #ifndef AMONTONS_STEPPING_CERTIFICATE_H
 #define AMONTONS_STEPPING_CERTIFICATE_H
 
-#include "contact/closed_operator.h"
 #include "stepping/ladder.h"
 #include "stepping/state.h"
 
@@ -43,8 +42,8 @@ typedef struct Certificate {
     const Interface *interface;   // not owned, like the next two
     const FrictionLaw *law;
     const Rod *rod;
-    InterfaceOperator *damping;   // holds S_C; owned
-    ClosedOperator *closed;   // S_C and rungs, open nodes condensed out; not owned
+    InterfaceOperator *damping;   // holds S_C; NULL where C itself is singular; owned
+    ContactMatrix damping_contact;   // S_C with open nodes condensed out; owned
     double *matrix;   // [count^2] work; owned
     double *weakening;   // [count] work: W's diagonal; owned
     double *damper;   // [count] work: of soft rod nodes, added to all S; owned
@@ -55,27 +54,23 @@ typedef struct Certificate {
     double seconds;   // wall time spent
 } Certificate;
 
-// closed: that of the contact solver, whose rungs it asks for; it must not move.
-bool certificate_create(const Block *block, ClosedOperator *closed, Certificate *certificate,
-                        Error *err);
+bool certificate_create(const Block *block, Certificate *certificate, Error *err);
 void certificate_destroy(Certificate *certificate);
 
 // The slip set of `state` cannot gain energy.
 bool certificate_holds(Certificate *certificate, const State *state);
 
 // det J > 0: no single real rate of growth lies above 1/(gamma dt), dt that of `rung`.
-bool certificate_step_resolves(Certificate *certificate, const State *state,
-                               const InterfaceOperator *rung);
+bool certificate_step_resolves(Certificate *certificate, const State *state, ContactMatrix *rung);
 
 // A disturbance that swings grows by less than `growth` > 1 in half a period. To be asked on all
 // rungs that are built.
-bool certificate_swings_less(Certificate *certificate, const State *state,
-                             const InterfaceOperator *rung, double growth);
+bool certificate_swings_less(Certificate *certificate, const State *state, ContactMatrix *rung,
+                             double growth);
 
 // Weakening over what the block bears at s = 1/(gamma dt), the pressure that follows slip included:
 // the largest eigenvalue of ((S_t + sign(v) mu S_n)[F,F])^-1 W, by powers of it. 1: s is a real
 // growth rate. Where powers do not settle a bound from above, INFINITY where S is singular.
-double certificate_load(Certificate *certificate, const State *state,
-                        const InterfaceOperator *rung);
+double certificate_load(Certificate *certificate, const State *state, ContactMatrix *rung);
 
 #endif

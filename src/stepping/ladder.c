@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// dt_k = dt_max 2^-k (DESIGN 4.2). A rung is the operator A_k = M/(gamma dt_k) + C + gamma dt_k K
+// dt_k = dt_max 2^-k (DESIGN 4.2). A rung is the matrix A_k = M/(gamma dt_k) + C + gamma dt_k K
 // condensed on the interface: it does not depend on the state, is made when a step first asks for
 // it, and is kept to the end of the run, so that a change of step costs nothing after that. gamma
 // is that of the scheme that steps on it (stepping/tableau).
@@ -9,6 +9,7 @@
 #include "stepping/tableau.h"
 
 #include <math.h>
+#include <stddef.h>
 
 // Nothing is factored yet.
 void ladder_init(BulkOperator *system, double step_max, double step_min, Ladder *ladder)
@@ -21,7 +22,10 @@ void ladder_init(BulkOperator *system, double step_max, double step_min, Ladder 
 
 void ladder_destroy(Ladder *ladder)
 {
-    for (int32_t k = 0; k < LADDER_RUNGS_MAX; k++) interface_operator_destroy(ladder->rung[k]);
+    for (int32_t k = 0; k < LADDER_RUNGS_MAX; k++) {
+        contact_matrix_destroy(&ladder->contact[k]);
+        interface_operator_destroy(ladder->rung[k]);
+    }
     *ladder = (Ladder){0};
 }
 
@@ -57,11 +61,25 @@ InterfaceOperator *ladder_rung(Ladder *ladder, int32_t k, Error *err)
 {
     if (!ladder->rung[k]) {
         double started = clock_seconds();
-        ladder->rung[k] = interface_operator_create(ladder->system, rung_terms(ladder, k), err);
+        InterfaceOperator *rung =
+            interface_operator_create(ladder->system, rung_terms(ladder, k), err);
+        if (rung &&
+            contact_matrix_create(interface_operator_schur(rung), ladder->system->interface_count,
+                                  &ladder->contact[k], err)) {
+            ladder->rung[k] = rung;
+        } else {
+            contact_matrix_destroy(&ladder->contact[k]);
+            interface_operator_destroy(rung);
+            error_context(err, "step %g", ladder_step(ladder, k));
+        }
         ladder->seconds += clock_seconds() - started;
-        if (!ladder->rung[k]) error_context(err, "step %g", ladder_step(ladder, k));
     }
     return ladder->rung[k];
+}
+
+ContactMatrix *ladder_contact(Ladder *ladder, int32_t k)
+{
+    return ladder->rung[k] ? &ladder->contact[k] : NULL;
 }
 
 // By the errors that were measured when the basis was made; the full mesh is not asked again.

@@ -5,6 +5,7 @@
 #define AMONTONS_STEPPING_LADDER_H
 
 #include "bulk/interface_operator.h"
+#include "contact/contact_matrix.h"
 
 enum { LADDER_RUNGS_MAX = 128 };
 
@@ -14,6 +15,7 @@ typedef struct Ladder {
     double gamma;   // of the scheme that steps on it; at first that of SDIRK2
     int32_t rung_count;   // usable rungs: 0 .. rung_count - 1
     InterfaceOperator *rung[LADDER_RUNGS_MAX];   // NULL: not built; owned
+    ContactMatrix contact[LADDER_RUNGS_MAX];   // of the rungs that are built; owned
     int64_t accepted[LADDER_RUNGS_MAX];   // steps, counted by step_control
     double seconds;   // wall time spent on building rungs
 } Ladder;
@@ -28,6 +30,8 @@ double ladder_reach(const Ladder *ladder, int32_t k);   // gamma dt: displacemen
 int32_t ladder_find(const Ladder *ladder, double step);
 // NULL with the error set when the matrix cannot be factored.
 InterfaceOperator *ladder_rung(Ladder *ladder, int32_t k, Error *err);
+// What the contact sees of rung k; NULL: it is not built.
+ContactMatrix *ladder_contact(Ladder *ladder, int32_t k);
 
 // The largest error that the reduction of the bulk left in a rung that steps were accepted on.
 double ladder_reduction_error(const Ladder *ladder);

@@ -69,22 +69,23 @@ static void fill_bounds(Sdirk *scheme, const double *predictor, double time, dou
 }
 
 // Solves A v = rhs + r with the interface's conditions. *solved says whether contact was settled.
-static bool solve_stage(Sdirk *scheme, InterfaceOperator *rung, ContactSolution *contact, double *v,
+static bool solve_stage(Sdirk *scheme, int32_t rung, ContactSolution *contact, double *v,
                         bool *solved, Error *err)
 {
+    InterfaceOperator *bulk = scheme->ladder->rung[rung];
     const Interface *interface = scheme->interface;
-    TRY(interface_operator_condense(rung, scheme->rhs, scheme->g, err));
+    TRY(interface_operator_condense(bulk, scheme->rhs, scheme->g, err));
     ContactProblem problem = {.interface = interface,
                               .law = scheme->law,
                               .rod_kind = scheme->rod->kind,
                               .rod_softness = scheme->rod->softness,
                               .rod_reach = scheme->reach + scheme->rod->lag,
-                              .schur = interface_operator_schur(rung),
+                              .matrix = ladder_contact(scheme->ladder, rung),
                               .g = scheme->g,
                               .bound = scheme->bound};
     *solved = contact_solve(&scheme->solver, &problem, contact);
     if (!*solved) goto cleanup;
-    TRY(interface_operator_expand(rung, contact->velocity, v, err));
+    TRY(interface_operator_expand(bulk, contact->velocity, v, err));
     // What is held is held exactly, not to the rounding of the substitution.
     for (int32_t k = 0; k < interface->count; k++)
         v[scheme->system->interface_dofs[k]] = contact->velocity[k];
@@ -154,7 +155,7 @@ static void guess_contact(const State *from, State *to)
 // A step on its way: the rung's step and matrix, and where it starts and ends.
 typedef struct Trial {
     double step, scaled;   // dt, gamma dt
-    InterfaceOperator *condensed;
+    int32_t rung;
     const State *from;
     State *to;
     StepOutcome *outcome;
@@ -219,7 +220,7 @@ static bool solve_one_stage(Sdirk *scheme, const Trial *trial, int32_t i, Error 
         scheme->rhs[k] = rate * to->inertia[k] + system->load[k] - scheme->force[k];
     fill_bounds(scheme, scheme->predictor, trial->from->time + tableau->c[i] * trial->step,
                 trial->scaled);
-    TRY(solve_stage(scheme, trial->condensed, &contact, velocity, &trial->outcome->solved, err));
+    TRY(solve_stage(scheme, trial->rung, &contact, velocity, &trial->outcome->solved, err));
     if (!trial->outcome->solved) goto cleanup;
     bulk_operator_apply(system, BULK_MASS, velocity, momentum);
     bulk_operator_apply(system, BULK_STIFFNESS, velocity, elastic);
@@ -244,11 +245,11 @@ bool sdirk_step(Sdirk *scheme, int32_t k, const State *from, State *to, StepOutc
     *outcome = (StepOutcome){0};
     Trial trial = {.step = ladder_step(scheme->ladder, k),
                    .scaled = ladder_reach(scheme->ladder, k),
-                   .condensed = ladder_rung(scheme->ladder, k, err),
+                   .rung = k,
                    .from = from,
                    .to = to,
                    .outcome = outcome};
-    if (!trial.condensed) goto cleanup;
+    if (!ladder_rung(scheme->ladder, k, err)) goto cleanup;
     guess_contact(from, to);
     for (int32_t i = 0; i < scheme->tableau.stages; i++) {
         TRY(solve_one_stage(scheme, &trial, i, err));

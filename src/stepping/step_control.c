@@ -44,7 +44,7 @@ bool step_control_create(const Block *block, const StepControlDef *def, StepCont
     while (longest < def->relax_step) longest *= 2;   // so that step_max is a rung
     ladder_init(block->system, longest, def->step_min, &control->ladder);
     TRY(sdirk_create(block, def->scheme, &control->ladder, &control->scheme, err));
-    TRY(certificate_create(block, &control->scheme.solver.closed, &control->certificate, err));
+    TRY(certificate_create(block, &control->certificate, err));
     TRY(watch_create(block, def->watch_time, &control->watch, err));
     TRY(state_create(block->system, block->interface, &control->now, err));
     TRY(state_create(block->system, block->interface, &control->next, err));
@@ -113,7 +113,7 @@ static bool step_balances(const StepControl *control, int32_t k, const StepOutco
 static bool rungs_grow(StepControl *control)
 {
     for (int32_t k = 0; k < control->ladder.rung_count; k++) {
-        const InterfaceOperator *rung = control->ladder.rung[k];
+        ContactMatrix *rung = ladder_contact(&control->ladder, k);
         if (rung && !certificate_step_resolves(&control->certificate, &control->now, rung))
             return true;
     }
@@ -126,7 +126,7 @@ static bool bears_growth(StepControl *control, const State *state)
 {
     double load[3] = {0};
     for (int32_t k = 0; k < control->ladder.rung_count; k++) {
-        const InterfaceOperator *rung = control->ladder.rung[k];
+        ContactMatrix *rung = ladder_contact(&control->ladder, k);
         load[0] = load[1];
         load[1] = load[2];
         load[2] = rung ? certificate_load(&control->certificate, state, rung) : 0;
@@ -148,7 +148,7 @@ static bool swings_stay_small(StepControl *control, const State *state)
     double growth = SMALL_SWING * control->scheme.law->critical_velocity / fastest;
     if (!(growth > 1)) return false;
     for (int32_t k = 0; k < control->ladder.rung_count; k++) {
-        const InterfaceOperator *rung = control->ladder.rung[k];
+        ContactMatrix *rung = ladder_contact(&control->ladder, k);
         if (rung && !certificate_swings_less(&control->certificate, state, rung, growth))
             return false;
     }
@@ -185,8 +185,8 @@ static Verdict judge_step(StepControl *control, int32_t k, const StepOutcome *ou
     if (*certified) return STEP_ACCEPTED;
     if (!resolves_waves(control, k))
         return may_skip_waves(control, &control->next) ? STEP_ACCEPTED : STEP_UNCERTIFIED;
-    bool resolved =
-        certificate_step_resolves(&control->certificate, &control->next, control->ladder.rung[k]);
+    bool resolved = certificate_step_resolves(&control->certificate, &control->next,
+                                              ladder_contact(&control->ladder, k));
     return resolved ? STEP_ACCEPTED : STEP_UNCERTIFIED;
 }
 

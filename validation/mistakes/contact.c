@@ -136,6 +136,7 @@ static bool invert(double *means, int32_t size, int32_t *pivots, double *inverse
 // The matrices of one solve, [size^2] each but the vectors, [size].
 typedef struct Means {
     double *means, *inverse, *half, *schur;
+    ContactMatrix seen;   // of schur
     double *g, *bound, *copy;
     int32_t *pivots;
 } Means;
@@ -159,15 +160,16 @@ static bool means_create(const ContactProblem *problem, bool slip_only, Means *o
     fill_means(problem->interface, slip_only, of->means);
     DenseView inverse = {of->inverse, size, size};
     for (int32_t k = 0; k < size; k++)
-        dense_symmetric_apply(problem->schur, size, of->inverse + (int64_t)k * size,
+        dense_symmetric_apply(problem->matrix->schur, size, of->inverse + (int64_t)k * size,
                               of->half + (int64_t)k * size);
     dense_multiply_transposed(inverse, (DenseView){of->half, size, size}, 1, 0, of->schur);
     dense_apply_transposed(inverse, problem->g, 1, 0, of->g);
-    return true;
+    return contact_matrix_create(of->schur, size, &of->seen, &err);
 }
 
 static void means_destroy(Means *of)
 {
+    contact_matrix_destroy(&of->seen);
     void *arrays[] = {of->means, of->inverse, of->half, of->schur,
                       of->g,     of->bound,   of->copy, of->pivots};
     for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; k++) memory_free(arrays[k]);
@@ -196,14 +198,12 @@ static bool solve_means(ContactSolver *solver, const ContactProblem *problem,
         of.bound[interface_tangent(i)] = 0;   // not used, and may hold anything
     apply(&of, of.means, false, size, of.bound);
     ContactProblem meant = *problem;
-    meant.schur = of.schur;
+    meant.matrix = &of.seen;
     meant.g = of.g;
     meant.bound = of.bound;
     apply(&of, of.means, false, size, solution->velocity);
     apply(&of, of.inverse, true, size, solution->reaction);
-    solver->kept_schur = NULL;   // factors of another matrix at the same address
     solved = __real_contact_solve(solver, &meant, solution);
-    solver->kept_schur = NULL;
     apply(&of, of.inverse, false, size, solution->velocity);
     apply(&of, of.means, true, size, solution->reaction);
 cleanup:

@@ -23,7 +23,7 @@ static void good_state(HandContact *hand)
 
 static ContactResidual judge(const HandContact *hand)
 {
-    ContactProblem problem = hand_problem(hand);
+    ContactProblem problem = hand_problem(hand, NULL);
     return contact_residual(&problem, hand->velocity, hand->reaction, FORCE, VELOCITY);
 }
 

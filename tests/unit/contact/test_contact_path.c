@@ -11,7 +11,9 @@ static bool follow(HandContact *hand)
 {
     Error err = {0};
     ContactPath path;
-    ContactProblem problem = hand_problem(hand);
+    ContactMatrix matrix;
+    assert_true(contact_matrix_create(hand->schur, hand->interface.count, &matrix, &err));
+    ContactProblem problem = hand_problem(hand, &matrix);
     ContactSolution solution = {hand->velocity, hand->reaction, hand->status, hand->rod_touches};
     assert_true(contact_path_create(&hand->interface, &path, &err));
     int64_t allocations = memory_counters().allocations;
@@ -19,6 +21,7 @@ static bool follow(HandContact *hand)
     assert_int_equal(memory_counters().allocations, allocations);
     assert_true(!found || path.steps > 0);
     contact_path_destroy(&path);
+    contact_matrix_destroy(&matrix);
     return found;
 }
 

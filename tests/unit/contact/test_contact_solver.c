@@ -259,23 +259,26 @@ static void test_allocates_nothing(void **state)
     Random random = {.state = 21};
     HandContact hand;
     ContactSolver solver;
+    ContactMatrix matrix;
     hand_contact_size(&hand, 20, 2);
     hand.law = (FrictionLaw){.mu_static = 0.4, .mu_kinetic = 0.1, .critical_velocity = 1};
     hand_random_schur(&random, 3, 1, &hand);
     int64_t live = memory_counters().live;
+    assert_true(contact_matrix_create(hand.schur, hand.interface.count, &matrix, &err));
     assert_true(contact_solver_create(&hand.interface, contact_solver_def(), &solver, &err));
     int64_t before = memory_counters().allocations;
     for (int32_t round = 0; round < 20; round++) {
         for (int32_t k = 0; k < hand.interface.count; k++)
             hand.g[k] = random_between(&random, -2, 1);
         ContactSolution solution = {hand.velocity, hand.reaction, hand.status, hand.rod_touches};
-        ContactProblem problem = hand_problem(&hand);
+        ContactProblem problem = hand_problem(&hand, &matrix);
         contact_solve(&solver, &problem, &solution);
     }
     assert_int_equal(memory_counters().allocations, before);
     assert_int_equal(solver.solves, 20);
     assert_true(solver.iterations >= 20);
     contact_solver_destroy(&solver);
+    contact_matrix_destroy(&matrix);
     assert_int_equal(memory_counters().live, live);
     bool done = false;
     for (int32_t k = 0; !done; k++) {
@@ -287,6 +290,35 @@ static void test_allocates_nothing(void **state)
         contact_solver_destroy(&solver);
         assert_int_equal(memory_counters().live, live);
     }
+}
+
+// An matrix that ends and another one in its place, matrix and object at the same addresses, same
+// statuses: nothing that was computed from the first may serve the second.
+static void test_same_address(void **state)
+{
+    (void)state;
+    Error err = {0};
+    Random random = {.state = 27};
+    static HandContact hand;
+    ContactSolver solver;
+    ContactMatrix matrix;
+    hand_contact_size(&hand, 12, 1);
+    hand.law = (FrictionLaw){.kind = FRICTION_COULOMB, .mu_static = 0.3};
+    assert_true(contact_solver_create(&hand.interface, contact_solver_def(), &solver, &err));
+    for (int32_t k = 0; k < hand.interface.count; k++)
+        hand.g[k] = k % 2 == 0 ? 3 : (k / 2) % 3 == 0 ? 1 : -1;
+    for (int32_t round = 0; round < 10; round++) {
+        hand_random_schur(&random, 3, 0.1, &hand);
+        assert_true(contact_matrix_create(hand.schur, hand.interface.count, &matrix, &err));
+        ContactSolution solution = {hand.velocity, hand.reaction, hand.status, hand.rod_touches};
+        ContactProblem problem = hand_problem(&hand, &matrix);
+        int64_t factorisations = solver.factorisations;
+        assert_true(contact_solve(&solver, &problem, &solution));
+        assert_true(solver.factorisations > factorisations);
+        assert_near("judged", hand_contact_error(&hand), 0, 1e-10);
+        contact_matrix_destroy(&matrix);
+    }
+    contact_solver_destroy(&solver);
 }
 
 // A rod node alone, S = 5, g = 1, bound 2, spring 3/0.25 = 12: 5 v = 1 + 12 (2 - v). Where the face
@@ -335,6 +367,7 @@ int main(void)
         cmocka_unit_test(test_two_nodes),
         cmocka_unit_test(test_rough_friction),
         cmocka_unit_test(test_allocates_nothing),
+        cmocka_unit_test(test_same_address),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,7 +9,6 @@
 
 typedef struct CertificateRig {
     BlockRig rig;
-    ClosedOperator closed;
     Certificate certificate;
     State seen;   // at first all stick
     Ladder ladder;
@@ -21,10 +20,17 @@ static inline void certificate_rig_build(const RigDef *def, double longest, doub
 {
     Error err = {0};
     rig_build(def, &built->rig);
-    assert_true(closed_operator_create(&built->rig.interface, &built->closed, &err));
-    assert_true(certificate_create(&built->rig.block, &built->closed, &built->certificate, &err));
+    assert_true(certificate_create(&built->rig.block, &built->certificate, &err));
     assert_true(state_create(&built->rig.system, &built->rig.interface, &built->seen, &err));
     ladder_init(&built->rig.system, longest, shortest, &built->ladder);
+}
+
+// What the contact sees of rung k.
+static inline ContactMatrix *certificate_rig_rung(CertificateRig *built, int32_t k)
+{
+    Error err = {0};
+    assert_non_null(ladder_rung(&built->ladder, k, &err));
+    return ladder_contact(&built->ladder, k);
 }
 
 static inline void certificate_rig_destroy(CertificateRig *built)
@@ -32,7 +38,6 @@ static inline void certificate_rig_destroy(CertificateRig *built)
     ladder_destroy(&built->ladder);
     state_destroy(&built->seen);
     certificate_destroy(&built->certificate);
-    closed_operator_destroy(&built->closed);
     rig_destroy(&built->rig);
 }
 

@@ -124,7 +124,6 @@ static void random_state(Random *random, const BlockRig *rig, double pressure, S
 static void test_random_states(void **state)
 {
     (void)state;
-    Error err = {0};
     Random random = {.state = 77};
     RigDef def = rig_def();
     def.law.mu_static = 1.2;   // large enough for pressure to matter
@@ -133,8 +132,8 @@ static void test_random_states(void **state)
     certificate_rig_build(&def, 1, 1e-2, &on);
     int32_t cleared = 0, refused = 0, definite = 0, hidden = 0;
     for (int32_t trial = 0; trial < 600; trial++) {
-        InterfaceOperator *rung = ladder_rung(&on.ladder, trial % on.ladder.rung_count, &err);
-        const double *schur = interface_operator_schur(rung);
+        ContactMatrix *rung = certificate_rig_rung(&on, trial % on.ladder.rung_count);
+        const double *schur = rung->schur;
         // Weakening of the size of S's diagonal.
         double weak = schur[0] * def.law.critical_velocity * random_between(&random, 0.2, 4);
         random_state(&random, &on.rig, weak, &on.seen);
@@ -182,15 +181,14 @@ static int sign_at(const Slip *slip, double part)
 static void test_load(void **state)
 {
     (void)state;
-    Error err = {0};
     Random random = {.state = 5};
     RigDef def = rig_def();
     CertificateRig on;
     certificate_rig_build(&def, 1, 1e-2, &on);
     int32_t above = 0, below = 0;
     for (int32_t trial = 0; trial < 100; trial++) {
-        InterfaceOperator *rung = ladder_rung(&on.ladder, trial % on.ladder.rung_count, &err);
-        const double *schur = interface_operator_schur(rung);
+        ContactMatrix *rung = certificate_rig_rung(&on, trial % on.ladder.rung_count);
+        const double *schur = rung->schur;
         double weak = schur[0] * def.law.critical_velocity * random_between(&random, 0.2, 12);
         random_state(&random, &on.rig, weak, &on.seen);
         Slip slip = {.rig = &on.rig, .seen = &on.seen, .schur = schur};
@@ -240,7 +238,6 @@ static double alike_state(const BlockRig *rig, const double *schur, double part,
 static void test_load_of_nodes_alike(void **state)
 {
     (void)state;
-    Error err = {0};
     RigDef def = rig_def();
     def.law.mu_kinetic = 0;
     def.rod_width = 0;
@@ -248,10 +245,9 @@ static void test_load_of_nodes_alike(void **state)
     certificate_rig_build(&def, 1e-2, 1e-7, &on);
     int32_t apart = 0;
     for (int32_t k = 0; k < on.ladder.rung_count; k++) {
-        InterfaceOperator *rung = ladder_rung(&on.ladder, k, &err);
+        ContactMatrix *rung = certificate_rig_rung(&on, k);
         for (double spread = 1e-1; spread > 1e-5; spread /= 3) {
-            double largest =
-                alike_state(&on.rig, interface_operator_schur(rung), 0.1, spread, &on.seen);
+            double largest = alike_state(&on.rig, rung->schur, 0.1, spread, &on.seen);
             double load = certificate_load(&on.certificate, &on.seen, rung);
             assert_true(load >= 0.999 * largest);
             if (!(load <= 1.08 * largest)) fail_msg("load %g, not %g", load, largest);

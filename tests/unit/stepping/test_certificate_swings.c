@@ -92,7 +92,7 @@ static bool swings_less(Fixture *fixture, double growth)
 {
     for (int32_t k = 0; k < fixture->built.ladder.rung_count; k++)
         if (!certificate_swings_less(&fixture->built.certificate, &fixture->built.seen,
-                                     fixture->built.ladder.rung[k], growth))
+                                     ladder_contact(&fixture->built.ladder, k), growth))
             return false;
     return true;
 }

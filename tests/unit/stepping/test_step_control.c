@@ -38,7 +38,7 @@ static void check_rules(double wave_step, double tolerance)
             uncertified++;
             assert_true(step <= steps.wave_step);
             assert_true(certificate_step_resolves(&control->certificate, &control->now,
-                                                  control->ladder.rung[k]));
+                                                  ladder_contact(&control->ladder, k)));
         }
         longest += step == steps.step_max;
         last = step;

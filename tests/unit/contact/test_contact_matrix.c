@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // S with open nodes condensed out, however it was reached, against an elimination from S itself.
-#include "contact/closed_operator.h"
+#include "contact/contact_matrix.h"
 
 #include "base/memory.h"
 #include "contact_by_hand.h"
@@ -41,61 +41,61 @@ static void expect_closed(const double *found, const double *s, const uint8_t *s
     }
 }
 
-// More operators than are kept, nodes that open and close at random, for long.
+// Nodes that open and close at random, for long, each matrix with statuses of its own.
 static void test_any_order(void **state)
 {
     (void)state;
     Error err = {0};
     HandContact hand;
-    ClosedOperator closed;
+    static ContactMatrix operators[OPERATORS];
+    static uint8_t status[OPERATORS][NODES];
     Random random = {.state = 8};
     make_operators(&hand);
-    assert_true(closed_operator_create(&hand.interface, &closed, &err));
-    int64_t allocations = memory_counters().allocations;
+    for (int k = 0; k < OPERATORS; k++)
+        assert_true(contact_matrix_create(schur[k], COUNT, &operators[k], &err));
+    int64_t allocations = memory_counters().allocations, sweeps = 0;
     for (int trial = 0; trial < 4000; trial++) {
-        double *s = schur[random_index(&random, trial % 2 ? 3 : OPERATORS)];
-        uint8_t *status = &hand.status[random_index(&random, NODES)];
-        *status = (uint8_t)random_index(&random, 4);
-        expect_closed(closed_operator_of(&closed, s, hand.status), s, hand.status);
+        int k = random_index(&random, trial % 2 ? 3 : OPERATORS);
+        status[k][random_index(&random, NODES)] = (uint8_t)random_index(&random, 4);
+        expect_closed(contact_matrix_close(&operators[k], status[k], NODES), schur[k], status[k]);
     }
-    for (int k = 0; k < closed.kept_count; k++)   // renewed from time to time
-        assert_true(closed.kept[k].sweeps <= 16 * NODES + 2 * NODES);
-    assert_true(closed.sweeps > 4 * 16 * NODES);
     memset(hand.status, CONTACT_STICK, sizeof hand.status);
-    assert_ptr_equal(closed_operator_of(&closed, schur[0], hand.status), schur[0]);
+    for (int k = 0; k < OPERATORS; k++) {
+        assert_true(operators[k].swept <= 16 * NODES + 2 * NODES);   // renewed from time to time
+        sweeps += operators[k].sweeps;
+        assert_ptr_equal(contact_matrix_close(&operators[k], hand.status, NODES), schur[k]);
+    }
+    assert_true(sweeps > 4 * 16 * NODES);
     assert_int_equal(memory_counters().allocations, allocations);
-    closed_operator_destroy(&closed);
+    for (int k = 0; k < OPERATORS; k++) contact_matrix_destroy(&operators[k]);
 }
 
-// One node more costs two sweeps, and three operators stand side by side.
+// One node more costs two sweeps.
 static void test_sweeps_little(void **state)
 {
     (void)state;
     Error err = {0};
     HandContact hand;
-    ClosedOperator closed;
-    const double *found[CLOSED_OPERATORS_MIN];
+    ContactMatrix matrix;
     make_operators(&hand);
-    assert_true(closed_operator_create(&hand.interface, &closed, &err));
+    assert_true(contact_matrix_create(schur[0], COUNT, &matrix, &err));
     memset(hand.status, CONTACT_SLIP_FORWARD, sizeof hand.status);
     for (int i = 0; i < 4; i++) {
         hand.status[2 * i] = CONTACT_OPEN;
-        for (int k = 0; k < CLOSED_OPERATORS_MIN; k++)
-            found[k] = closed_operator_of(&closed, schur[k], hand.status);
-        assert_int_equal(closed.sweeps, 2 * CLOSED_OPERATORS_MIN * (i + 1));
+        expect_closed(contact_matrix_close(&matrix, hand.status, NODES), schur[0], hand.status);
+        assert_int_equal(matrix.sweeps, 2 * (i + 1));
     }
-    for (int k = 0; k < CLOSED_OPERATORS_MIN; k++) expect_closed(found[k], schur[k], hand.status);
-    closed_operator_destroy(&closed);
+    contact_matrix_destroy(&matrix);
 }
 
 // All normals move as one but for springs of `hold`: with all nodes open there is nothing else that
-// holds them. What is said to float leaves no trace in what is asked for next.
+// holds them. Where nothing holds them nothing is left behind in what is asked for next.
 static void test_floating(void **state)
 {
     (void)state;
     Error err = {0};
     HandContact hand;
-    ClosedOperator closed;
+    ContactMatrix matrix;
     const double holds[] = {0, 1e-14, 1e-11};
     make_operators(&hand);
     for (int h = 0; h < 3; h++) {
@@ -106,12 +106,12 @@ static void test_floating(void **state)
             for (int j = 0; j < NODES; j++)
                 s[(2 * j + 1) * COUNT + 2 * i + 1] = (i == j) * (1 + holds[h]) - 1.0 / NODES;
         }
-        assert_true(closed_operator_create(&hand.interface, &closed, &err));
+        assert_true(contact_matrix_create(s, COUNT, &matrix, &err));
         memset(hand.status, CONTACT_OPEN, sizeof hand.status);
-        assert_null(closed_operator_of(&closed, s, hand.status));
+        assert_null(contact_matrix_close(&matrix, hand.status, NODES));
         for (int i = 0; i < NODES; i += 2) hand.status[i] = CONTACT_STICK;
-        expect_closed(closed_operator_of(&closed, s, hand.status), s, hand.status);
-        closed_operator_destroy(&closed);
+        expect_closed(contact_matrix_close(&matrix, hand.status, NODES), s, hand.status);
+        contact_matrix_destroy(&matrix);
     }
 }
 
@@ -120,17 +120,17 @@ static void test_memory(void **state)
     (void)state;
     Error err = {0};
     HandContact hand;
-    ClosedOperator closed;
+    ContactMatrix matrix;
     hand_contact_size(&hand, NODES, RODS);
     int64_t live = memory_counters().live;
     bool done = false;
-    for (int32_t k = 0; !done; k += 5) {
+    for (int32_t k = 0; !done; k++) {
         memory_fail_after(k);
         error_clear(&err);
-        done = closed_operator_create(&hand.interface, &closed, &err);
+        done = contact_matrix_create(schur[0], COUNT, &matrix, &err);
         memory_fail_after(-1);
         assert_int_equal(err.code, done ? ERROR_NONE : ERROR_MEMORY);
-        closed_operator_destroy(&closed);
+        contact_matrix_destroy(&matrix);
         assert_int_equal(memory_counters().live, live);
     }
 }

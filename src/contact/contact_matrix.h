@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The interface matrix S of one step size, with all that the contact keeps of it: S with open
+// nodes condensed out, and the factors of what slips. They live and end with S, so that no other
+// matrix can be mistaken for it. Open nodes O carry no force: their motion follows from the
+// others', which meet
+//
+//     S' = S - S_.O S_OO^-1 S_O.
+//
+// Blocks on pads have most of their nodes open while few slip. A node that opens or closes changes
+// S' by two sweeps (base/dense), which cost as much as a few products with S; factoring S_OO in
+// every linear system costs far more. Made by stepping/ladder for each step size and by
+// stepping/certificate for the damping alone; used by contact/contact_solver.
+#ifndef AMONTONS_CONTACT_CONTACT_MATRIX_H
+#define AMONTONS_CONTACT_CONTACT_MATRIX_H
+
+#include "base/error.h"
+
+#include <stdint.h>
+
+typedef struct ContactMatrix {
+    const double *schur;   // S [count^2], symmetric; not owned, stands as long as this
+    int32_t count;   // interface unknowns
+    double *closed;   // [count^2] S swept on `out`, both triangles; owned, like all that follows
+    uint8_t *out;   // [count] 1: the unknown is swept
+    double *work;   // [count]
+    int32_t swept;   // sweeps since `closed` was copied from S; -1: it is no copy
+    int64_t sweeps;   // counted
+    // Kept by contact/contact_solver: LU of Newton's matrix and what it belongs to.
+    double *factors;   // [count^2]
+    int32_t *pivots;   // [count]
+    int32_t *free;   // [count] unknowns it is for, free_count of them
+    uint8_t *status;   // [count] statuses and touching rod nodes it is for
+    int32_t free_count;
+    int64_t factored;   // which of the solver's factorisations made it; 0: none is kept
+} ContactMatrix;
+
+// schur: [count^2]. *matrix is overwritten; on failure contact_matrix_destroy frees what was
+// made. Memory for `closed` and `factors` is taken up as it comes into use.
+bool contact_matrix_create(const double *schur, int32_t count, ContactMatrix *matrix, Error *err);
+void contact_matrix_destroy(ContactMatrix *matrix);
+
+// S' for the nodes that `status` [contact_count] has open; S itself where none is. Stands until the
+// same is asked for with other statuses. NULL: S_OO is nearly singular, nothing holds those nodes.
+const double *contact_matrix_close(ContactMatrix *matrix, const uint8_t *status,
+                                   int32_t contact_count);
+
+#endif

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a contact node does: it is open, sticks, or slips one way or the other.
+#ifndef AMONTONS_CONTACT_CONTACT_STATUS_H
+#define AMONTONS_CONTACT_CONTACT_STATUS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+// symbol, name
+#define CONTACT_STATUSES(X)                                                                        \
+    X(CONTACT_OPEN, "open")                                                                        \
+    X(CONTACT_STICK, "stick")                                                                      \
+    X(CONTACT_SLIP_FORWARD, "slip forward")                                                        \
+    X(CONTACT_SLIP_BACKWARD, "slip backward")
+
+typedef enum ContactStatus {
+#define X(symbol, name) symbol,
+    CONTACT_STATUSES(X)
+#undef X
+} ContactStatus;
+
+static inline bool status_slips(uint8_t status)
+{
+    return status == CONTACT_SLIP_FORWARD || status == CONTACT_SLIP_BACKWARD;
+}
+
+// +1 or -1: the direction of v_t.
+static inline double status_direction(uint8_t status)
+{
+    return status == CONTACT_SLIP_FORWARD ? 1.0 : -1.0;
+}
+
+#endif
