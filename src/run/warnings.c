@@ -21,8 +21,8 @@ void warnings_add(RunWarnings *warnings, const char *format, ...)
 
 void warnings_of_resolution(const Certificate *certificate, double load, RunWarnings *warnings)
 {
-    const Interface *interface = certificate->interface;
-    double slope = -friction_slope(certificate->law, 0), length = 0;
+    const Interface *interface = certificate->moving.interface;
+    double slope = -friction_slope(certificate->moving.law, 0), length = 0;
     if (!(slope > 0) || !certificate->damping) return;   // no damping: the scene was warned of
     const double *schur = interface_operator_schur(certificate->damping);
     int32_t unstable = 0;

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// When may inertia's time scale be skipped? Let F be the interface unknowns that can move (slipping
-// tangents, rod nodes let go; open nodes are condensed out of every S below, which changes neither
-// what is definite nor a sign of det J), and at nodes that slip on the weakening branch
-//
-//     W = diag(-mu'(|v_i|) r_n,i), 0 elsewhere     (linear law: (mu_S - mu_K) p_i w_i / v_c).
-//
-// Soft rod nodes that touch (contact/rod) are in F, their dampers in C; their springs are left out,
-// which only makes the tests stricter.
+// When may inertia's time scale be skipped? With F the interface unknowns that can move and W the
+// weakening on them (stepping/moving_set; open nodes are condensed out of every S below, which
+// changes neither what is definite nor a sign of det J):
 //
 //   * S_C[F,F] - W positive definite, S_C the Schur complement of the damping C alone: viscosity
 //     takes more out of any slip than weakening puts in. No perturbation can gain energy, and any
@@ -22,34 +17,31 @@
 //     carries a pad may run away at a rate far above s where S - W is definite; and with mu_S =
 //     1.2 slip is steady for long while it is not.)
 //
-// Where slip swings and the first test fails: an exp(lambda t) of the shape u has lambda^2 m +
-// lambda c + k = 0 with m = u* M u, c = u* (C - W) u, k = u* K u; hence -Re lambda/|lambda| = c/(2
-// sqrt(m k)), and 2 sqrt(m k) is the least of s m + k/s over s > 0. So
+// Where the first test fails a disturbance may oscillate and grow: an exp(lambda t) of the shape u
+// has lambda^2 m + lambda c + k = 0 with m = u* M u, c = u* (C - W) u, k = u* K u; hence
+// -Re lambda/|lambda| = c/(2 sqrt(m k)), and 2 sqrt(m k) is the least of s m + k/s over s > 0. So
 //
 //   * S_C + a (S(s) - S_C) - W positive definite for all s: Re lambda < a |lambda| for all that
 //     grows. (The Schur complement of C + a (s M + K/s) is larger, as Schur complements are
-//     concave.) With a = cos(arctan(pi/log g)) what swings grows by less than g in half a period.
+//     concave.) With a = cos(arctan(pi/log g)) what oscillates grows by less than g in half a
+//     period.
 //
-// a = 0 is the first test. Both leave out that pressure follows slip. Called by
+// a = 0 is the first test. Both leave out that pressure follows slip. Dampers of soft rod nodes
+// belong to C; their springs are left out, which only makes the tests stricter. Called by
 // stepping/step_control.
 #ifndef AMONTONS_STEPPING_CERTIFICATE_H
 #define AMONTONS_STEPPING_CERTIFICATE_H
 
 #include "stepping/ladder.h"
-#include "stepping/state.h"
+#include "stepping/moving_set.h"
 
 typedef struct Certificate {
-    const Interface *interface;   // not owned, like the next two
-    const FrictionLaw *law;
-    const Rod *rod;
-    InterfaceOperator *damping;   // holds S_C; NULL where C itself is singular; owned
-    ContactMatrix damping_contact;   // S_C with open nodes condensed out; owned
-    double *matrix;   // [count^2] work; owned
-    double *weakening;   // [count] work: W's diagonal; owned
-    double *damper;   // [count] work: of soft rod nodes, added to all S; owned
-    double *vector;   // [count] work; owned
-    int32_t *moving;   // [count] work: F; owned
-    int32_t *pivots;   // [count] work; owned
+    InterfaceOperator *damping;   // holds S_C; NULL: C is singular; owned
+    ContactMatrix damping_contact;   // S_C, open nodes condensed out; empty without; owned
+    MovingSet moving;   // F and W of the state asked about; owned, like all that follows
+    double *matrix;   // [count^2] work
+    double *vector;   // [count] work
+    int32_t *pivots;   // [count] work
     int64_t checks;   // counted, factorisations
     double seconds;   // wall time spent
 } Certificate;
@@ -63,14 +55,16 @@ bool certificate_holds(Certificate *certificate, const State *state);
 // det J > 0: no single real rate of growth lies above 1/(gamma dt), dt that of `rung`.
 bool certificate_step_resolves(Certificate *certificate, const State *state, ContactMatrix *rung);
 
-// A disturbance that swings grows by less than `growth` > 1 in half a period. To be asked on all
-// rungs that are built.
-bool certificate_swings_less(Certificate *certificate, const State *state, ContactMatrix *rung,
-                             double growth);
+// A disturbance that oscillates grows by less than `growth` > 1 in half a period. Asked on all rungs
+// that are built.
+bool certificate_oscillates_less(Certificate *certificate, const State *state, Ladder *ladder,
+                                 double growth);
 
-// Weakening over what the block bears at s = 1/(gamma dt), the pressure that follows slip included:
-// the largest eigenvalue of ((S_t + sign(v) mu S_n)[F,F])^-1 W, by powers of it. 1: s is a real
-// growth rate. Where powers do not settle a bound from above, INFINITY where S is singular.
+// No real rate of growth lies within the range of the rungs that are built.
+bool certificate_excludes_runaway(Certificate *certificate, const State *state, Ladder *ladder);
+
+// Weakening over what the block withstands at s = 1/(gamma dt), the pressure that follows slip
+// included (stepping/weakening_load); INFINITY where S is singular.
 double certificate_load(Certificate *certificate, const State *state, ContactMatrix *rung);
 
 #endif

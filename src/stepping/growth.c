@@ -12,32 +12,21 @@
 
 #include "base/dense.h"
 #include "base/memory.h"
+#include "stepping/weakening_load.h"
 
 #include <math.h>
 #include <string.h>
 
 static const double SAME_RATE = 1e-6;   // two shifts saw one rate, relative
 
-// A moving unknown of the interface.
-typedef struct Moving {
-    int32_t unknown;
-    int32_t normal;   // of a slipping tangent; -1: no friction here
-    double friction;   // s mu(|v|)
-    double weakening;   // W, force * time / length; below 0: a damper
-    double spring;   // of a soft rod node that touches, part of K, force/width per length
-} Moving;
-
 struct Growth {
     GrowthDef def;
-    BulkOperator *system;   // not owned, like the next three
+    BulkOperator *system;   // not owned, like the next
     const Interface *interface;
-    const FrictionLaw *law;
-    const Rod *rod;
     int32_t shift_count;
     double shift[GROWTH_SHIFTS_MAX];   // s, 1/time
     InterfaceOperator *at[GROWTH_SHIFTS_MAX];   // A; owned, like all that follows
-    Moving *moving;   // [interface_count]
-    int32_t moving_count;
+    MovingSet moving;   // of the state asked about
     double *matrix;   // [interface_count^2] of the moving unknowns
     int32_t *pivots;   // [interface_count]
     double *step;   // [interface_count]
@@ -67,7 +56,6 @@ GrowthDef growth_def(double length, double speed, int32_t contact_count)
 static bool allocate(Growth *growth, Error *err)
 {
     int64_t m = growth->interface->count, n = growth->system->dof_count, k = growth->def.vectors;
-    growth->moving = NEW_ARRAY(Moving, m, err);
     growth->matrix = NEW_ARRAY(double, m *m, err);
     growth->pivots = NEW_ARRAY(int32_t, m, err);
     growth->step = NEW_ARRAY(double, m, err);
@@ -99,8 +87,7 @@ Growth *growth_create(const Block *block, const GrowthDef *def, Error *err)
     growth->def = *def;
     growth->system = block->system;
     growth->interface = block->interface;
-    growth->law = block->law;
-    growth->rod = block->rod;
+    TRY(moving_set_create(block, &growth->moving, err));
     TRY(allocate(growth, err));
     for (double s = def->slowest; growth->shift_count < GROWTH_SHIFTS_MAX; s *= 2) {
         int32_t k = growth->shift_count++;
@@ -126,115 +113,38 @@ void growth_destroy(Growth *growth)
                         growth->dots,      growth->eigen_work, growth->mode_re,  growth->mode_im,
                         growth->real_mode, growth->candidate};
     for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; k++) memory_free(arrays[k]);
-    memory_free(growth->moving);
+    moving_set_destroy(&growth->moving);
     memory_free(growth->pivots);
     memory_free(growth);
 }
 
-// Without friction, weakening and spring: the caller adds what it has.
-static void add_moving(Growth *growth, int32_t unknown)
-{
-    growth->moving[growth->moving_count++] = (Moving){.unknown = unknown, .normal = -1};
-}
-
-// Where a soft rod node touches, its damper lag/softness enters W with the sign of a damper, below
-// 0.
-static void list_moving(Growth *growth, const State *state)
-{
-    const Interface *interface = growth->interface;
-    growth->moving_count = 0;
-    for (int32_t i = 0; i < interface->contact_count; i++) {
-        if (state->status[i] == CONTACT_STICK) continue;
-        int32_t t = interface_tangent(i), n = interface_normal(i);
-        add_moving(growth, t);
-        if (state->status[i] == CONTACT_OPEN) {
-            add_moving(growth, n);
-            continue;
-        }
-        Moving *slipping = &growth->moving[growth->moving_count - 1];
-        double speed = fabs(state->slip_rate[t]);
-        slipping->normal = n;
-        slipping->friction = status_direction(state->status[i]) *
-                             friction_coefficient(growth->law, speed);
-        slipping->weakening = -friction_slope(growth->law, speed) * state->reaction[n];
-    }
-    for (int32_t j = 0; j < interface->rod_count; j++) {
-        double softness = growth->rod->softness[j];
-        if (state->rod_touches[j] && softness == 0) continue;
-        add_moving(growth, interface_rod(interface, j));
-        if (!state->rod_touches[j]) continue;
-        Moving *soft = &growth->moving[growth->moving_count - 1];
-        soft->spring = 1 / softness;
-        soft->weakening = -growth->rod->lag / softness;
-    }
-}
-
 // --- the scan -----------------------------------------------------------------------------------
-
-// The largest eigenvalue of W^1/2 S[F,F]^-1 W^1/2 by powers of it; the inverse stands in `matrix`.
-// Symmetric, so the Rayleigh quotient y'x converges twice as fast as the vector. Weakening below 0
-// (dampers) is in the matrix already.
-static double largest_load(const Growth *growth)
-{
-    enum { POWERS_MAX = 2000 };
-    int32_t count = growth->moving_count;
-    double *x = growth->step, *y = growth->g, load = 0, square = 0;
-    for (int32_t a = 0; a < count; a++) {
-        x[a] = sqrt(fmax(growth->moving[a].weakening, 0));
-        square += x[a] * x[a];
-    }
-    if (square == 0) return 0;
-    for (int32_t power = 0; power < POWERS_MAX; power++) {
-        double norm = sqrt(dense_dot(x, x, count)), before = load;
-        for (int32_t a = 0; a < count; a++)
-            x[a] *= sqrt(fmax(growth->moving[a].weakening, 0)) / norm;
-        dense_symmetric_apply(growth->matrix, count, x, y);
-        load = dense_dot(x, y, count);
-        for (int32_t a = 0; a < count; a++)
-            x[a] = sqrt(fmax(growth->moving[a].weakening, 0)) * y[a];
-        if (fabs(load - before) <= 1e-12 * load) break;
-    }
-    return load;
-}
 
 // INFINITY: S cannot be factored there.
 static double load_at(Growth *growth, int32_t k)
 {
-    int32_t count = growth->moving_count;
-    int64_t size = growth->interface->count;
-    const double *schur = interface_operator_schur(growth->at[k]);
-    for (int32_t b = 0; b < count; b++) {
-        const double *column = schur + size * growth->moving[b].unknown;
-        for (int32_t a = 0; a < count; a++)
-            growth->matrix[(int64_t)count * b + a] = column[growth->moving[a].unknown];
-        const Moving *soft = &growth->moving[b];
-        growth->matrix[(int64_t)count * b + b] += soft->spring / growth->shift[k] -
-                                                  fmin(soft->weakening, 0);
-    }
-    if (!dense_cholesky(growth->matrix, count) || !dense_invert_factored(growth->matrix, count))
-        return INFINITY;
-    return largest_load(growth);
+    MovingSet *moving = &growth->moving;
+    moving_set_gather(moving, interface_operator_schur(growth->at[k]), 1, 0, growth->matrix);
+    moving_set_add_rod(moving, 1 / growth->shift[k], growth->matrix);
+    if (!dense_lu(growth->matrix, moving->count, growth->pivots)) return INFINITY;
+    return weakening_load(moving, growth->matrix, growth->pivots, 2000, 1e-12, growth->step);
 }
 
 // load >= 1: some s > 0 is a real growth rate with the pressure held. At an end of the range no
 // parabola is fitted.
 GrowthScan growth_scan(Growth *growth, const State *state)
 {
-    double load[GROWTH_SHIFTS_MAX] = {0};
+    double load[GROWTH_SHIFTS_MAX] = {0}, octaves;
     int32_t best = 0, count = growth->shift_count;
-    list_moving(growth, state);
+    moving_set_find(&growth->moving, state, true);
     for (int32_t k = 0; k < count; k++) {
         load[k] = load_at(growth, k);
         if (load[k] > load[best]) best = k;
     }
     GrowthScan scan = {.load = load[best], .rate = growth->shift[best]};
     if (best == 0 || best == count - 1) return scan;
-    // The top of the parabola through three neighbours, in log s.
-    double slope = (load[best + 1] - load[best - 1]) / 2;
-    double curve = load[best + 1] - 2 * load[best] + load[best - 1];
-    if (!(curve < 0)) return scan;
-    scan.load -= slope * slope / (2 * curve);
-    scan.rate *= exp2(-slope / curve);
+    scan.load = weakening_load_top(load + best - 1, &octaves);
+    scan.rate *= exp2(octaves);
     return scan;
 }
 
@@ -244,20 +154,13 @@ GrowthScan growth_scan(Growth *growth, const State *state)
 // Into growth->matrix and pivots; false where s is itself a growth rate.
 static bool factor_moving(Growth *growth, int32_t k)
 {
-    int32_t count = growth->moving_count;
-    int64_t size = growth->interface->count;
+    MovingSet *moving = &growth->moving;
     const double *schur = interface_operator_schur(growth->at[k]);
-    for (int32_t b = 0; b < count; b++) {
-        const double *column = schur + size * growth->moving[b].unknown;
-        double *out = growth->matrix + (int64_t)count * b;
-        for (int32_t a = 0; a < count; a++) {
-            const Moving *row = &growth->moving[a];
-            out[a] = column[row->unknown];
-            if (row->normal >= 0) out[a] += row->friction * column[row->normal];
-        }
-        out[b] += growth->moving[b].spring / growth->shift[k] - growth->moving[b].weakening;
-    }
-    return dense_lu(growth->matrix, count, growth->pivots);
+    moving_set_gather(moving, schur, 1, 0, growth->matrix);
+    moving_set_couple(moving, schur, growth->matrix);
+    moving_set_add_rod(moving, 1 / growth->shift[k], growth->matrix);
+    moving_set_subtract_weakening(moving, growth->matrix);
+    return dense_lu(growth->matrix, moving->count, growth->pivots);
 }
 
 // to = shifted inverse of from; both [2 dof_count].
@@ -273,16 +176,16 @@ static bool apply_inverse(Growth *growth, int32_t k, const double *from, double 
     bulk_operator_apply(system, BULK_DAMPING, a, growth->image);
     for (int32_t j = 0; j < n; j++) growth->rhs[j] = -growth->rhs[j] - growth->image[j] / s;
     TRY(interface_operator_condense(growth->at[k], growth->rhs, growth->g, err));
-    for (int32_t r = 0; r < growth->moving_count; r++) {
-        const Moving *row = &growth->moving[r];
-        growth->step[r] = growth->g[row->unknown] +
-                          row->weakening * a[system->interface_dofs[row->unknown]] / s;
+    for (int32_t r = 0; r < growth->moving.count; r++) {
+        const MovingUnknown *row = &growth->moving.list[r];
+        growth->step[r] = growth->g[row->unknown] + (row->weakening - row->damper) *
+                                                        a[system->interface_dofs[row->unknown]] / s;
         if (row->normal >= 0) growth->step[r] += row->friction * growth->g[row->normal];
     }
-    dense_lu_solve(growth->matrix, growth->moving_count, growth->pivots, growth->step);
+    dense_lu_solve(growth->matrix, growth->moving.count, growth->pivots, growth->step);
     memset(growth->border, 0, (size_t)growth->interface->count * sizeof(double));
-    for (int32_t r = 0; r < growth->moving_count; r++)
-        growth->border[growth->moving[r].unknown] = growth->step[r];
+    for (int32_t r = 0; r < growth->moving.count; r++)
+        growth->border[growth->moving.list[r].unknown] = growth->step[r];
     TRY(interface_operator_expand(growth->at[k], growth->border, to, err));
     for (int32_t j = 0; j < growth->interface->count; j++)
         to[system->interface_dofs[j]] = growth->border[j];
@@ -317,8 +220,9 @@ static bool start_basis(Growth *growth, int32_t k, Error *err)
     for (int32_t j = 0; j < n; j++) seed[j] = 1e-3 * (1 + 0.5 * cos(1.7 * j));
     for (int32_t j = 0; j < growth->interface->count; j++)
         seed[growth->system->interface_dofs[j]] = 0;
-    for (int32_t r = 0; r < growth->moving_count; r++)
-        seed[growth->system->interface_dofs[growth->moving[r].unknown]] = 1 + 0.5 * cos(1.3 * r);
+    for (int32_t r = 0; r < growth->moving.count; r++)
+        seed[growth->system->interface_dofs[growth->moving.list[r].unknown]] = 1 +
+                                                                               0.5 * cos(1.3 * r);
     TRY(apply_inverse(growth, k, seed, growth->basis, err));
     orthogonalise(growth, 0, growth->basis, dots);
 cleanup:
@@ -455,7 +359,7 @@ cleanup:
 bool growth_rates(Growth *growth, const State *state, GrowthRates *rates, Error *err)
 {
     *rates = (GrowthRates){.mode_re = growth->mode_re, .mode_im = growth->mode_im};
-    list_moving(growth, state);
+    moving_set_find(&growth->moving, state, true);
     for (int32_t k = 0; k < growth->shift_count; k += growth->def.stride)
         TRY(rates_near_shift(growth, k, rates, err));
 cleanup:

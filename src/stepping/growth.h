@@ -23,7 +23,7 @@
 #ifndef AMONTONS_STEPPING_GROWTH_H
 #define AMONTONS_STEPPING_GROWTH_H
 
-#include "stepping/state.h"
+#include "stepping/moving_set.h"
 
 enum { GROWTH_KEPT = 8, GROWTH_SHIFTS_MAX = 24 };
 

@@ -120,25 +120,6 @@ static bool rungs_grow(StepControl *control)
     return false;
 }
 
-// Whether `state` bears its weakening at every rate. Two real rates are born as one, between the
-// rungs: the largest load is that of the parabola through three neighbours, in log s.
-static bool bears_growth(StepControl *control, const State *state)
-{
-    double load[3] = {0};
-    for (int32_t k = 0; k < control->ladder.rung_count; k++) {
-        ContactMatrix *rung = ladder_contact(&control->ladder, k);
-        load[0] = load[1];
-        load[1] = load[2];
-        load[2] = rung ? certificate_load(&control->certificate, state, rung) : 0;
-        double largest = load[2], slope = (load[2] - load[0]) / 2;
-        double curve = load[2] - 2 * load[1] + load[0];
-        if (curve < 0 && load[1] >= load[0] && load[1] >= load[2])
-            largest = load[1] - slope * slope / (2 * curve);
-        if (!(largest < 1)) return false;
-    }
-    return true;
-}
-
 // No swing that a disturbance as fast as slip itself starts comes near v_c in half a period.
 static bool swings_stay_small(StepControl *control, const State *state)
 {
@@ -146,13 +127,8 @@ static bool swings_stay_small(StepControl *control, const State *state)
     for (int32_t i = 0; i < state->contact_count; i++)
         fastest = fmax(fastest, fabs(state->slip_rate[interface_tangent(i)]));
     double growth = SMALL_SWING * control->scheme.law->critical_velocity / fastest;
-    if (!(growth > 1)) return false;
-    for (int32_t k = 0; k < control->ladder.rung_count; k++) {
-        ContactMatrix *rung = ladder_contact(&control->ladder, k);
-        if (rung && !certificate_swings_less(&control->certificate, state, rung, growth))
-            return false;
-    }
-    return true;
+    return growth > 1 &&
+           certificate_oscillates_less(&control->certificate, state, &control->ladder, growth);
 }
 
 // May `state` be left or reached by a step that does not resolve waves? What swings on is small,
@@ -161,7 +137,7 @@ static bool may_skip_waves(StepControl *control, const State *state)
 {
     return control->watch.duration > 0 &&
            (watch_bears(&control->watch, state) || swings_stay_small(control, state)) &&
-           bears_growth(control, state);
+           certificate_excludes_runaway(&control->certificate, state, &control->ladder);
 }
 
 static bool resolves_waves(const StepControl *control, int32_t k)

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "stepping/moving_set.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+
+bool moving_set_create(const Block *block, MovingSet *set, Error *err)
+{
+    *set = (MovingSet){.interface = block->interface, .law = block->law, .rod = block->rod};
+    set->list = NEW_ARRAY(MovingUnknown, block->interface->count, err);
+    return error_is_clean(err);
+}
+
+void moving_set_destroy(MovingSet *set)
+{
+    memory_free(set->list);
+    *set = (MovingSet){0};
+}
+
+// Without friction, weakening and rod: the caller adds what it has.
+static MovingUnknown *add_unknown(MovingSet *set, int32_t unknown)
+{
+    MovingUnknown *moving = &set->list[set->count++];
+    *moving = (MovingUnknown){.unknown = unknown, .normal = -1};
+    return moving;
+}
+
+static void add_slipping(MovingSet *set, const State *state, int32_t i)
+{
+    int32_t t = interface_tangent(i), n = interface_normal(i);
+    double speed = fabs(state->slip_rate[t]);
+    MovingUnknown *moving = add_unknown(set, t);
+    moving->normal = n;
+    moving->friction = status_direction(state->status[i]) * friction_coefficient(set->law, speed);
+    moving->weakening = -friction_slope(set->law, speed) * state->reaction[n];
+    set->weakens = set->weakens || moving->weakening > 0;
+}
+
+void moving_set_find(MovingSet *set, const State *state, bool with_open)
+{
+    const Interface *interface = set->interface;
+    set->count = 0;
+    set->weakens = false;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        if (status_slips(state->status[i])) add_slipping(set, state, i);
+        if (!with_open || state->status[i] != CONTACT_OPEN) continue;
+        add_unknown(set, interface_tangent(i));
+        add_unknown(set, interface_normal(i));
+    }
+    for (int32_t j = 0; j < interface->rod_count; j++) {
+        double softness = set->rod->softness[j];
+        if (state->rod_touches[j] && softness == 0) continue;
+        MovingUnknown *moving = add_unknown(set, interface_rod(interface, j));
+        if (!state->rod_touches[j]) continue;
+        moving->spring = 1 / softness;
+        moving->damper = set->rod->lag / softness;
+    }
+}
+
+void moving_set_gather(const MovingSet *set, const double *schur, double factor, double keep,
+                       double *matrix)
+{
+    int64_t size = set->interface->count;
+    for (int32_t b = 0; b < set->count; b++) {
+        const double *column = schur + size * set->list[b].unknown;
+        double *out = matrix + (int64_t)set->count * b;
+        for (int32_t a = 0; a < set->count; a++) {
+            double kept = keep == 0 ? 0 : keep * out[a];
+            out[a] = kept + factor * column[set->list[a].unknown];
+        }
+    }
+}
+
+void moving_set_couple(const MovingSet *set, const double *schur, double *matrix)
+{
+    int64_t size = set->interface->count;
+    for (int32_t b = 0; b < set->count; b++) {
+        const double *column = schur + size * set->list[b].unknown;
+        double *out = matrix + (int64_t)set->count * b;
+        for (int32_t a = 0; a < set->count; a++) {
+            const MovingUnknown *row = &set->list[a];
+            if (row->normal >= 0) out[a] += row->friction * column[row->normal];
+        }
+    }
+}
+
+void moving_set_add_rod(const MovingSet *set, double reach, double *matrix)
+{
+    for (int64_t a = 0; a < set->count; a++)
+        matrix[a * set->count + a] += set->list[a].damper + reach * set->list[a].spring;
+}
+
+void moving_set_subtract_weakening(const MovingSet *set, double *matrix)
+{
+    for (int64_t a = 0; a < set->count; a++) matrix[a * set->count + a] -= set->list[a].weakening;
+}

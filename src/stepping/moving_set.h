@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The interface unknowns F that a small disturbance of a state moves, and the linearised equations
+// on them: tangents of slipping nodes, both unknowns of open nodes, rod nodes let go or soft. All
+// else stays put. A slipping node obeys r_t = -d mu(|v_t|) r_n, d the direction of slip, and r_n
+// answers to all that moves, so a disturbance v' of the velocities leaves in its row
+//
+//     (S v')_t + d mu (S v')_n - w v'_t,     w = -mu'(|v_t|) r_n >= 0, its weakening
+//                                            (linear law: (mu_S - mu_K) r_n / v_c below v_c).
+//
+// A soft rod node that touches has a spring and a damper of its own (contact/rod).
+// Called by stepping/certificate and stepping/growth.
+#ifndef AMONTONS_STEPPING_MOVING_SET_H
+#define AMONTONS_STEPPING_MOVING_SET_H
+
+#include "stepping/state.h"
+
+typedef struct MovingUnknown {
+    int32_t unknown;   // of the interface
+    int32_t normal;   // of a slipping tangent; -1: no friction here
+    double friction;   // of a slipping tangent: d mu(|v_t|)
+    double weakening;   // w, force * time / length
+    double damper;   // of a soft rod node that touches: lag / softness, force * time / length
+    double spring;   // of the same: 1 / softness, force / length
+} MovingUnknown;
+
+typedef struct MovingSet {
+    const Interface *interface;   // not owned, like the next two
+    const FrictionLaw *law;
+    const Rod *rod;
+    MovingUnknown *list;   // [interface->count]; owned
+    int32_t count;   // |F|
+    bool weakens;   // some weakening is above 0
+} MovingSet;
+
+bool moving_set_create(const Block *block, MovingSet *set, Error *err);
+void moving_set_destroy(MovingSet *set);
+
+// Lists what `state` lets move. with_open false: open nodes are left out, as in matrices that have
+// them condensed out (contact/closed_operator).
+void moving_set_find(MovingSet *set, const State *state, bool with_open);
+
+// matrix = factor S[F,F] + keep matrix [count^2]. schur: S [interface->count^2], symmetric.
+void moving_set_gather(const MovingSet *set, const double *schur, double factor, double keep,
+                       double *matrix);
+// Adds d mu S[n,F] to the rows of slipping tangents: the pressure that follows slip.
+void moving_set_couple(const MovingSet *set, const double *schur, double *matrix);
+// Adds dampers, and springs times `reach` (velocity to displacement, time; 0: none), to the
+// diagonal.
+void moving_set_add_rod(const MovingSet *set, double reach, double *matrix);
+void moving_set_subtract_weakening(const MovingSet *set, double *matrix);
+
+#endif
