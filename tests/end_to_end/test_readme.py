@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the README tells a newcomer is so: its scene, its commands, its table of arrays, its lines
-of Python, its list of folders."""
+"""What the README and docs/results.md tell a newcomer is so: the scene, the commands, the tables of arrays,
+the lines of Python, the list of folders."""
 import os
 import re
 import subprocess
@@ -16,6 +16,7 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridRead
 SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
 PROGRAM = Path(os.environ.get("AMONTONS_BIN", SOURCE / "build/bin")) / "amontons"
 README = (SOURCE / "README.md").read_text()
+RESULTS = (SOURCE / "docs/results.md").read_text()
 SCENE = SOURCE / "validation/paper/fig1.yaml"
 SCRIPTS = {   # words of the launcher that are no commands of the program
     "reproduce": [sys.executable, SOURCE / "validation/paper/reproduce.py"],
@@ -24,8 +25,8 @@ SMALL = ["mesh.set.nx=12", "mesh.set.nz=12", "time.until.U=4e-4", "output.fields
          "output.figures=[]"]
 
 
-def code_blocks(language):
-    return re.findall(rf"```{language}\n(.*?)```", README, re.S)
+def code_blocks(language, page=README):
+    return re.findall(rf"```{language}\n(.*?)```", page, re.S)
 
 
 def without_comments(text):
@@ -104,7 +105,7 @@ class Result(unittest.TestCase):
 
     def test_table_is_what_the_file_holds(self):
         """Arrays, their types, shapes and units, in both directions."""
-        rows = re.findall(r"^\| `(\w+/\w+)` \| ([^|]+) \| (\w+) \| ([^|]+) \|", README, re.M)
+        rows = re.findall(r"^\| `(\w+/\w+)` \| ([^|]+) \| (\w+) \| ([^|]+) \|", RESULTS, re.M)
         self.assertGreater(len(rows), 20)
         with h5py.File(self.result / "history.h5") as history:
             stored = {f"{group}/{name}": item for group in history
@@ -122,7 +123,7 @@ class Result(unittest.TestCase):
                     self.assertEqual(held.decode() if isinstance(held, bytes) else held, unit)
 
     def test_attributes(self):
-        block = re.search(r"\| attribute of the file .*?\n\n", README + "\n\n", re.S)[0]
+        block = re.search(r"\| attribute of the file .*?\n\n", RESULTS + "\n\n", re.S)[0]
         named = set(re.findall(r"^\| `(\w+)` \|", block, re.M))
         with h5py.File(self.result / "history.h5") as history:
             held = set(history.attrs)
@@ -130,7 +131,7 @@ class Result(unittest.TestCase):
         self.assertLessEqual(named - held, {"mu_macroscopic", "critical_length"})
 
     def test_table_of_fields(self):
-        rows = re.findall(r"^\| `(\.vt[up])` \| ([^|]+) \|", README, re.M)
+        rows = re.findall(r"^\| `(\.vt[up])` \| ([^|]+) \|", RESULTS, re.M)
         for kind, reader in ((".vtu", vtkXMLUnstructuredGridReader()),
                              (".vtp", vtkXMLPolyDataReader())):
             named = [name for suffix, names in rows if suffix == kind
@@ -142,18 +143,26 @@ class Result(unittest.TestCase):
             self.assertEqual(sorted(named), sorted(stored))
 
     def test_files(self):
-        """Every file of the README's table is there (figures were not asked for)."""
-        block = re.search(r"\| file \| what it is \|\n(.*?)\n\n", README, re.S)[1]
+        """Every file of the page's table is there (figures were not asked for)."""
+        block = re.search(r"\| file \| what it is \|\n(.*?)\n\n", RESULTS, re.S)[1]
         for pattern in re.findall(r"`([\w*./]+\.(?:\w+|\*))`", block):
             if not pattern.startswith("figures/"):
                 self.assertTrue(list(self.result.glob(pattern)), pattern)
 
-    def test_python_lines(self):
-        code = code_blocks("python")[0]
+    def run_code(self, code):
         done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True,
                               cwd=self.folder.name)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertRegex(done.stdout, r"^largest F_T/F_N 0\.\d+ at U = 0\.000[34]")
+        return done.stdout
+
+    def test_python_lines(self):
+        self.assertRegex(self.run_code(code_blocks("python")[0]),
+                         r"^largest F_T/F_N 0\.\d+ at U = 0\.000[34]")
+
+    def test_python_lines_of_results(self):
+        printed = self.run_code(code_blocks("python", RESULTS)[0])
+        self.assertRegex(printed, r"^mu_M ")
+        self.assertRegex(printed, r"(?m)^quasi-static   from U = 0\.\d+, reach 0\.\d+$")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The README's two tables are what the tables of the code say. When one differs, this writes the
-// README with the right tables beside it in the build folder, so that mending is one copy.
+// The generated tables of docs/ are what the tables of the code say. When one differs, this writes
+// the page with the right table into the build folder, so that mending is one copy.
 #include "io/result_file.h"
 #include "scene/keys.h"
 
@@ -15,12 +15,12 @@
 
 typedef void (*TableWriter)(FILE *out);
 
-// The README, zero-terminated; freed by the caller.
-static char *read_readme(void)
+// A page of docs/, zero-terminated; freed by the caller.
+static char *read_page(const char *page)
 {
     const char *source = getenv("AMONTONS_SOURCE");
     char path[4096];
-    snprintf(path, sizeof path, "%s/README.md", source ? source : ".");
+    snprintf(path, sizeof path, "%s/docs/%s.md", source ? source : ".", page);
     FILE *file = fopen(path, "r");
     assert_non_null(file);
     char *text = NULL;
@@ -60,37 +60,38 @@ static char *with_table(const char *text, const char *name, const char *table)
     return whole;
 }
 
-static void check_table(const char *name, TableWriter writer)
+static void check_table(const char *page, const char *name, TableWriter writer)
 {
-    char *readme = read_readme();
+    char *text = read_page(page);
     char *table = written_by(writer);
     assert_true(strlen(table) > 500);
-    char *right = with_table(readme, name, table);
-    bool same = strcmp(readme, right) == 0;
+    char *right = with_table(text, name, table);
+    bool same = strcmp(text, right) == 0;
     char path[80];
-    snprintf(path, sizeof path, "README-%s.md", name);
+    snprintf(path, sizeof path, "docs-%s.md", page);
     FILE *file = same ? NULL : fopen(path, "w");
     if (file) {
         fputs(right, file);
         fclose(file);
-        printf("the README's table \"%s\" is out of date; a right one is %s here\n", name, path);
+        printf("the table \"%s\" of docs/%s.md is out of date; a right page is %s here\n", name, page,
+               path);
     }
     free(right);
     free(table);
-    free(readme);
+    free(text);
     assert_true(same);
 }
 
 static void test_history_table(void **state)
 {
     (void)state;
-    check_table("history", result_file_describe);
+    check_table("results", "history", result_file_describe);
 }
 
 static void test_key_table(void **state)
 {
     (void)state;
-    check_table("keys", scene_write_reference);
+    check_table("scenes", "keys", scene_write_reference);
 }
 
 int main(void)
