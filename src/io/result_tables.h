@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What history.h5 holds, in ONE table: names, stored types, shapes, units, and a sentence each.
-// io/result_file writes and reads by it; the README's table is generated from it.
+// io/result_file writes and reads by it; the table of docs/results.md is generated from it.
 #ifndef AMONTONS_IO_RESULT_TABLES_H
 #define AMONTONS_IO_RESULT_TABLES_H
 
