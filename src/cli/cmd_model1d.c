@@ -1,15 +1,27 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // `amontons model1d`: theory beside simulation, a line a position of the front, then the lengths
 // and coefficients by each way of finding them.
+#include "cli/commands.h"
 #include "cli/point_table.h"
 #include "cli/scene_words.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
-enum { OPTION_ALPHA = OPTION_OWN, OPTION_POINTS, OPTION_THEORY };
+static const CommandText text = {
+    .name = "model1d",
+    .argument = "SCENE",
+    .what = "scene",
+    .example = "amontons model1d validation/paper/fig1.yaml",
+    .help =
+        "The effective model in one dimension of Otsuki and Matsukawa (2013), with the block, "
+        "material, friction and rod of the scene file SCENE: a line whose pressure grows as "
+        "2 P x/L. Prints, for each position l of the quasi-static front, the adiabatic solution "
+        "and how fast disturbances of it grow, beside the same of a simulation of the line."
+        "\vThe simulation starts where sliding has just stopped (U = 0) and ends with the scene's "
+        "time.until; it makes steps as `amontons run` does. With -o it also writes model1d.json, "
+        "model1d.h5 and history.h5, of which `amontons render` draws pictures. Example:\n\n"
+        "  amontons model1d validation/paper/fig1.yaml --set load.pressure=0.03 -o line"};
 
 typedef struct Model1dWords {
     SceneWords common;
@@ -17,60 +29,22 @@ typedef struct Model1dWords {
     bool theory_only;
 } Model1dWords;
 
-// Gathers words; check_words judges them.
-static error_t take_option(int key, char *word, struct argp_state *state)
+static int read_words(int argc, char **argv, Model1dWords *words)
 {
-    Model1dWords *words = state->input;
-    switch (key) {
-    case ARGP_KEY_INIT:
-        state->child_inputs[0] = &words->common;
-        return 0;
-    case OPTION_ALPHA:
-        words->alpha = word;
-        return 0;
-    case OPTION_POINTS:
-        words->points = word;
-        return 0;
-    case OPTION_THEORY:
-        words->theory_only = true;
-        return 0;
-    default:
-        return ARGP_ERR_UNKNOWN;
-    }
-}
-
-static void read_options(int argc, char **argv, Model1dWords *words)
-{
-    static const struct argp_option known[] = {
-        {"theory", OPTION_THEORY, NULL, 0, "Formulas only, no simulation", 0},
-        {"alpha", OPTION_ALPHA, "NUMBER", 0,
-         "The part of H over which the shear stress varies (default: the paper's 0.2)", 0},
-        {"points", OPTION_POINTS, "N", 0, "Nodes of the simulated line (default: 81)", 0},
+    const Option own[] = {
+        {"theory", 0, NULL, "Formulas only, no simulation", .flag = &words->theory_only},
+        {"alpha", 0, "NUMBER",
+         "The part of H over which the shear stress varies (default: the paper's 0.2)",
+         .word = &words->alpha},
+        {"points", 0, "N", "Nodes of the simulated line (default: 81)", .word = &words->points},
         {0}};
-    static const struct argp argp = {
-        .options = known,
-        .parser = take_option,
-        .children = scene_words_child,
-        .args_doc = "SCENE",
-        .doc =
-            "The paper's effective model in one dimension, with block, material, friction and rod "
-            "of the scene file SCENE: a line whose pressure grows as 2 P x/L. Prints, for each "
-            "position l of the quasi-static front, the adiabatic solution and how disturbances of "
-            "it grow, beside what a simulation of the line shows when its rod has gone as far."
-            "\vThe simulation starts where sliding has just stopped (U = 0) and ends with the "
-            "scene's time.until. Its steps are those of `amontons run`, and `amontons render` "
-            "draws them. With -o it leaves model1d.json, model1d.h5 and that history.h5. "
-            "Example:\n\n"
-            "  amontons model1d validation/paper/fig1.yaml --set load.pressure=0.03 -o line"};
-    options_parse(&argp, argc, argv, "amontons model1d", words);
+    return scene_words_read(&text, own, argc, argv, &words->common);
 }
 
 // The words of --alpha and --points as `options`. The exit status.
 static int check_words(const Model1dWords *words, Model1dOptions *options)
 {
     char *end = NULL;
-    int status = scene_words_check(&words->common, "model1d", "validation/paper/fig1.yaml");
-    if (status != 0) return status;
     if (words->alpha) {
         options->alpha = strtod(words->alpha, &end);
         if (*words->alpha == 0 || *end || !(options->alpha > 0 && options->alpha <= 10))
@@ -95,42 +69,44 @@ static void show_point(const Model1dPoint *point, void *table)
     printf("\n");
 }
 
-// Twice: as the paper has it, and with the terms that it leaves out.
+// As in the paper, and with the terms that it neglects.
 static void print_theory(const Model1dSummary *summary)
 {
     printf("\nTheory, as in the paper (off-diagonal terms neglected)\n");
     point_table_answer("l_sc/L", summary->l_sc, "Re omega_0 > 0: oscillations grow");
     point_table_answer("l_c/L", summary->l_c,
                        summary->l_c > 1
-                           ? "omega_0 real and > 0: not on this line, slow slip crosses it"
+                           ? "omega_0 real and > 0: longer than the line, never reached"
                            : "omega_0 real and > 0: slow slip turns into sliding");
     point_table_answer("l_c/L, l << L", summary->l_c_small, "the law (L P)^(-1/3)");
     point_table_answer("mu_M", summary->mu_c, "mu_K + (mu_S - mu_K) l_c/L");
     printf("Theory, all terms kept\n");
     point_table_answer("l_sc/L", summary->l_sc_full, "oscillations grow");
-    point_table_answer("l_c/L", summary->l_c_full, "slow slip runs away, however slow the rod");
+    point_table_answer("l_c/L", summary->l_c_full,
+                       "a disturbance grows without oscillating, however slow the rod");
     point_table_answer("l_c/L at V", summary->l_rod_full,
-                       "slip at V grows to v_c within half an oscillation");
+                       "a disturbance grows from V to v_c in half an oscillation");
     point_table_answer("mu_M, V -> 0", summary->mu_c_full, "mu at l_c; mu_S where there is none");
     point_table_answer("mu_M at V", summary->mu_rod_full, "mu at l_c at V");
 }
 
-// The first sliding starts from tau = mu_K p, as theory does; the periodic ones start from what
+// The first sliding starts from tau = mu_K p, as in theory; the periodic ones from the stress that
 // sliding left, and differ by that.
 static void print_steps(const Model1dSummary *summary)
 {
     printf("Simulation\n");
     point_table_answer("first l_sc/L", summary->first_l_sc, "the certificate is lost");
     point_table_answer("first l_c/L", summary->first_l_c,
-                       "sliding begins; from tau = mu_K p, as theory");
+                       "sliding begins; start from tau = mu_K p, as in theory");
     point_table_answer("first mu_M", summary->first_mu, "its peak");
     point_table_answer("periodic l_c/L", summary->l_c_seen,
-                       "later peaks start from what sliding left");
+                       "later peaks start from the stress that sliding left");
     point_table_answer("periodic mu_M", summary->mu_M, "");
-    point_table_answer("spread of mu_M", summary->mu_M_spread, "largest less smallest that counts");
+    point_table_answer("spread of mu_M", summary->mu_M_spread,
+                       "largest less smallest of the peaks that count");
     printf("  %-22s %d, of which %d count, period %d; %d bounded rapid events\n", "peaks",
            summary->peaks, summary->peaks_counted, summary->period, summary->bounded);
-    printf("  %-22s %-8.1e before anything was rapid\n", "mu against theory",
+    printf("  %-22s %-8.1e before the first rapid event\n", "mu against theory",
            summary->quasi_static_error);
     printf("  %-22s %-8.1e complementarity %.1e\n", "energy ledger", summary->energy_error,
            summary->contact_error);
@@ -156,9 +132,9 @@ int command_model1d(int argc, char **argv)
     Model1dSummary summary;
     Error err = {0};
     Scene *scene = NULL;
-    read_options(argc, argv, &words);
-    int status = check_words(&words, &options);
-    if (status == 0) status = scene_words_read(&words.common, &scene);
+    int status = read_words(argc, argv, &words);
+    if (status == 0) status = check_words(&words, &options);
+    if (status == 0) status = scene_words_open(&words.common, &scene);
     if (status != 0) return status;
     bool quiet = words.common.quiet;
     PointTable table = point_table_begin(quiet);

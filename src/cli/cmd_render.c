@@ -1,41 +1,25 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// `amontons render`: pictures of a stored result, or of a plot that a file describes. Which of the
-// two the name's ending tells.
-// Which of both it is, a result or a plot, is told by the name alone, before anything is read.
+// `amontons render`: pictures of a stored result, or of a plot that a file describes. The ending of
+// the name tells which.
 #include "cli/commands.h"
+#include "cli/options.h"
 
 #include <stdio.h>
 #include <string.h>
 
-enum { FIGURES_MAX = 32, PATH_SIZE = 1200 };
+enum { PATH_SIZE = 1200 };
 
-typedef struct RenderOptions {
-    const char *folder;
-    const char *figures[FIGURES_MAX];
-    int32_t figure_count;
-    bool too_many;
-} RenderOptions;
-
-static error_t take_option(int key, char *word, struct argp_state *state)
-{
-    RenderOptions *options = state->input;
-    switch (key) {
-    case 'f':
-        if (options->figure_count == FIGURES_MAX)
-            options->too_many = true;
-        else
-            options->figures[options->figure_count++] = word;
-        return 0;
-    case ARGP_KEY_ARG:
-        if (options->folder)   // --figure force slip-map: the further words are names too
-            return options->figure_count ? take_option('f', word, state)
-                                         : (options->too_many = true, 0);
-        options->folder = word;
-        return 0;
-    default:
-        return ARGP_ERR_UNKNOWN;
-    }
-}
+static const CommandText text = {
+    .name = "render",
+    .argument = "RESULT\nPLOT.yaml",
+    .what = "result folder",
+    .example = "amontons render fig1-result",
+    .help = "Draws the pictures of the result folder RESULT again, from its stored history; "
+            "nothing is computed. They are written to RESULT/figures/NAME.png. With a file "
+            "PLOT.yaml or PLOT.json that describes curves: draws them into PLOT.png. A sweep "
+            "leaves such files; render/plot_file.h explains their keys."
+            "\vWithout --figure all pictures are drawn. Example:\n\n"
+            "  amontons render fig1-result --figure force"};
 
 // JSON is YAML: the descriptions that a sweep leaves are .json.
 static bool is_plot(const char *name)
@@ -57,39 +41,24 @@ static int draw_plot(const char *plot)
     return 0;
 }
 
-// Figures are checked by the module that draws them: it knows which there are.
+// The module that draws them checks the figures: it knows which there are.
 int command_render(int argc, char **argv)
 {
-    static const struct argp_option known[] = {
-        {"figure", 'f', "NAME", 0,
-         "Draw only this picture: force, slip-map or contact-density. "
-         "May be given several times",
-         0},
-        {0}};
-    static const struct argp argp = {
-        .options = known,
-        .parser = take_option,
-        .args_doc = "RESULT\nPLOT.yaml",
-        .doc = "Draws the pictures of the result folder RESULT again, from its stored history "
-               "alone: nothing is solved. They go to RESULT/figures/NAME.png. Or draws the curves "
-               "that "
-               "the file PLOT.yaml describes, into PLOT.png; what such a file holds stands in "
-               "render/plot_file.h."
-               "\vWithout --figure all pictures are drawn. Example:\n\n"
-               "  amontons render fig1-result --figure force"};
-    RenderOptions options = {0};
+    const char *from = NULL;
+    OptionWords figures = {0};
     Error err = {0};
-    options_parse(&argp, argc, argv, "amontons render", &options);
-    if (!options.folder)
-        return report_misuse("render needs a result folder, as in `amontons render fig1-result`");
-    if (options.too_many)
-        return report_misuse("render takes one result folder, and at most 32 pictures");
-    if (is_plot(options.folder)) {
-        if (options.figure_count) return report_misuse("--figure has no meaning for a plot");
-        return draw_plot(options.folder);
+    const Option options[] = {{"figure", 'f', "NAME",
+                               "Draw only this picture: force, slip-map or contact-density. May "
+                               "be given several times",
+                               .words = &figures},
+                              {0}};
+    int status = options_read(&text, options, argc, argv, &from);
+    if (status != 0) return status;
+    if (is_plot(from)) {
+        if (figures.count) return report_misuse("--figure has no meaning for a plot");
+        return draw_plot(from);
     }
-    if (!amontons_render_result(options.folder, options.figures, options.figure_count, &err))
-        return report_error(&err);
-    printf("pictures drawn: %s/figures\n", options.folder);
+    if (!amontons_render_result(from, figures.list, figures.count, &err)) return report_error(&err);
+    printf("pictures drawn: %s/figures\n", from);
     return 0;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // `amontons stability`: the quasi-static path as a table, a line a position of the front, and below
 // it where stability is lost.
+#include "cli/commands.h"
 #include "cli/point_table.h"
 #include "cli/scene_words.h"
 
@@ -8,9 +9,22 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { OPTION_FROM = OPTION_OWN, OPTION_SLIDINGS, OPTION_WHOLE };
-
 enum { SLIDINGS_STANDARD = 2 };   // the second peak already belongs to the periodic regime
+
+static const CommandText text = {
+    .name = "stability",
+    .argument = "SCENE",
+    .what = "scene",
+    .example = "amontons stability validation/paper/fig1.yaml",
+    .help =
+        "Follows the quasi-static slip of the scene file SCENE and prints, for each position "
+        "l of the slip front, how fast small disturbances of that state grow. l_sc is where "
+        "the first oscillation grows, l_c where the first disturbance grows without "
+        "oscillating: there slow slip turns into sliding, and mu is mu_M."
+        "\vThe instability itself is not simulated in time. With -o it also writes stability.json "
+        "and stability.h5. Example:\n\n"
+        "  amontons stability validation/paper/fig1.yaml --set mesh.set.nx=40 "
+        "mesh.set.nz=40 -o stable"};
 
 typedef struct StabilityWords {
     SceneWords common;
@@ -18,64 +32,27 @@ typedef struct StabilityWords {
     bool whole;
 } StabilityWords;
 
-// Gathers words; check_options judges them.
-static error_t take_option(int key, char *word, struct argp_state *state)
+static int read_words(int argc, char **argv, StabilityWords *words)
 {
-    StabilityWords *words = state->input;
-    switch (key) {
-    case ARGP_KEY_INIT:
-        state->child_inputs[0] = &words->common;
-        return 0;
-    case OPTION_FROM:
-        words->from = word;
-        return 0;
-    case OPTION_SLIDINGS:
-        words->slidings = word;
-        return 0;
-    case OPTION_WHOLE:
-        words->whole = true;
-        return 0;
-    default:
-        return ARGP_ERR_UNKNOWN;
-    }
-}
-
-static void read_options(int argc, char **argv, StabilityWords *words)
-{
-    static const struct argp_option known[] = {
-        {"from", OPTION_FROM, "STATE", 0,
+    const Option own[] = {
+        {"from", 0, "STATE",
          "Where the path begins: `sliding`, when the block has come to rest after sliding (the "
          "default), or `start`, the relaxed block. `end`: no path; the growth rates of the one "
-         "state in which the scene's run ends, with a rod or without",
-         0},
-        {"slidings", OPTION_SLIDINGS, "N", 0,
-         "With --from sliding: after the N-th one (or the N-th fall of the force by 5 %, where the "
-         "block does not slide whole), computed by time stepping (default: 2)",
-         0},
-        {"whole", OPTION_WHOLE, NULL, 0, "Follow the front to the end of the block, beyond l_c", 0},
+         "state in which the scene's run ends",
+         .word = &words->from},
+        {"slidings", 0, "N",
+         "With --from sliding: after how many of them, computed by time stepping (default: 2). "
+         "Where the block does not slide as a whole, drops of the force by 5 % count",
+         .word = &words->slidings},
+        {"whole", 0, NULL, "Follow the front to the end of the block, beyond l_c",
+         .flag = &words->whole},
         {0}};
-    static const struct argp argp = {
-        .options = known,
-        .parser = take_option,
-        .children = scene_words_child,
-        .args_doc = "SCENE",
-        .doc =
-            "Follows the quasi-static slip of the scene file SCENE and prints, for each position "
-            "l of the slip front, how fast small disturbances of that state grow. l_sc is where "
-            "the first oscillation grows, l_c where the first disturbance grows without "
-            "oscillating: there slow slip turns into sliding, and mu is mu_M."
-            "\vThe instability itself is not stepped in time. With -o it leaves stability.json and "
-            "stability.h5. Example:\n\n"
-            "  amontons stability validation/paper/fig1.yaml --set mesh.set.nx=40 "
-            "mesh.set.nz=40 -o stable"};
-    options_parse(&argp, argc, argv, "amontons stability", words);
+    return scene_words_read(&text, own, argc, argv, &words->common);
 }
 
 // The words of --from and --slidings as `options`. The exit status.
-static int check_options(const StabilityWords *words, StabilityOptions *options)
+static int check_words(const StabilityWords *words, StabilityOptions *options)
 {
-    int status = scene_words_check(&words->common, "stability", "validation/paper/fig1.yaml");
-    if (status != 0) return status;
     options->at_end = words->from && strcmp(words->from, "end") == 0;
     bool start = options->at_end || (words->from && strcmp(words->from, "start") == 0);
     if (words->from && !start && strcmp(words->from, "sliding") != 0)
@@ -103,7 +80,7 @@ static void show_point(const StabilityPoint *point, void *table)
     fflush(stdout);
 }
 
-// What each pad bears alone, and which of them goes.
+// How stable each pad is alone, and which of them slides.
 static void print_pads(const StabilitySummary *summary)
 {
     if (summary->pad_count < 2) return;
@@ -116,29 +93,32 @@ static void print_pads(const StabilitySummary *summary)
         point_table_cell(pad->l_c / pad->length, 8, 3);
         printf(" %10.4g %10.4g\n", pad->drag, pad->stiffness);
     }
-    printf("  slips, l_c alone: over the pad's length. load: weakening over what the pad bears "
-           "when all\n"
-           "  of it slips and the others hold; from 1 on it runs away alone, else it must be "
-           "carried.\n");
+    printf(
+        "  slips, l_c alone: over the pad's length. load: weakening over the resistance of the pad "
+        "when all\n"
+        "  of it slips and the others hold; from 1 on it is unstable alone, below 1 only with "
+        "others.\n");
 }
 
-// `none` stands where the path ended before the loss was met.
+// `none`: the path ended before.
 static void print_answers(const StabilitySummary *summary)
 {
     printf("\n");
     point_table_answer("l_sc/L", summary->l_sc, "an oscillation grows");
     point_table_answer("l_sc/L (certificate)", summary->l_sc_certificate,
-                       "viscosity alone no longer bears the weakening");
-    point_table_answer("l_c/L", summary->l_c, "slow slip runs away, however slow the rod");
+                       "viscosity alone no longer outweighs the weakening");
+    point_table_answer("l_c/L", summary->l_c,
+                       "a disturbance grows without oscillating, however slow the rod");
     point_table_answer("l_c/L at V", summary->l_c_rod,
-                       "slip at V grows to v_c within half an oscillation");
-    point_table_answer("l_c/L (scan)", summary->l_c_scan, "as l_c, with the pressure held fixed");
+                       "a disturbance grows from V to v_c in half an oscillation");
+    point_table_answer("l_c/L (scan)", summary->l_c_scan, "as l_c, pressures held fixed");
     point_table_answer("mu at l_sc", summary->mu_sc,
-                       "swings begin: at V the block may slide from here on");
-    point_table_answer("mu at a jump", summary->mu_snap, "a node jumps: there too it may slide");
+                       "oscillations grow: the block may slide from here on");
+    point_table_answer("mu at a jump", summary->mu_snap,
+                       "a node jumps: the block may slide there too");
     point_table_answer("mu_M, V -> 0", summary->mu_c, "mu at l_c");
     point_table_answer("mu_M at V", summary->mu_rod, "mu at l_c at V");
-    printf("  (the front goes from node to node: %.4f L between two)\n", summary->element);
+    printf("  (the front moves from node to node, %.4f L apart)\n", summary->element);
     print_pads(summary);
     printf("  time taken             %.1f s (before the path %.1f, path %.1f, growth rates %.1f)\n",
            summary->seconds_before + summary->seconds_path + summary->seconds_growth,
@@ -156,9 +136,9 @@ int command_stability(int argc, char **argv)
     StabilitySummary summary;
     Error err = {0};
     Scene *scene = NULL;
-    read_options(argc, argv, &words);
-    int status = check_options(&words, &options);
-    if (status == 0) status = scene_words_read(&words.common, &scene);
+    int status = read_words(argc, argv, &words);
+    if (status == 0) status = check_words(&words, &options);
+    if (status == 0) status = scene_words_open(&words.common, &scene);
     if (status != 0) return status;
     bool quiet = words.common.quiet;
     PointTable table = point_table_begin(quiet);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Finds the command that the first word asks for.
 #include "cli/commands.h"
+#include "cli/options.h"
 
 #include <stdio.h>
 #include <string.h>

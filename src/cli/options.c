@@ -1,19 +1,109 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What all commands share in reading options and reporting errors.
-#include "cli/commands.h"
+// Words are only gathered while argp reads them, and judged afterwards.
+#include "cli/options.h"
 
+#include <argp.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
+
+enum { KEY_FIRST = 1000, OPTIONS_MAX = 20 };   // keys of argp without a letter: from KEY_FIRST on
+
+typedef struct Reading {
+    const Option *options;
+    const char *argument;
+    bool too_many;   // arguments
+} Reading;
+
+static int option_key(const Option *options, int32_t k)
+{
+    return options[k].letter ? options[k].letter : KEY_FIRST + k;
+}
+
+// The word is not copied: argv outlives everything.
+static void add_word(OptionWords *words, const char *word)
+{
+    if (words->count == OPTION_WORDS_MAX)
+        words->too_many = true;
+    else
+        words->list[words->count++] = word;
+}
+
+// `--set a=1 b=2`: further words that have a `=` and are no file; `RESULT --figure a b`: any.
+static bool goes_on(const Option *option, const Reading *reading, const char *word)
+{
+    if (!option->words || option->words->count == 0) return false;
+    if (strchr(option->argument, '=')) return strchr(word, '=') && access(word, F_OK) != 0;
+    return reading->argument != NULL;
+}
+
+static void take_argument(Reading *reading, const char *word)
+{
+    for (const Option *option = reading->options; option->name; option++) {
+        if (!goes_on(option, reading, word)) continue;
+        add_word(option->words, word);
+        return;
+    }
+    if (reading->argument) reading->too_many = true;
+    reading->argument = word;
+}
+
+static error_t take_word(int key, char *word, struct argp_state *state)
+{
+    Reading *reading = state->input;
+    if (key == ARGP_KEY_ARG) {
+        take_argument(reading, word);
+        return 0;
+    }
+    for (int32_t k = 0; reading->options[k].name; k++) {
+        const Option *option = &reading->options[k];
+        if (option_key(reading->options, k) != key) continue;
+        if (option->flag) *option->flag = true;
+        if (option->word) *option->word = word ? word : "";
+        if (option->words) add_word(option->words, word);
+        return 0;
+    }
+    return ARGP_ERR_UNKNOWN;
+}
+
+// The exit status.
+static int check_words(const CommandText *text, const Reading *reading)
+{
+    if (!reading->argument)
+        return report_misuse("%s needs a %s, as in `%s`", text->name, text->what, text->example);
+    if (reading->too_many) return report_misuse("%s takes one %s", text->name, text->what);
+    for (const Option *option = reading->options; option->name; option++)
+        if (option->words && option->words->too_many)
+            return report_misuse("--%s is given more than %d times", option->name,
+                                 OPTION_WORDS_MAX);
+    return 0;
+}
 
 // argp leaves the program by itself where an option is unknown, with the status set here.
-// name: what usage lines begin with, as in "amontons run"; argv[0] is the command's own word.
-void options_parse(const struct argp *argp, int argc, char **argv, const char *name, void *input)
+int options_read(const CommandText *text, const Option *options, int argc, char **argv,
+                 const char **argument)
 {
+    struct argp_option known[OPTIONS_MAX + 1] = {0};
+    char name[40];   // what usage lines begin with
+    Reading reading = {.options = options};
+    struct argp argp = {
+        .options = known, .parser = take_word, .args_doc = text->argument, .doc = text->help};
+    for (int32_t k = 0; k < OPTIONS_MAX && options[k].name; k++)
+        known[k] = (struct argp_option){
+            .name = options[k].name,
+            .key = option_key(options, k),
+            .arg = options[k].argument,
+            .flags = (options[k].flag && options[k].word ? OPTION_ARG_OPTIONAL : 0) |
+                     (options[k].meaning ? 0 : OPTION_HIDDEN),
+            .doc = options[k].meaning};
     argp_err_exit_status = error_exit_status(ERROR_INPUT);
-    argv[0] = (char *)name;   // argp shows it, and does not write to it
-    argp_parse(argp, argc, argv, 0, NULL, input);
+    snprintf(name, sizeof name, "amontons %s", text->name);
+    argv[0] = name;
+    argp_parse(&argp, argc, argv, 0, NULL, &reading);
+    *argument = reading.argument;
+    return check_words(text, &reading);
 }
 
 void default_folder(const char *file, const char *ending, char *folder, size_t size)
@@ -24,8 +114,7 @@ void default_folder(const char *file, const char *ending, char *folder, size_t s
     snprintf(folder, size, "%.*s%s", (int)(length < 200 ? length : 200), name, ending);
 }
 
-// Digits and nothing else, from low to high: "3.5", "3x" and "" are misuse. *count is set on
-// success only.
+// Digits and nothing else: "3.5", "3x" and "" are misuse. *count is set on success only.
 int option_count(const char *name, const char *word, int32_t low, int32_t high, int32_t *count)
 {
     char *end = NULL;
@@ -37,9 +126,10 @@ int option_count(const char *name, const char *word, int32_t low, int32_t high, 
     return 0;
 }
 
+// --- reports ------------------------------------------------------------------------------------
+
 // Standard output is flushed first, here and below: in a file that takes both, lines stand in the
-// order in which they were said.
-// One line on standard error, whatever it is: a caller's script can take it as it is.
+// order in which they were printed.
 int report_error(const Error *err)
 {
     fflush(stdout);
@@ -54,8 +144,7 @@ void report_warnings(const RunWarnings *warnings)
         fprintf(stderr, "amontons: warning: %s\n", warnings->text[k]);
 }
 
-// For words alone; what is wrong in a file is an Error of the library and goes through
-// report_error.
+// For the command line alone; what is wrong in a file is an Error of the library.
 int report_misuse(const char *format, ...)
 {
     va_list arguments;
@@ -66,4 +155,26 @@ int report_misuse(const char *format, ...)
     fprintf(stderr, "\n");
     va_end(arguments);
     return error_exit_status(ERROR_INPUT);
+}
+
+// --- signals ------------------------------------------------------------------------------------
+
+// A signal handler can reach nothing but a variable of the file.
+static volatile sig_atomic_t stop_wanted = 0;
+
+// All that a signal handler may safely do: the loop of steps looks at the flag.
+static void want_stop(int signal_number)
+{
+    (void)signal_number;
+    stop_wanted = 1;
+}
+
+// SA_RESETHAND gives the signal its default back: a second Ctrl-C ends the program at once.
+const volatile sig_atomic_t *stop_on_signals(void)
+{
+    struct sigaction action = {.sa_handler = want_stop, .sa_flags = (int)SA_RESETHAND};
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+    return &stop_wanted;
 }

@@ -24,7 +24,7 @@ typedef struct SweepTable {
     double *keys;   // [column_count][point_count]; owned, like all below
     double *records;   // [record_count][point_count]
     double *status;   // [point_count] a PointStatus
-    Bounds mu_M;   // of its own peaks where they are periodic, of all but the first where not
+    Bounds mu_M;   // of the peaks that count where they repeat, else of all but the first
     Bounds mu_trusted;
     WordList *words;   // [column_count]
 } SweepTable;

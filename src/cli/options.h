@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The command line of each command: a table of options, read by argp. An error is one line in our
+// own form, and `--help` works whatever else is wrong.
+#ifndef AMONTONS_CLI_OPTIONS_H
+#define AMONTONS_CLI_OPTIONS_H
+
+#include "amontons.h"
+
+enum { OPTION_WORDS_MAX = 200 };
+
+// The arguments of an option that may be given several times.
+typedef struct OptionWords {
+    const char *list[OPTION_WORDS_MAX];   // [count] as typed
+    int32_t count;
+    bool too_many;
+} OptionWords;
+
+typedef struct Option {
+    const char *name;   // "output": --output; NULL ends a table
+    char letter;   // 'o': also -o; 0: none
+    const char *argument;   // "DIR"; NULL: it has none
+    const char *meaning;   // for --help; NULL: not shown there
+    // Where it goes. Flag and word: the argument may be left out.
+    bool *flag;
+    const char **word;   // the last one given
+    OptionWords *words;   // all of them, also `--set a=1 b=2`
+} Option;
+
+typedef struct CommandText {
+    const char *name;   // "run"
+    const char *argument;   // "SCENE"
+    const char *what;   // "scene", of which one must be given
+    const char *example;   // `amontons run validation/paper/fig1.yaml`
+    const char *help;   // before the list of options; and behind it, after a \v
+} CommandText;
+
+// Puts the options given to where `options` say, and what the command works on into *argument.
+// `--help` and unknown options end the program. The exit status, 0 or 2.
+int options_read(const CommandText *text, const Option *options, int argc, char **argv,
+                 const char **argument);
+
+// The folder for results where -o gives none, here: "validation/paper/fig1.yaml" and "-result" give
+// "fig1-result".
+void default_folder(const char *file, const char *ending, char *folder, size_t size);
+
+// The value `word` of an option called `name`, a whole number from low to high. Status 0 or 2.
+int option_count(const char *name, const char *word, int32_t low, int32_t high, int32_t *count);
+
+// Prints "amontons: error: ..." and gives the exit status that belongs to it.
+int report_error(const Error *err);
+int report_misuse(const char *format, ...) __attribute__((format(printf, 1, 2)));   // status 2
+void report_warnings(const RunWarnings *warnings);   // "amontons: warning: ...", a line each
+
+// Set by the first Ctrl-C or SIGTERM, which ends the work in order; a second one ends the program.
+// Called once.
+const volatile sig_atomic_t *stop_on_signals(void);
+
+#endif
