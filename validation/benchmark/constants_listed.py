@@ -1,0 +1,251 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Every number of solver, stepper, bulk and recorders: those that were chosen, which constants.py
+takes to half and to twice their value, and those that follow from something else, with the reason.
+tests/end_to_end/test_constants.py keeps both lists complete."""
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+FOLDERS = ("contact", "stepping", "bulk", "record", "model", "study/stability")   # of src
+NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?"
+KEYS = "scene/keys.c"      # a key's default: varied as a user would, with --set
+
+
+@dataclass(frozen=True)
+class Constant:
+    name: str        # as it stands in the source; of a key: the key
+    file: str        # below src
+    decides: str     # what it decides
+    chosen: str      # where the value comes from
+
+    @property
+    def label(self):
+        return f"{Path(self.file).stem}.{self.name}"
+
+    @property
+    def is_key(self):
+        return self.file == KEYS
+
+    @property
+    def changes_basis(self):
+        return self.file.startswith(("bulk/", "model/"))
+
+    def reaches(self, command):
+        """Whether a scene of this kind can notice it: "run", "explicit", "stability", "problems"."""
+        if self.file.endswith(("growth.c", "stability.c")):
+            return command == "stability"
+        if self.file.endswith(("explicit_reference.c", "stable_step.c")):
+            return command == "explicit"
+        if command == "problems":
+            return self.file.startswith("contact/")
+        return command == "run" or not self.is_key and command == "stability" or \
+            self.file.startswith("record/")
+
+
+def of(file, *rows):
+    return [Constant(name, file, decides, chosen) for name, decides, chosen in rows]
+
+
+HERE = "this table"   # where a value comes from
+CONSTANTS = [
+    *of("contact/contact_solver.c",
+        ("iterations_all", "Newton steps in which every broken status changes", HERE),
+        ("iterations_one", "further steps in which only the worst changes, a path to follow", HERE),
+        ("iterations_short", "the same where a shorter time step can be taken", HERE),
+        ("tolerance", "residual of a solved problem, of its largest force",
+         "1e2 above the rounding of S v - g"),
+        ("CHORD_GAIN", "a kept factor is given up when a step leaves more of the residual", HERE),
+        ("STALLED_MAX", "Newton steps in a row that do not halve the residual: no solution", HERE)),
+    *of("contact/contact_path.c",
+        ("NEAR", "what counts as on the path, or on a bound, of the scales", "rounding, with room"),
+        ("ASIDE", "how far Newton may lead from the tangent, of a step", HERE),
+        ("BEND", "how far a slip rate may go in a step, of v_c", HERE),
+        ("RAY", "a path that has come so far does not come back", HERE),
+        ("STEPS_EACH", "steps for each unknown, then the path is given up",
+         "170 seen: 12 pads, friction 5"),
+        ("CORRECTIONS", "Newton steps back onto the path", HERE),
+        ("TRIALS", "points tried in a step", HERE),
+        ("STARTS", "pressures and rod statuses tried at the start", HERE)),
+    *of("contact/contact_matrix.c",
+        ("SWEEPS_EACH", "sweeps of each node before a copy is renewed (time and rounding)", HERE),
+        ("SINGULAR", "pivot, of its diagonal entry, below which nothing holds an open body", HERE)),
+    *of("contact/friction_law.c",
+        ("SPENT", "rate at which a node that starts fast is tried, of v_c, exponential law", HERE)),
+    *of("contact/rod.c",
+        ("END_SOFTNESS", "softness of the strip's end nodes", "validation/benchmark/precision.py")),
+    *of("stepping/step_control.c",
+        ("SAFETY", "part of the tolerance that the error of a longer step must keep", HERE),
+        ("STEP_BALANCE", "energy that a step may lose, of what it turned over", HERE),
+        ("TOTAL_BALANCE", "or of all that was turned over", HERE),
+        ("SHORTEST_BALANCED", "steps below so much of the wave step are not asked", HERE),
+        ("HOLD_FIRST", "steps before a rung that slip outgrew is tried again", HERE),
+        ("HOLD_MAX", "the same, doubled each time, at most", HERE),
+        ("UNCERTIFIED_DROP", "rungs down from a step into a state that is not certified", HERE),
+        ("SHORTER_FIRST", "steps without a solution before the path is followed", HERE),
+        ("SMALL_SWING", "part of v_c that an oscillation may reach unseen", HERE)),
+    *of("stepping/watch.c",
+        ("SMALL_RATE", "slip rate up to which an oscillation is small, of v_c", HERE),
+        ("SAME_WEAKENING", "how far weakening may exceed what was seen", HERE)),
+    *of("stepping/certificate.c",
+        ("SETTLED", "change of a load in a power that ends the iteration", HERE),
+        ("POWERS_MAX", "powers before the bound is taken", HERE)),
+    *of("stepping/weakening_load.c",
+        ("START_PART", "bound of a load whose powers do not settle", HERE)),
+    *of("stepping/growth.c",
+        ("SAME_RATE", "two growth rates that are one", "rounding, with room"),
+        ("stride", "shifts of the scan to a shift of Arnoldi's", HERE),
+        ("vectors", "of a Krylov space", HERE),
+        ("tolerance", "residual of an eigenpair that is believed", HERE)),
+    *of("stepping/sdirk.c",
+        ("AUDIT_EVERY", "steps to one whose full equation is computed anew", HERE)),
+    *of("stepping/explicit_reference.c",
+        ("NEWTON_MAX", "Newton steps for the slip rate of a node", HERE),
+        ("NEWTON_TOLERANCE", "its residual, of the speed", "rounding")),
+    *of("stepping/stable_step.c",
+        ("LANCZOS_STEPS", "of the largest rate of a mesh", "error bound of Lanczos"),
+        ("HALVINGS", "of the interval of the largest eigenvalue", "rounding, with room"),
+        ("SAFETY", "explicit step over the stable one", "error bound of Lanczos")),
+    *of("bulk/reduction.c",
+        ("LEVEL_RATIO", "between two levels of inertia that the basis is built at", HERE),
+        ("LEVEL_LOWEST", "lowest level, of the slowest mode of the interior", HERE),
+        ("LEVEL_BEYOND", "level beyond one element, where the error is only checked", HERE),
+        ("SLOWEST_ITERATIONS", "inverse iterations for that mode", HERE),
+        ("MESH_SHARE", "error allowed where inertia acts within an element", HERE),
+        ("ERROR_LEAST", "smallest error that is asked for", "rounding of S")),
+    *of("bulk/growing_basis.c",
+        ("DEPENDENT", "new vectors that are rounding", "rounding")),
+    *of("record/events.c",
+        ("RATE_START", "slip rate at which an event becomes rapid, of V", HERE),
+        ("RATE_STOP", "slip rate at which it ends", HERE)),
+    *of("record/falls.c",
+        ("LEAST_DROP", "drop of mu that counts, of mu", "validation/pads, drops seen"),
+        ("MEAN_ERROR", "error of the mean at which a run without a period may stop", HERE),
+        ("REPEATING_PART", "part of the run that a period must hold for", HERE)),
+    *of("record/falls.h",
+        ("FALL_PERIOD_MAX", "longest period looked for", HERE),
+        ("FALLS_ENOUGH", "drops without a period after which a run may stop", HERE)),
+    *of("record/peaks.c",
+        ("REPETITIONS", "rounds that a period must hold for", HERE),
+        ("LONGEST_PERIOD", "longest period looked for", HERE),
+        ("TRANSIENT_PART", "part of the peaks left to the start without a period", HERE)),
+    *of("record/sample.c",
+        ("LOWEST", "quantile that stands for the least mu without a period", HERE)),
+    *of("record/observation.c",
+        ("ROUNDINGS", "roundings of a velocity that count as nothing in the judge", HERE)),
+    *of("model/step_rule.c",
+        ("STEP_MAX_SLIP", "longest step: what the rod moves in it, of friction's slip", HERE),
+        ("STEPS_AT_LEAST", "of a run without a rod", HERE),
+        ("STEP_RANGE", "shortest step, of the longest or the wave step", HERE),
+        ("GROWTH_MAX", "growth of the error assumed for the next longer step", HERE)),
+    *of("run/start.c",
+        ("[ACCURACY_STANDARD]", "local error of a step, of friction's slip",
+         "validation/benchmark/precision.py, promise.py")),
+    *of("model/obtain.c",
+        ("[ACCURACY_STANDARD]", "error of the reduction",
+         "validation/benchmark/precision.py")),
+    *of("study/stability/stability.c",
+        ("PATH_STEP", "step of the quasi-static path, in crossing and viscous times", HERE),
+        ("PATH_SLIP", "what the rod moves in it, of friction's slip", HERE),
+        ("PATH_ELEMENTS", "front advance in it, in elements", HERE),
+        ("SNAP", "slip of a node over that of the rod that is no longer quasi-static", HERE),
+        ("PATH_STEPS_MAX", "then the path is given up", "20 times what 320 nodes need")),
+    *of(KEYS,
+        ("time.wave_step", "step while waves are resolved, of a crossing of the block",
+         "validation/benchmark/precision.py"),
+        ("time.watch", "time that an oscillation is followed, in crossings", HERE),
+        ("time.energy_tolerance", "imbalance of the energy ledger", HERE),
+        ("time.periodic_tolerance", "peaks that agree", HERE)),
+]
+
+SIZE = "room of an array; more than is used"
+ROUNDING = "rounding of coordinates"
+NOT_A_CHOICE = {
+    "contact/contact_check.c": {"STILL": "rounding; the judge only reports"},
+    "contact/contact_path.c": {
+        "CONDITIONS": "a node has no more", "ALL": "a name", "NOWHERE": "a name"},
+    "contact/interface.c": {"STRIP_TOLERANCE": ROUNDING},
+    "contact/rod.c": {"PI": "pi"},
+    "stepping/certificate.c": {"BETWEEN_RUNGS": "(sqrt 2 + 1/sqrt 2)/2: rungs double"},
+    "stepping/explicit_reference.c": {
+        "BLOCK_SIZE": "two 2 x 2 blocks", "NODE_SIZE": "u and v of a node"},
+    "stepping/growth.h": {"GROWTH_KEPT": "rates shown", "GROWTH_SHIFTS_MAX": SIZE},
+    "stepping/ladder.h": {"LADDER_RUNGS_MAX": SIZE},
+    "stepping/tableau.c": {"VALUES_MAX": "stages and v_n"},
+    "stepping/tableau.h": {"TABLEAU_STAGES_MAX": "of SDIRK3"},
+    "bulk/element.h": {"ELEMENT_DOFS_MAX": "two for each node"},
+    "bulk/mesh.c": {"AREA_TOLERANCE": ROUNDING, "order": "the element"},
+    "bulk/mesh.h": {"MESH_PATH_SIZE": SIZE},
+    "bulk/mesh_contact.c": {"PLACE_TOLERANCE": ROUNDING},
+    "bulk/reduced_bulk.h": {"REDUCTION_LEVELS_MAX": SIZE},
+    "bulk/reduction_block.c": {"GRID": "single precision that a cache stores"},
+    "bulk/shape.c": {"TRIANGLE_NODES": "the element", "SQUARE_NODES": "the element"},
+    "bulk/shape.h": {"QUADRATURE_POINTS_MAX": "3 x 3"},
+    "record/events.c": {"FIRST_ROOM": SIZE},
+    "record/falls.c": {"FIRST_ROOM": SIZE},
+    "record/falls.h": {"FALL_BRANCHES_MAX": SIZE},
+    "record/fields.c": {"types": "VTK's", "PATH_SIZE": SIZE, "FIRST_ROOM": SIZE, "NAME_SIZE": SIZE,
+                        "LINE_ARRAYS": "of the interface's file"},
+    "record/front_path.h": {"FRONT_STATIONS": "shown"},
+    "record/history.c": {"FLUSH_EVERY": "seconds of a run that a kill may cost"},
+    "record/pads.c": {"FIRST_ROOM": SIZE},
+    "record/peaks.c": {"FIRST_ROOM": SIZE},
+    "record/recorder.h": {"RECORDERS_MAX": SIZE},
+    "model/basis_cache.c": {"WAIT_MAX": "seconds for another run's basis", "COUNTS": "stored"},
+    "model/shape_cache.c": {"NAME_NUMBERS": "stored", "BASIS_NUMBERS": "stored", "MESH_BYTES_MAX": "of a mesh file", "COUNTS": "stored"},
+    "model/model.c": {
+        "standard_middle": "the rod's default place", "standard_width": "the rod's default"},
+    "model/obtain.c": {
+        "REDUCTION_TOLERANCES": "draft and fine: as standard",
+        "REDUCED_STAGE": "seconds, measured: whether a reduction pays",
+        "FULL_STAGE": "the same", "REDUCTION": "the same", "STAGES": "of a run",
+        "REDUCTION_BYTES": "counted", "REDUCTION_BYTES_MAX": "memory"},
+    "study/stability/stability.c": {"POINTS_BEYOND": "shown"},
+}
+
+
+def places(constant, text):
+    """Where the value of `constant` stands in the text of its file: spans; one is right."""
+    if constant.is_key:
+        entry = re.search(rf'\{{"{re.escape(constant.name)}",[^}}]*\}}', text)
+        values = list(re.finditer(rf'"({NUMBER})"', entry[0])) if entry else []   # the last: default
+        return [tuple(entry.start() + k for k in values[-1].span(1))] if values else []
+    before = r"(?<![\w\])])" if constant.name[0] != "[" else ""
+    pattern = rf"{before}{re.escape(constant.name)} =\s*({NUMBER})(?=\s*[,;}}\n])"
+    return [found.span(1) for found in re.finditer(pattern, text)]
+
+
+def defined(text):
+    """Names of the constants that a file of C defines: static const numbers and arrays of them,
+    and enumerators with a value."""
+    text = re.sub(r"//.*", "", text)
+    names = []
+    for found in re.finditer(r"static const (?:double|float|u?int\d*_t|int|size_t) ([^;(]*?);", text,
+                             re.S):
+        flat = re.sub(r"\{.*?\}(?=\s*(?:,|$))", "0", found[1], flags=re.S)
+        names += re.findall(r"(\w+)(?:\[[^\]]*\])*\s*=", flat)
+    for found in re.finditer(r"\benum \{(.*?)\}", text, re.S):
+        names += re.findall(r"(\w+)\s*=", found[1])
+    return names
+
+
+def faults(root=ROOT):
+    """What keeps the lists and the source from saying the same; empty: nothing."""
+    found, listed = [], {}
+    for constant in CONSTANTS:
+        listed.setdefault(constant.file, set()).add(constant.name)
+        path = root / "src" / constant.file
+        count = len(places(constant, path.read_text())) if path.exists() else 0
+        if count != 1:
+            found.append(f"{constant.name} stands {count} times in src/{constant.file}, not once")
+    for folder in FOLDERS:
+        for path in sorted((root / "src" / folder).glob("*.[ch]")):
+            file = str(path.relative_to(root / "src"))
+            names, no_choice = set(defined(path.read_text())), set(NOT_A_CHOICE.get(file, ()))
+            chosen = listed.get(file, set())
+            found += [f"{name} of src/{file} is in no list" for name in names - chosen - no_choice]
+            found += [f"{name} of src/{file} is in both lists" for name in chosen & no_choice]
+            found += [f"{name} is no more in src/{file}" for name in no_choice - names]
+    found += [f"there is no src/{file}" for file in NOT_A_CHOICE
+              if not (root / "src" / file).exists()]
+    return found
