@@ -19,7 +19,7 @@ static void write_steps(JsonWriter *json, const RunCounters *counters)
     json_integer(json, "accepted", counters->accepted);
     json_integer(json, "rejected", counters->rejected);
     json_integer(json, "rejected_uncertified", counters->rejected_uncertified);
-    json_integer(json, "over_swings", counters->over_swings);
+    json_integer(json, "stepped_over_oscillations", counters->stepped_over_oscillations);
     json_integer(json, "unsolved_retries", counters->unsolved_retries);
     json_integer(json, "factorisations", counters->factorisations);
     json_integer(json, "solves", counters->solves);

@@ -85,7 +85,7 @@ RunCounters summary_count(const Simulation *simulation)
     return (RunCounters){.accepted = steps->accepted,
                          .rejected = rejected,
                          .rejected_uncertified = steps->rejected_uncertified,
-                         .over_swings = steps->over_swings,
+                         .stepped_over_oscillations = steps->stepped_over_oscillations,
                          .unsolved_retries = steps->unsolved,
                          .factorisations = simulation->model.system.factorisations,
                          .solves = simulation->model.system.solves,

@@ -40,7 +40,7 @@ struct Growth {
     double *mode_re, *mode_im, *real_mode, *candidate;   // [interface_count]
 };
 
-// From the slowest swing of the block, a quarter wave over its length, to about c over the distance
+// From the slowest oscillation of the block, a quarter wave over its length, to about c over the distance
 // of two nodes: length/contact_count.
 GrowthDef growth_def(double length, double speed, int32_t contact_count)
 {

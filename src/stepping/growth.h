@@ -14,10 +14,8 @@
 //                 ch. 8). Each product costs one solve with s M + C + K/s, which the border
 //                 (bulk/interface_operator) factors once for all states. Re lambda > 0 first: l_sc;
 //                 lambda real and > 0 first: l_c.
-//   growth_scan   real growth without the coupling: the largest weakening that S(s)[F,F] bears,
-//                 S(s) = s M + C + K/s condensed, over s. Small Cholesky factors only. The pair
-//                 of real rates is born as a double root between two s, so the largest load is
-//                 interpolated in log s.
+//   growth_scan   real growth without the coupling: the largest load over s (stepping/weakening_load)
+//                 with P_t alone in the rows of slipping tangents.
 //
 // Called by study/stability/stability.
 #ifndef AMONTONS_STEPPING_GROWTH_H
@@ -51,7 +49,7 @@ typedef struct GrowthRates {
 } GrowthRates;
 
 typedef struct GrowthScan {
-    double load;   // largest weakening over what is borne: >= 1 is real growth
+    double load;   // weakening over what the block withstands: >= 1 is real growth
     double rate;   // s where that is, 1/time
 } GrowthScan;
 

@@ -30,9 +30,9 @@ enum { UNCERTIFIED_DROP = 3 };
 // cost more than all else there).
 enum { SHORTER_FIRST = 16 };
 
-// Part of v_c that swings may reach to be stepped over unseen. 0.01 keeps a rod at v_c/30, as in
+// Part of v_c that oscillations may reach to be stepped over unseen. 0.01 keeps a rod at v_c/30, as in
 // the paper, out of it: with 0.03 the second peak of Figure 1's block moved by up to 1 %.
-static const double SMALL_SWING = 0.01;
+static const double SMALL_OSCILLATION = 0.01;
 
 // The ladder begins at step_max doubled as often as relaxing may need; which rung a run may take at
 // the longest is `coarsest`.
@@ -45,7 +45,7 @@ bool step_control_create(const Block *block, const StepControlDef *def, StepCont
     ladder_init(block->system, longest, def->step_min, &control->ladder);
     TRY(sdirk_create(block, def->scheme, &control->ladder, &control->scheme, err));
     TRY(certificate_create(block, &control->certificate, err));
-    TRY(watch_create(block, def->watch_time, &control->watch, err));
+    TRY(oscillation_record_create(block, def->watch_time, &control->oscillations, err));
     TRY(state_create(block->system, block->interface, &control->now, err));
     TRY(state_create(block->system, block->interface, &control->next, err));
     step_control_restart(control);
@@ -58,7 +58,7 @@ void step_control_destroy(StepControl *control)
     ladder_destroy(&control->ladder);
     sdirk_destroy(&control->scheme);
     certificate_destroy(&control->certificate);
-    watch_destroy(&control->watch);
+    oscillation_record_destroy(&control->oscillations);
     state_destroy(&control->now);
     state_destroy(&control->next);
     *control = (StepControl){0};
@@ -70,7 +70,7 @@ void step_control_restart(StepControl *control)
     control->counters = (StepCounters){0};
     for (int32_t k = 0; k < LADDER_RUNGS_MAX; k++) control->ladder.accepted[k] = 0;
     control->ledger = energy_open(&control->now);
-    watch_forget(&control->watch);
+    oscillation_record_clear(&control->oscillations);
     control->coarsest = ladder_find(&control->ladder, control->def.step_max);
     int32_t first =
         ladder_find(&control->ladder, fmin(control->def.wave_step, control->def.step_max));
@@ -120,23 +120,24 @@ static bool rungs_grow(StepControl *control)
     return false;
 }
 
-// No swing that a disturbance as fast as slip itself starts comes near v_c in half a period.
-static bool swings_stay_small(StepControl *control, const State *state)
+// No oscillation that a disturbance as fast as slip itself starts comes near v_c in half a period.
+static bool oscillations_stay_small(StepControl *control, const State *state)
 {
     double fastest = 0;
     for (int32_t i = 0; i < state->contact_count; i++)
         fastest = fmax(fastest, fabs(state->slip_rate[interface_tangent(i)]));
-    double growth = SMALL_SWING * control->scheme.law->critical_velocity / fastest;
+    double growth = SMALL_OSCILLATION * control->scheme.law->critical_velocity / fastest;
     return growth > 1 &&
            certificate_oscillates_less(&control->certificate, state, &control->ladder, growth);
 }
 
-// May `state` be left or reached by a step that does not resolve waves? What swings on is small,
-// by the certificate of swings or by what was seen of it, and nothing grows without swinging.
+// May `state` be left or reached by a step that does not resolve waves? What oscillates on is small,
+// as certified or as seen so far, and nothing grows without oscillating.
 static bool may_skip_waves(StepControl *control, const State *state)
 {
-    return control->watch.duration > 0 &&
-           (watch_bears(&control->watch, state) || swings_stay_small(control, state)) &&
+    return control->oscillations.duration > 0 &&
+           (oscillation_record_covers(&control->oscillations, state) ||
+            oscillations_stay_small(control, state)) &&
            certificate_excludes_runaway(&control->certificate, state, &control->ladder);
 }
 
@@ -260,9 +261,10 @@ static void accept_step(StepControl *control, int32_t k, const StepOutcome *outc
     control->last_step = ladder_step(&control->ladder, k);
     control->counters.accepted++;
     if (resolves_waves(control, k))
-        watch_see(&control->watch, &control->now, control->last_step, control->certified);
+        oscillation_record_add(&control->oscillations, &control->now, control->last_step,
+                               control->certified);
     else
-        control->counters.over_swings += !control->certified;
+        control->counters.stepped_over_oscillations += !control->certified;
     control->ladder.accepted[k]++;
 }
 

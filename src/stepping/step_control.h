@@ -4,9 +4,9 @@
 //   2. the estimated local error is within tolerance,
 //   3. its energies balance: numerics take or give only a small part of what the step turned over,
 //   4. its end state is certified dissipative, or the step resolves waves (dt <= wave_step) and no
-//      single real rate of growth lies above 1/(gamma dt) (stepping/certificate), or what swings
-//      there stays small, by certificate or by what was seen of it (stepping/watch), and nothing
-//      grows without swinging.
+//      single real rate of growth lies above 1/(gamma dt) (stepping/certificate), or what
+//      oscillates there stays small, as certified or as seen before (stepping/oscillation_record),
+//      and nothing grows without oscillating.
 // Otherwise it goes back to the old state with a smaller rung. Used by stepping/relaxation and
 // run/simulation.
 #ifndef AMONTONS_STEPPING_STEP_CONTROL_H
@@ -14,7 +14,7 @@
 
 #include "stepping/certificate.h"
 #include "stepping/sdirk.h"
-#include "stepping/watch.h"
+#include "stepping/oscillation_record.h"
 
 typedef struct StepControlDef {
     TableauKind scheme;
@@ -24,8 +24,8 @@ typedef struct StepControlDef {
     double relax_step;   // while relaxing steps may be so long, also where step_max is less, time
     double step_min;   // below it the run stops with an error, time
     double wave_step;   // largest step while not certified, time
-    double
-        watch_time;   // swings are followed so long before they are stepped over, time; 0: always
+    double watch_time;   // oscillations are resolved so long before they are stepped over, time; 0:
+        // always
     double energy_tolerance;   // of the ledger, relative to what was turned over; 0: not asked
     double growth_max;   // a step's successor may be at most this many times longer: 2
     bool use_certificate;   // off only to study what it prevents
@@ -33,7 +33,7 @@ typedef struct StepControlDef {
 
 typedef struct StepCounters {
     int64_t accepted, rejected_error, rejected_energy, rejected_uncertified, unsolved;
-    int64_t over_swings;   // accepted, longer than wave_step though not certified
+    int64_t stepped_over_oscillations;   // accepted, longer than wave_step though not certified
 } StepCounters;
 
 typedef struct StepControl {
@@ -41,7 +41,7 @@ typedef struct StepControl {
     Ladder ladder;   // owned, like all that follows
     Sdirk scheme;
     Certificate certificate;
-    Watch watch;
+    OscillationRecord oscillations;
     State now;   // the last accepted state
     State next;   // work
     EnergyLedger ledger;

@@ -277,7 +277,7 @@ static void test_rigid_block(void **unused)
     GrowthRates rates;
     assert_true(growth_rates(test.growth, &test.state, &rates, &err));
     assert_near("growth rate", rates.rate[0].re, rate, 1e-6 * rate);
-    assert_near("it does not swing", rates.rate[0].im, 0, 0);
+    assert_near("it does not oscillate", rates.rate[0].im, 0, 0);
     assert_near("the real one", rates.real.re, rate, 1e-6 * rate);
     for (int32_t i = 0; i < 3; i++) {
         assert_near("all slip alike", rates.mode_re[2 * i], 1, 1e-6);
@@ -347,7 +347,7 @@ static Complex column_equation(Complex s, double shear, double eta, double densi
     return modulus * q / ctanh(q * height) - s * weakening;
 }
 
-// The foot slips under ever more weakening: it rests, swings, and runs away, at the exact rates.
+// The foot slips under ever more weakening: it rests, oscillates, and runs away, at the exact rates.
 static void test_shear_column(void **unused)
 {
     (void)unused;
@@ -356,14 +356,14 @@ static void test_shear_column(void **unused)
     Case test = {.law = {FRICTION_LINEAR_WEAKENING, 0.38, 0.1, 3.4e-4}};
     dense_use_one_thread();
     column_build(&test, shear, eta, density, height);
-    double slope = 0.28 / 3.4e-4, swings = NAN, runs = NAN, overload = NAN;
+    double slope = 0.28 / 3.4e-4, oscillates = NAN, runs = NAN, overload = NAN;
     for (double weakening = 0.8; weakening < 2.4; weakening += 0.03) {
         GrowthRates rates;
         slip(&test.state, 0, CONTACT_SLIP_FORWARD, 1e-6, weakening / slope);
         assert_true(growth_rates(test.growth, &test.state, &rates, &err));
         GrowthScan scan = growth_scan(test.growth, &test.state);
         Complex s = rates.rate[0].re + rates.rate[0].im * I;
-        if (creal(s) > 0 && isnan(swings)) swings = weakening;
+        if (creal(s) > 0 && isnan(oscillates)) oscillates = weakening;
         if (rates.real.re > 0 && isnan(runs)) runs = weakening;
         if (scan.load >= 1 && isnan(overload)) overload = weakening;
         if (creal(s) <= 0) continue;
@@ -375,7 +375,7 @@ static void test_shear_column(void **unused)
             assert_near("off the exact rate", cabs(f / slope_f), 0, 2e-4 * cabs(s));
     }
     // The thresholds of REFERENCES 4, leading order: eta/H and eta/H + 2 sqrt(rho G/3).
-    assert_near("swings from eta/H", swings, eta / height, 0.06);
+    assert_near("oscillates from eta/H", oscillates, eta / height, 0.06);
     assert_near("runs away from", runs, eta / height + 2 * sqrt(density * shear / 3), 0.06);
     assert_near("without pressure to couple the scan finds the same", overload, runs, 0.031);
     case_close(&test);

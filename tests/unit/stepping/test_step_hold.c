@@ -144,12 +144,12 @@ static void test_large_step_proposed_past_the_critical_length(void **state)
     }
 }
 
-// The watch bears whatever comes.
+// The record covers whatever comes.
 static void make_gullible(PushedBlock *run)
 {
-    Watch *watch = &run->control.watch;
-    watch->seen_for = INFINITY;
-    for (int32_t k = 0; k < watch->interface->contact_count; k++) watch->weakening[k] = INFINITY;
+    OscillationRecord *record = &run->control.oscillations;
+    record->seen_for = INFINITY;
+    for (int32_t k = 0; k < record->interface->contact_count; k++) record->weakening[k] = INFINITY;
 }
 
 // To the end of the first sliding; returns mu's largest on the way.
@@ -164,8 +164,8 @@ static double first_sliding(PushedBlock *run, bool gullible)
     return height;
 }
 
-// Steps of a rod at `velocity` until the block has slid once; watch: 0 follows every swing.
-static int64_t slow_rod(double velocity, double watch, double *height, int64_t *over_swings)
+// Steps of a rod at `velocity` until the block has slid once; watch: 0 resolves every oscillation.
+static int64_t slow_rod(double velocity, double watch, double *height, int64_t *stepped_over)
 {
     RigDef def = pushed_def(12);
     def.rod_velocity = velocity;
@@ -175,34 +175,34 @@ static int64_t slow_rod(double velocity, double watch, double *height, int64_t *
     PushedBlock run;
     pushed_build(&def, &steps, &run);
     *height = first_sliding(&run, false);
-    *over_swings = run.control.counters.over_swings;
+    *stepped_over = run.control.counters.stepped_over_oscillations;
     int64_t accepted = run.control.counters.accepted;
     pushed_destroy(&run);
     return accepted;
 }
 
-// Where slip swings, a slower rod meets more swings. Those that stay small are stepped over: the
+// Where slip oscillates, a slower rod meets more oscillations. Those that stay small are stepped over: the
 // cost stays, the friction is that of the run that follows each of them, and so is a run in which
-// the rod outruns its swings.
+// the rod outruns its oscillations.
 static void test_slow_rod(void **state)
 {
     (void)state;
     double height, followed;
-    int64_t over_swings, first = 0, before = 0;
+    int64_t stepped_over, first = 0, before = 0;
     for (double velocity = 1e-5; velocity > 0.9e-8; velocity *= 0.1) {
-        int64_t accepted = slow_rod(velocity, 20, &height, &over_swings);
-        print_message("V %g: %d steps, %d of them over swings, mu %.4f\n", velocity, (int)accepted,
-                      (int)over_swings, height);
+        int64_t accepted = slow_rod(velocity, 20, &height, &stepped_over);
+        print_message("V %g: %d steps, %d of them over oscillations, mu %.4f\n", velocity,
+                      (int)accepted, (int)stepped_over, height);
         if (velocity == 1e-5) {
-            assert_int_equal(accepted, slow_rod(velocity, 0, &followed, &over_swings));
-            assert_true(height == followed && over_swings == 0);
+            assert_int_equal(accepted, slow_rod(velocity, 0, &followed, &stepped_over));
+            assert_true(height == followed && stepped_over == 0);
             first = accepted;
         } else {
-            assert_true(over_swings > 0);
+            assert_true(stepped_over > 0);
         }
         if (velocity < 2e-7 && velocity > 0.9e-7) {
-            int64_t all = slow_rod(velocity, 0, &followed, &over_swings);
-            print_message("    each swing followed: %d steps, mu %.4f\n", (int)all, followed);
+            int64_t all = slow_rod(velocity, 0, &followed, &stepped_over);
+            print_message("    each oscillation resolved: %d steps, mu %.4f\n", (int)all, followed);
             assert_true(all > 5 * accepted);
             assert_near("mu", height, followed, 0.01 * followed);
         }
@@ -211,8 +211,8 @@ static void test_slow_rod(void **state)
     assert_true(before < 3 * first);
 }
 
-// Swings stepped over or not, what runs away does: the growth tests see to that alone, should the
-// watch bear whatever comes. Without any certificate mu goes on rising.
+// Oscillations stepped over or not, what runs away does: the growth tests alone see to that, should
+// the record cover whatever comes. Without any certificate mu goes on rising.
 static void test_runaway_of_a_slow_rod(void **state)
 {
     (void)state;
