@@ -3,8 +3,10 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 
+#include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 typedef struct Command {
     const char *name;
@@ -97,10 +99,19 @@ static int run_command(int argc, char **argv)
     return command->run(argc - 1, argv + 1);
 }
 
+// A process may be started with standard streams closed; the first files that it opens would then
+// be taken for them, and progress lines written into a result.
+static void occupy_standard_streams(void)
+{
+    for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; stream++)
+        if (fcntl(stream, F_GETFD) < 0 && open("/dev/null", O_RDWR) < 0) _exit(1);
+}
+
 // A full disk or a closed pipe may show only when the last words are written: a command that went
 // well but could not say so has not gone well.
 int main(int argc, char **argv)
 {
+    occupy_standard_streams();
     int status = run_command(argc, argv);
     bool written = fflush(stdout) == 0 && !ferror(stdout);
     if (written || status != 0) return status;

@@ -169,12 +169,14 @@ static void want_stop(int signal_number)
     stop_wanted = 1;
 }
 
-// SA_RESETHAND gives the signal its default back: a second Ctrl-C ends the program at once.
+// SA_RESETHAND gives the signal its default back: a second Ctrl-C ends the program at once. Who
+// reads our progress may go away (`2>&1 | head -1`): that ends our talking, not the computation.
 const volatile sig_atomic_t *stop_on_signals(void)
 {
     struct sigaction action = {.sa_handler = want_stop, .sa_flags = (int)SA_RESETHAND};
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
+    signal(SIGPIPE, SIG_IGN);
     return &stop_wanted;
 }

@@ -33,10 +33,14 @@ bool file_lock_take(FileLock *lock, const char *path, double seconds)
         if (lock->descriptor < 0) return false;
         int cause = flock(lock->descriptor, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
         lock->held = cause == 0 && file_is_named(path, lock->descriptor);
-        if (lock->held) return true;
+        if (lock->held) {
+            lock->busy = false;
+            return true;
+        }
         close(lock->descriptor);
         if (cause == 0 || cause == EINTR) continue;
-        if (cause != EWOULDBLOCK || clock_seconds() >= until) return false;
+        lock->busy = cause == EWOULDBLOCK;
+        if (!lock->busy || clock_seconds() >= until) return false;
         nanosleep(&PAUSE, NULL);
     }
 }

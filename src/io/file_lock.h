@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // One process at a time at some work, told by a lock on a file that is there only meanwhile. The
 // lock is flock's: it belongs to the open file and ends with the process, however that ends, so
-// that nothing has to be cleared up after a kill. Called by model/basis_cache; part_file shares
+// that nothing has to be cleared up after a kill. Called by model/basis_cache and
+// run/result_folder; part_file shares
 // file_is_named.
 //
 //   take -> (the work) -> release     take also gives up: after its limit, where the folder cannot
@@ -14,6 +15,7 @@
 
 typedef struct FileLock {
     bool held;   // false: zeroed, given up or released
+    bool busy;   // given up, as another process held it to the end
     int descriptor;   // valid while held
     char path[PATH_MAX + 64];
 } FileLock;

@@ -44,7 +44,7 @@ bool output_open_history(Simulation *simulation, Error *err)
     char *pads = join_pad_names(&simulation->model.interface, err);
     head.pads = pads;
     TRY(error_is_clean(err));
-    TRY(history_create(simulation->folder, &head, &simulation->model.interface,
+    TRY(history_create(simulation->folder.path, &head, &simulation->model.interface,
                        &simulation->model.law, &simulation->history, err));
     recorders_add(&simulation->recorders, &simulation->history, history_record);
 cleanup:
@@ -58,7 +58,7 @@ bool output_open_fields(Simulation *simulation, Error *err)
     FieldsDef def = {.every_U = scene->output.fields_every_U,
                      .every_t = scene->output.fields_every_t,
                      .at_events = scene->output.fields_at_events};
-    TRY(fields_create(&def, simulation->folder, &simulation->model.mesh,
+    TRY(fields_create(&def, simulation->folder.path, &simulation->model.mesh,
                       &simulation->model.interface, &simulation->fields, err));
     simulation->fields.material = &simulation->model.material;
     simulation->fields.law = &simulation->model.law;
@@ -76,7 +76,7 @@ bool output_draw_figures(Simulation *simulation, Error *err)
     if (wanted->count == 0) return true;
     for (int32_t k = 0; k < wanted->count; k++) names[k] = wanted->name[k];
     double started = clock_seconds();
-    if (!amontons_render_result(simulation->folder, names, wanted->count, err)) return false;
+    if (!amontons_render_result(simulation->folder.path, names, wanted->count, err)) return false;
     simulation->figures = wanted->count;
     simulation->figures_seconds = clock_seconds() - started;
     return true;

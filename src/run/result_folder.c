@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Makes room for results: the folder is made with all that leads to it, and files of an earlier
-// result are removed by name, those in fields/ and figures/ by their endings; what else lies there
-// stays. run.json goes first, so that a run that is killed from here on leaves no report of the one
-// before.
+// Files of an earlier result go by their full names: those below, the numbered ones in fields/ and
+// the figures that exist, and only where one of the first proves that the folder holds a result of
+// ours. A link in the place of fields/ or figures/ is not followed. run.json goes first, so that a
+// run that is killed from here on leaves no report of the one before.
 #include "run/result_folder.h"
 
+#include "render/render.h"
+
+#include <ctype.h>
 #include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <limits.h>
 #include <stdio.h>
 #include <string.h>
@@ -15,15 +19,16 @@
 
 enum { PATH_SIZE = PATH_MAX + 300 };
 
-// What a run leaves, in the order in which it is removed.
+static const char LOCK_NAME[] = "amontons.lock", PART[] = ".part";
+
+// What proves a result, in the order in which it is removed; each also with PART behind it.
 static const char *const OWN_FILES[] = {
-    "run.json",       "run.json.part",       "history.h5",   "history.h5.part",
-    "fields.pvd",     "fields.pvd.part",     "static.json",  "static.json.part",
-    "static.h5",      "static.h5.part",      "static.vtu",   "static.vtu.part",
-    "stability.json", "stability.json.part", "stability.h5", "stability.h5.part",
-    "model1d.json",   "model1d.json.part",   "model1d.h5",   "model1d.h5.part"};
-static const char *const OWN_FOLDERS[] = {"fields", "figures"};
-static const char *const OWN_ENDINGS[] = {".vtu", ".vtp", ".png", ".part"};
+    "run.json",   "history.h5",     "fields.pvd",   "static.json",  "static.h5",
+    "static.vtu", "stability.json", "stability.h5", "model1d.json", "model1d.h5"};
+enum { OWN_FILE_COUNT = sizeof OWN_FILES / sizeof OWN_FILES[0] };
+
+#define FIGURE_FILE(id, name, words) name ".png",
+static const char *const FIGURES[] = {RENDER_FIGURES(FIGURE_FILE)};
 
 // Like `mkdir -p`, but a file in its place or a folder that cannot be written to is told at once.
 static bool make_folder(const char *folder, Error *err)
@@ -49,55 +54,131 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Files in fields/ and figures/: by their ending, as their names are numbered.
-static bool is_own(const char *name)
+// `name` without a PART at its end, in `bare` [NAME_MAX + 1].
+static void strip_part(const char *name, char *bare)
 {
-    const char *dot = strrchr(name, '.');
-    for (size_t k = 0; dot && k < sizeof OWN_ENDINGS / sizeof OWN_ENDINGS[0]; k++) {
-        if (strcmp(dot, OWN_ENDINGS[k]) == 0) return true;
+    size_t length = strlen(name), end = sizeof PART - 1;
+    if (length > end && strcmp(name + length - end, PART) == 0) length -= end;
+    snprintf(bare, NAME_MAX + 1, "%.*s", (int)length, name);
+}
+
+static bool is_figure(const char *name)
+{
+    for (size_t k = 0; k < sizeof FIGURES / sizeof FIGURES[0]; k++)
+        if (strcmp(FIGURES[k], name) == 0) return true;
+    return false;
+}
+
+// bulk_000012.vtu, interface_000012.vtp (record/fields).
+static bool is_field(const char *name)
+{
+    static const char *const starts[] = {"bulk_", "interface_"}, *const ends[] = {".vtu", ".vtp"};
+    for (int kind = 0; kind < 2; kind++) {
+        size_t length = strlen(starts[kind]), digits = 0;
+        if (strncmp(name, starts[kind], length) != 0) continue;
+        while (isdigit((unsigned char)name[length + digits])) digits++;
+        if (digits >= 6 && strcmp(name + length + digits, ends[kind]) == 0) return true;
     }
     return false;
 }
 
-static bool remove_file(const char *folder, const char *name, Error *err)
+// The own files of folder/name, told by `is_own`. A folder that is not there, or a link, is left.
+static bool empty_folder(const char *folder, const char *name, bool (*is_own)(const char *),
+                         Error *err)
 {
-    char path[PATH_SIZE];
+    char path[PATH_SIZE], bare[NAME_MAX + 1];
     snprintf(path, sizeof path, "%s/%s", folder, name);
-    if (unlink(path) != 0 && errno != ENOENT)
-        FAIL(err, ERROR_FILE, "cannot remove the earlier result %s: %s", path, strerror(errno));
-cleanup:
-    return error_is_clean(err);
-}
-
-static bool empty_folder(const char *folder, const char *name, Error *err)
-{
-    char path[PATH_SIZE];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    DIR *directory = opendir(path);
+    int opened = open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    DIR *directory = opened < 0 ? NULL : fdopendir(opened);
     if (!directory) return true;
     for (struct dirent *entry = readdir(directory); entry; entry = readdir(directory)) {
-        if (is_own(entry->d_name)) TRY(remove_file(path, entry->d_name, err));
+        strip_part(entry->d_name, bare);
+        if (is_own(bare) && unlinkat(opened, entry->d_name, 0) != 0 && errno != ENOENT)
+            FAIL(err, ERROR_FILE, "cannot remove the earlier result %s/%s: %s", path, entry->d_name,
+                 strerror(errno));
     }
 cleanup:
     closedir(directory);
     return error_is_clean(err);
 }
 
-// ERROR_INPUT: there is a result and `overwrite` is false; nothing was touched then.
-bool result_folder_prepare(const char *folder, bool overwrite, Error *err)
+// folder/OWN_FILES[k / 2], the unfinished file where k is odd.
+static void own_path(const char *folder, int k, char path[PATH_SIZE])
+{
+    snprintf(path, PATH_SIZE, "%s/%s%s", folder, OWN_FILES[k / 2], k % 2 ? PART : "");
+}
+
+// Who holds the lock has written so into its file.
+static bool take_lock(ResultFolder *folder, Error *err)
+{
+    char path[PATH_SIZE], host[65] = "", holder[128] = "";
+    snprintf(path, sizeof path, "%s/%s", folder->path, LOCK_NAME);
+    if (file_lock_take(&folder->lock, path, 0)) {
+        gethostname(host, sizeof host - 1);
+        dprintf(folder->lock.descriptor, "process %ld on %s\n", (long)getpid(), host);
+        return true;
+    }
+    if (!folder->lock.busy) return true;   // a file system without locks
+    FILE *file = fopen(path, "r");
+    if (file) {
+        if (!fgets(holder, sizeof holder, file)) *holder = 0;
+        fclose(file);
+    }
+    holder[strcspn(holder, "\n")] = 0;
+    FAIL(err, ERROR_INPUT,
+         "%s: another computation is writing its result there (%s): choose another folder (-o), or "
+         "wait until it has ended",
+         folder->path, *holder ? holder : "its process is not known");
+cleanup:
+    return false;
+}
+
+bool result_folder_claim(const char *path, bool overwrite, ResultFolder *folder, Error *err)
+{
+    char found[PATH_SIZE];
+    *folder = (ResultFolder){0};
+    if (!path) return true;
+    TRY(make_folder(path, err));
+    if (strlen(path) >= sizeof folder->path)
+        FAIL(err, ERROR_INPUT, "the path of the result folder is too long");
+    memcpy(folder->path, path, strlen(path) + 1);
+    TRY(take_lock(folder, err));
+    for (int k = 0; k < 2 * OWN_FILE_COUNT && !folder->has_earlier; k++) {
+        own_path(path, k, found);
+        folder->has_earlier = access(found, F_OK) == 0;
+    }
+    if (folder->has_earlier && !overwrite)
+        FAIL(err, ERROR_INPUT,
+             "%s holds an earlier result (%s): choose another folder (-o) or say --overwrite", path,
+             strrchr(found, '/') + 1);
+cleanup:
+    if (!error_is_clean(err)) result_folder_release(folder);
+    return error_is_clean(err);
+}
+
+bool result_folder_clear(ResultFolder *folder, Error *err)
 {
     char path[PATH_SIZE];
-    TRY(make_folder(folder, err));
-    for (size_t k = 0; k < sizeof OWN_FILES / sizeof OWN_FILES[0]; k++) {
-        snprintf(path, sizeof path, "%s/%s", folder, OWN_FILES[k]);
-        if (!overwrite && access(path, F_OK) == 0)
-            FAIL(err, ERROR_INPUT,
-                 "%s holds an earlier result (%s): choose another folder (-o) or say --overwrite",
-                 folder, OWN_FILES[k]);
-        TRY(remove_file(folder, OWN_FILES[k], err));
+    if (!folder->has_earlier) return true;
+    for (int k = 0; k < 2 * OWN_FILE_COUNT; k++) {
+        own_path(folder->path, k, path);
+        if (unlink(path) != 0 && errno != ENOENT)
+            FAIL(err, ERROR_FILE, "cannot remove the earlier result %s: %s", path, strerror(errno));
     }
-    for (size_t k = 0; k < sizeof OWN_FOLDERS / sizeof OWN_FOLDERS[0]; k++)
-        TRY(empty_folder(folder, OWN_FOLDERS[k], err));
+    TRY(empty_folder(folder->path, "fields", is_field, err));
+    TRY(empty_folder(folder->path, "figures", is_figure, err));
+    folder->has_earlier = false;
 cleanup:
     return error_is_clean(err);
+}
+
+bool result_folder_is_ours(const ResultFolder *folder)
+{
+    return folder->path[0] && !folder->has_earlier;
+}
+
+void result_folder_release(ResultFolder *folder)
+{
+    file_lock_release(&folder->lock);
+    *folder = (ResultFolder){0};
 }

@@ -1,13 +1,29 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The folder a run writes into: made when missing, never written over unasked. Called by
-// run/simulation.
+// The folder that a computation writes into: one computation at a time, and of what lies there only
+// the files of an earlier result are ever removed. Called by run/simulation, run/static_solve and
+// the studies of one scene.
+//
+//   claim -> (input accepted) -> clear -> (files are written) -> release
 #ifndef AMONTONS_RUN_RESULT_FOLDER_H
 #define AMONTONS_RUN_RESULT_FOLDER_H
 
-#include "base/error.h"
+#include "amontons.h"
+#include "io/file_lock.h"
 
-// Makes `folder` (and its parents). When it holds an earlier result: ERROR_INPUT without
-// `overwrite`, else what amontons wrote there is removed, run.json first; other files stay.
-bool result_folder_prepare(const char *folder, bool overwrite, Error *err);
+typedef struct ResultFolder {
+    char path[AMONTONS_PATH_SIZE];   // empty: nothing is written at all
+    bool has_earlier;   // an earlier result lies there and has not been cleared: not to be touched
+    FileLock lock;   // held from claim to release
+} ResultFolder;
+
+// Makes the folder with all that leads to it; nothing is removed. path NULL: none is wanted.
+// ERROR_INPUT: it holds a result and `overwrite` is false, or another process computes into it.
+bool result_folder_claim(const char *path, bool overwrite, ResultFolder *folder, Error *err);
+
+// Removes the earlier result, where there is one; to be called once the input is known to be right.
+bool result_folder_clear(ResultFolder *folder, Error *err);
+
+bool result_folder_is_ours(const ResultFolder *folder);   // files may be written now
+void result_folder_release(ResultFolder *folder);   // zeroed and released too
 
 #endif

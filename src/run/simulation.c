@@ -8,7 +8,6 @@
 #include "run/explicit_loop.h"
 #include "model/obtain.h"
 #include "run/output.h"
-#include "run/result_folder.h"
 #include "run/start.h"
 #include "run/summary.h"
 #include "run/warnings.h"
@@ -25,7 +24,7 @@ static const double QUIET_TIME = 20;
 // A caller who steps by himself may want no files at all (RunOptions.folder NULL).
 static bool writes_results(const Simulation *simulation)
 {
-    return simulation->folder[0] != 0;
+    return result_folder_is_ours(&simulation->folder);
 }
 
 // A Recorder, the last one: the caller sees a step when everything else has.
@@ -121,21 +120,14 @@ bool amontons_simulation_create(const Scene *scene, const RunOptions *options, S
     simulation->options = *options;
     simulation->started = clock_seconds();
     dense_use_one_thread();
-    if (options->folder) {
-        if (snprintf(simulation->folder, sizeof simulation->folder, "%s", options->folder) >=
-            (int)sizeof simulation->folder)
-            FAIL(err, ERROR_INPUT, "the path of the result folder is too long");
-        if (!result_folder_prepare(options->folder, options->overwrite, err)) {
-            simulation->folder[0] = 0;   // not ours: not even a report goes there
-            goto cleanup;
-        }
-    }
+    TRY(result_folder_claim(options->folder, options->overwrite, &simulation->folder, err));
     if (!(scene->time.until_U > 0) && !(scene->time.until_t > 0))
         FAIL(err, ERROR_INPUT,
              "%s: says not when to stop (time.until): it is a scene for `amontons static`",
              scene->path);
     TRY(model_obtain(&simulation->scene, &simulation->model, err));
     TRY(start_prepare_steps(simulation, err));
+    TRY(result_folder_clear(&simulation->folder, err));   // the scene can be computed
     const char *warning = amontons_scene_warning(scene);
     if (warning) warnings_add(&simulation->warnings, "%s", warning);
     warnings_of_resolution(&simulation->control.certificate, simulation->model.scales.load,
@@ -222,7 +214,7 @@ static bool finish_run(Simulation *simulation, const Error *failure, RunSummary 
                             .summary = &peaks,
                             .events = &simulation->events,
                             .warnings = &simulation->warnings};
-        TRY(report_write(simulation->folder, &report, err));
+        TRY(report_write(simulation->folder.path, &report, err));
     }
     summary_fill(simulation, &counters, &peaks, summary);
 cleanup:
@@ -247,6 +239,7 @@ void amontons_simulation_destroy(Simulation *simulation)
     step_control_destroy(&simulation->control);
     rod_destroy(&simulation->rod);
     model_destroy(&simulation->model);
+    result_folder_release(&simulation->folder);
     memory_free(simulation);
 }
 
@@ -263,7 +256,7 @@ bool amontons_run(const Scene *scene, const RunOptions *options, RunSummary *sum
         if (options->stop && *options->stop)
             FAIL(err, ERROR_INTERRUPT,
                  "stopped at U = %g (t = %g); what was computed is kept in %s", simulation->seen.U,
-                 simulation->seen.t, simulation->folder);
+                 simulation->seen.t, simulation->folder.path);
     }
     TRY(amontons_simulation_finish(simulation, summary, err));
 cleanup:

@@ -11,13 +11,14 @@
 #include "run/pace.h"
 #include "record/recorder.h"
 #include "run/report.h"
+#include "run/result_folder.h"
 #include "model/model.h"
 #include "stepping/explicit_reference.h"
 
 struct Simulation {
     Scene scene;
     RunOptions options;
-    char folder[AMONTONS_PATH_SIZE];   // empty: nothing is written
+    ResultFolder folder;
     Model model;   // of `scene`
     FrictionLaw law;   // that acts now: the model's, or none while relaxing without friction
     Rod rod;   // where it is and what it does now; owned

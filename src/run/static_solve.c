@@ -267,16 +267,19 @@ bool amontons_static(const Scene *scene, const char *folder, bool overwrite, Sta
 {
     Model model = {.scene = scene};
     StaticSolution solution = {0};
+    ResultFolder place = {0};
     *summary = (StaticSummary){0};
     dense_use_one_thread();
-    if (folder) TRY(result_folder_prepare(folder, overwrite, err));
+    TRY(result_folder_claim(folder, overwrite, &place, err));
     TRY(model_read_mesh(&model, err));
     TRY(model_build_bulk(&model, err));
     TRY(static_solve(&model, &solution, err));
     *summary = static_summarise(&model, &solution);
+    TRY(result_folder_clear(&place, err));
     if (folder) TRY(static_report_write(folder, &model, &solution, summary, err));
 cleanup:
     static_solution_destroy(&solution);
     model_destroy(&model);
+    result_folder_release(&place);
     return error_is_clean(err);
 }

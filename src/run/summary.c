@@ -134,6 +134,6 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters,
                             .warnings = simulation->warnings,
                             .field_files = simulation->fields.written,
                             .figures = simulation->figures};
-    snprintf(summary->folder, sizeof summary->folder, "%s", simulation->folder);
+    snprintf(summary->folder, sizeof summary->folder, "%s", simulation->folder.path);
     list_phases(simulation, summary);
 }

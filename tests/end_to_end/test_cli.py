@@ -246,6 +246,49 @@ class Run(InFolder):
             self.assertEqual(json.loads((result / "run.json").read_text())["status"], "failed")
             self.assertTrue((result / "history.h5").is_file())
 
+    def test_standard_streams_that_are_closed(self):
+        """The first file opened would get their numbers, and progress would be written into it."""
+        result = self.folder / "result"
+        command = [PROGRAM, "run", FIG1, *COARSE, *PLAIN, "time.until.U=1e-3", "-o", result]
+        done = subprocess.run(["sh", "-c", 'exec "$@" <&- >&- 2>&-', "sh", *map(str, command)],
+                              timeout=120)
+        self.assertEqual(done.returncode, 0)
+        self.assertEqual(json.loads((result / "run.json").read_text())["status"], "done")
+        written = (result / "history.h5").read_bytes()
+        self.assertEqual(written[:8], b"\x89HDF\r\n\x1a\n")
+        self.assertNotIn(b"amontons: ", written)
+
+    def test_a_reader_of_progress_that_goes_away(self):
+        result = self.folder / "result"
+        run = subprocess.Popen([PROGRAM, "run", FIG1, *COARSE, *PLAIN, "time.until.U=2e-3", "-o", result],
+                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        run.stderr.close()
+        self.assertEqual(run.wait(timeout=120), 0)
+        self.assertEqual(json.loads((result / "run.json").read_text())["status"], "done")
+
+    def test_two_runs_into_one_folder(self):
+        result = self.folder / "result"
+        words = ["run", FIG1, *PLAIN, "--overwrite", "-o", result, "--set"]
+        first = subprocess.Popen([PROGRAM, *words, "time.until.U=1"], stderr=subprocess.PIPE)
+        limit = time.monotonic() + 60
+        while not (result / "history.h5.part").exists() and time.monotonic() < limit:
+            time.sleep(0.02)
+        second = amontons(*words, "time.until.U=1e-4")
+        first.terminate()
+        first.communicate(timeout=60)
+        self.assertEqual(second.returncode, 2)
+        self.assertIn(f"another computation is writing its result there (process {first.pid} on ", second.stderr)
+        self.assertEqual(json.loads((result / "run.json").read_text())["scene"]["time"]["until"]["U"], 1)
+
+    def test_an_earlier_result_outlives_a_scene_that_is_wrong(self):
+        result = self.folder / "result"
+        words = ["run", FIG1, *COARSE, *PLAIN, "time.until.U=1e-4", "-q", "--overwrite", "-o", result]
+        self.assertEqual(amontons(*words).returncode, 0)
+        before = {f.name: f.read_bytes() for f in result.iterdir()}
+        wrong = amontons(*words, "--set", "groups.top=rood")
+        self.assertEqual(wrong.returncode, 2)
+        self.assertEqual({f.name: f.read_bytes() for f in result.iterdir()}, before)
+
     def test_bar_on_a_terminal(self):
         for columns in (40, 80, 132):
             started = time.monotonic()

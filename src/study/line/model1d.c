@@ -231,6 +231,7 @@ bool amontons_model1d(const Scene *scene, const Model1dOptions *options, Model1d
                       Error *err)
 {
     Model1dSimulation simulation = {.scene = scene, .options = options};
+    ResultFolder folder = {0};
     double started = clock_seconds();
     *summary = (Model1dSummary){.first_mu = NAN,
                                 .first_l_sc = NAN,
@@ -242,8 +243,9 @@ bool amontons_model1d(const Scene *scene, const Model1dOptions *options, Model1d
     dense_use_one_thread();
     TRY(check_scene(scene, err));
     TRY(check_options(scene, options, err));
-    if (options->folder) TRY(result_folder_prepare(options->folder, options->overwrite, err));
+    TRY(result_folder_claim(options->folder, options->overwrite, &folder, err));
     TRY(translate_scene(scene, options, &simulation.model, err));
+    TRY(result_folder_clear(&folder, err));
     TRY(fill_points(&simulation, err));
     TRY(summarise_theory(&simulation.model, summary, err));
     if (!options->theory_only) {
@@ -259,5 +261,6 @@ bool amontons_model1d(const Scene *scene, const Model1dOptions *options, Model1d
         options->on_point(&simulation.points[k], options->context);
 cleanup:
     simulation_destroy(&simulation);
+    result_folder_release(&folder);
     return error_is_clean(err);
 }

@@ -396,10 +396,11 @@ bool amontons_stability(const Scene *scene, const StabilityOptions *options,
                         StabilitySummary *summary, Error *err)
 {
     StabilityPath path = {.options = options, .critical = -1, .at_rod = -1, .mu_snap = NAN};
+    ResultFolder folder = {0};
     double started = clock_seconds();
     *summary = (StabilitySummary){.l_c = NAN, .mu_c = NAN};
     TRY(check_scene(scene, options, err));
-    if (options->folder) TRY(result_folder_prepare(options->folder, options->overwrite, err));
+    TRY(result_folder_claim(options->folder, options->overwrite, &folder, err));
     RunOptions run = {.on_step = options->on_step, .context = options->context};
     TRY(amontons_simulation_create(scene, &run, &path.simulation, err));
     path.model = &path.simulation->model;
@@ -415,11 +416,13 @@ bool amontons_stability(const Scene *scene, const StabilityOptions *options,
     TRY(stability_measure_pads(&path, summary, err));
     summary->seconds_before = before - started;
     summary->seconds_path = clock_seconds() - before - path.seconds_growth;
+    TRY(result_folder_clear(&folder, err));
     if (options->folder) {
         snprintf(summary->folder, sizeof summary->folder, "%s", options->folder);
         TRY(stability_write(&path, summary, err));
     }
 cleanup:
     path_destroy(&path);
+    result_folder_release(&folder);
     return error_is_clean(err);
 }

@@ -20,12 +20,36 @@ static int teardown(void **state)
     return 0;
 }
 
+// A whole life of a folder, nothing computed in between.
+static bool prepare(const char *path, bool overwrite, Error *err)
+{
+    ResultFolder folder = {0};
+    bool done = result_folder_claim(path, overwrite, &folder, err) &&
+                result_folder_clear(&folder, err);
+    result_folder_release(&folder);
+    return done;
+}
+
 static void expect_error(const char *folder, bool overwrite, ErrorCode code, const char *words)
 {
     Error err = {0};
-    assert_false(result_folder_prepare(folder, overwrite, &err));
+    assert_false(prepare(folder, overwrite, &err));
     assert_int_equal(err.code, code);
     if (!strstr(err.message, words)) fail_msg("'%s' is not in: %s", words, err.message);
+}
+
+static void write_all(const char *const *names, size_t count)
+{
+    mkdir(place_path(place, "fields"), 0777);
+    mkdir(place_path(place, "figures"), 0777);
+    for (size_t k = 0; k < count; k++) place_write(place, names[k], "x");
+}
+
+static void expect_all(const char *const *names, size_t count, bool there)
+{
+    for (size_t k = 0; k < count; k++)
+        if (place_has(place, names[k]) != there)
+            fail_msg("%s is %s", names[k], there ? "gone" : "still there");
 }
 
 static void test_made_with_parents(void **state)
@@ -34,11 +58,12 @@ static void test_made_with_parents(void **state)
     Error err = {0};
     char folder[PLACE_SIZE + 32];
     snprintf(folder, sizeof folder, "%s/a/b/c", place);
-    assert_true(result_folder_prepare(folder, false, &err));
+    assert_true(prepare(folder, false, &err));
     assert_true(place_has(place, "a/b/c"));
-    assert_true(result_folder_prepare(folder, false, &err));   // empty: once more is fine
+    assert_true(prepare(folder, false, &err));   // empty: once more is fine
+    assert_false(place_has(place, "a/b/c/amontons.lock"));
     snprintf(folder, sizeof folder, "%s/d/", place);
-    assert_true(result_folder_prepare(folder, false, &err));
+    assert_true(prepare(folder, false, &err));
     assert_true(place_has(place, "d"));
 }
 
@@ -55,31 +80,88 @@ static void test_refuses_an_earlier_result(void **state)
     }
 }
 
+static const char *const OWN[] = {"run.json",
+                                  "history.h5",
+                                  "fields.pvd",
+                                  "fields/bulk_000000.vtu",
+                                  "fields/bulk_1000000.vtu.part",
+                                  "fields/interface_000003.vtp",
+                                  "figures/force.png",
+                                  "figures/force.png.part"};
+static const char *const OTHERS[] = {"notes.txt",
+                                     "scene.yaml",
+                                     "history.h5.bak",
+                                     "fields/notes.txt",
+                                     "fields/bulk.vtu",
+                                     "fields/bulk_000001.vtu.old",
+                                     "fields/mine_000001.vtu",
+                                     "figures/force.svg",
+                                     "figures/photograph.png",
+                                     "figures/readme"};
+enum { OWN_COUNT = sizeof OWN / sizeof *OWN, OTHER_COUNT = sizeof OTHERS / sizeof *OTHERS };
+
 // Refused, nothing is touched; overwritten, our files go and all others stay.
 static void test_overwrites_only_its_own(void **state)
 {
     (void)state;
     Error err = {0};
-    const char *const own[] = {"run.json",
-                               "history.h5",
-                               "fields.pvd",
-                               "fields/bulk_000000.vtu",
-                               "fields/interface_000003.vtp",
-                               "figures/force.png",
-                               "figures/force.png.part"};
-    const char *const others[] = {"notes.txt",        "scene.yaml",        "history.h5.bak",
-                                  "fields/notes.txt", "figures/force.svg", "figures/readme"};
-    mkdir(place_path(place, "fields"), 0777);
-    mkdir(place_path(place, "figures"), 0777);
-    for (size_t k = 0; k < sizeof own / sizeof *own; k++) place_write(place, own[k], "x");
-    for (size_t k = 0; k < sizeof others / sizeof *others; k++) place_write(place, others[k], "x");
+    write_all(OWN, OWN_COUNT);
+    write_all(OTHERS, OTHER_COUNT);
     expect_error(place, false, ERROR_INPUT, "holds an earlier result");
-    for (size_t k = 0; k < sizeof own / sizeof *own; k++) assert_true(place_has(place, own[k]));
-    assert_true(result_folder_prepare(place, true, &err));
-    for (size_t k = 0; k < sizeof own / sizeof *own; k++)
-        if (place_has(place, own[k])) fail_msg("%s is still there", own[k]);
-    for (size_t k = 0; k < sizeof others / sizeof *others; k++)
-        if (!place_has(place, others[k])) fail_msg("%s is gone", others[k]);
+    expect_all(OWN, OWN_COUNT, true);
+    assert_true(prepare(place, true, &err));
+    expect_all(OWN, OWN_COUNT, false);
+    expect_all(OTHERS, OTHER_COUNT, true);
+}
+
+// Pictures and fields in a folder that never held a result are somebody's.
+static void test_a_folder_without_a_result_is_left(void **state)
+{
+    (void)state;
+    Error err = {0};
+    const char *const theirs[] = {"figures/force.png", "fields/bulk_000000.vtu"};
+    write_all(theirs, 2);
+    for (int overwrite = 0; overwrite < 2; overwrite++) {
+        assert_true(prepare(place, overwrite, &err));
+        expect_all(theirs, 2, true);
+    }
+}
+
+// Until the input is accepted nothing goes, and then nothing behind a link.
+static void test_cleared_late_and_not_through_links(void **state)
+{
+    (void)state;
+    Error err = {0};
+    ResultFolder folder;
+    char elsewhere[PLACE_SIZE];
+    place_make(elsewhere);
+    place_write(elsewhere, "force.png", "x");
+    place_write(place, "run.json", "x");
+    assert_int_equal(symlink(elsewhere, place_path(place, "figures")), 0);
+    assert_true(result_folder_claim(place, true, &folder, &err));
+    assert_false(result_folder_is_ours(&folder));
+    assert_true(place_has(place, "run.json"));
+    assert_true(result_folder_clear(&folder, &err));
+    assert_true(result_folder_is_ours(&folder));
+    assert_false(place_has(place, "run.json"));
+    assert_true(place_has(elsewhere, "force.png"));
+    result_folder_release(&folder);
+    place_remove(elsewhere);
+}
+
+// The second of two is told who holds the folder; when that has let go, it may.
+static void test_one_computation_at_a_time(void **state)
+{
+    (void)state;
+    Error err = {0};
+    ResultFolder first;
+    char holder[64];
+    snprintf(holder, sizeof holder, "process %ld on ", (long)getpid());
+    assert_true(result_folder_claim(place, true, &first, &err));
+    expect_error(place, true, ERROR_INPUT, "another computation");
+    expect_error(place, true, ERROR_INPUT, holder);
+    result_folder_release(&first);
+    assert_true(prepare(place, true, &err));
 }
 
 static void test_impossible_folders(void **state)
@@ -107,6 +189,9 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_made_with_parents, setup, teardown),
         cmocka_unit_test_setup_teardown(test_refuses_an_earlier_result, setup, teardown),
         cmocka_unit_test_setup_teardown(test_overwrites_only_its_own, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_a_folder_without_a_result_is_left, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_cleared_late_and_not_through_links, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_one_computation_at_a_time, setup, teardown),
         cmocka_unit_test_setup_teardown(test_impossible_folders, setup, teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
