@@ -31,7 +31,7 @@ enum { REDUCTION_LEVELS_MAX = 64 };
 typedef struct ReductionErrors {
     int32_t count;
     double inertia[REDUCTION_LEVELS_MAX];   // [count] ascending; the last stands for infinity
-    double error[REDUCTION_LEVELS_MAX];   // [count] the larger of those at viscosity 0 and 1
+    double error[REDUCTION_LEVELS_MAX];   // [count] the largest of those at several viscosities
 } ReductionErrors;
 
 typedef struct ReducedBulk {

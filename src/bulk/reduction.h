@@ -2,32 +2,26 @@
 // The bulk is linear; only the interface is not. So it is reduced once, before time stepping, to
 // the interface's own unknowns and a small interior basis (component mode synthesis: Craig and
 // Bampton, AIAA J. 6, 1968, with responses at real shifts in place of vibration modes, because C is
-// not proportional to K):
+// not proportional to K). bulk/reduced_bulk draws the result: Psi = -K_ii^-1 K_ib are the static
+// constraint modes, Phi is what the responses of the full mesh hold beyond them. A Galerkin
+// projection, so M, C, K stay symmetric and positive.
 //
-//     u = [ I   0   ] [ u_b ]     Psi = -K_ii^-1 K_ib, static constraint modes
-//         [ Psi Phi ] [ q   ]     Phi: what the responses of the full mesh hold beyond them
-//
-// A Galerkin projection, so M, C, K stay symmetric and positive, and with Phi orthonormal in K
-//
-//     K = [ S_K 0 ]     M, C full.
-//         [ 0   I ]
-//
-// All matrices are normalised: K/E, C/eta, M/(rho L^2) with lengths over L. A step of any size of a
-// block of any length then asks for the interface operator S of
+// A step of any size of a block of any length asks for the interface operator S of
 //
 //     A = (1 - viscosity) K + viscosity C + inertia M,     0 <= viscosity <= 1,  inertia >= 0,
 //
-// up to a factor, and the basis is built to answer on all of that strip: one basis serves every L,
-// rho, E and eta of a shape, every load of the same pattern, every step. From the slowest mode of
-// the interior to the inertia that takes over within one element, S is measured against the full
-// mesh, and the directions in which it is off by more than
+// up to a factor, M, C and K normalised, and the basis is built to answer on all of that strip: one
+// serves every L, rho, E and eta of a shape, every load of the same pattern, every step. From the
+// slowest mode of the interior to the inertia that takes over within one element, and from all
+// elastic to all viscous, S is measured against the full mesh, and the directions in which it is
+// off by more than
 //
 //     tolerance^2 + 2.5 tolerance * inertia / (that of one element)
 //
 // get their responses added (bulk/reduction.c): the first term because an energy goes with the
 // square of what is left out, the second because where inertia acts within an element the mesh
 // itself knows no better. Made and kept by model/obtain; used through bulk/interface_operator;
-// stored by model/shape_cache.
+// stored by model/basis_cache.
 #ifndef AMONTONS_BULK_REDUCTION_H
 #define AMONTONS_BULK_REDUCTION_H
 
@@ -37,6 +31,7 @@
 typedef struct ReductionDef {
     double tolerance;   // of responses, relative, in the energy norm
     BulkScales scales;   // of the bulk to reduce
+    Material material;   // likewise
 } ReductionDef;
 
 // interface_dofs: [interface_count] unknowns of `bulk` that stay.

@@ -86,6 +86,7 @@ static bool obtain_basis(Model *model, const ReductionBlock *block, Shape *shape
     const Scene *scene = model->scene;
     const Interface *interface = &shape->interface;
     ReductionDef def = {.tolerance = reduction_tolerance(scene),
+                        .material = block->material,
                         .scales = {.stiffness = 1, .damping = 1, .mass = 1, .load = 1}};
     bool *found = &model->from_cache;
     bool with_modes = scene->output.fields;

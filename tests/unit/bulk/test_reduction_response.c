@@ -35,8 +35,53 @@ static double response_error(ReducedBlock *block, const ReducedBulk *reduced, Op
     return largest;
 }
 
+// What the operator made of the basis says of these terms is what the basis says of their inertia.
+static void assert_said(const ReducedBlock *block, OperatorTerms terms, double said)
+{
+    BulkOperator system;
+    Error err = {0};
+    double *turn = hand_matrix(block->interface_count, 1);
+    assert_true(bulk_operator_reduce(&block->reduced, turn, 1, &system, &err));
+    assert_near("said", bulk_operator_error(&system, terms), said, 1e-12 * said);
+    bulk_operator_destroy(&system);
+    free(turn);
+}
+
 // Anywhere on the strip, between the levels of the build and between all elastic and all viscous,
-// S is off by no more than the basis says of that inertia, and than the tolerance allows.
+// S is off by no more than the basis says of that inertia, and than the tolerance allows at the
+// next level. Two of three points lie where damping hardly, or almost alone, counts.
+static void check_error(const BlockDef *shape, const Material *material, double tolerance,
+                        Random *random)
+{
+    ReducedBlock block;
+    reduced_block_build(shape, material, 0.003, tolerance, &block);
+    const ReductionErrors *errors = &block.reduced.errors;
+    double element = errors->inertia[errors->count - 2], lowest = errors->inertia[0];
+    double worst = 0;
+    for (int32_t k = 0; k < 30; k++) {
+        double inertia = lowest * pow(element / lowest, random_between(random, -0.3, 1));
+        double viscosity = random_between(random, 0, 1);
+        if (k % 3 == 1) viscosity = pow(viscosity, 4);
+        if (k % 3 == 2) viscosity = 1 - pow(viscosity, 4);
+        OperatorTerms terms = strip_terms(&block.def.scales, viscosity, inertia);
+        double error = response_error(&block, &block.reduced, terms);
+        int32_t level = 0;   // the next above, one of those it is measured at
+        while (errors->inertia[level] < inertia) level++;
+        double allowed = tolerance * (tolerance + 2.5 * errors->inertia[level] / element);
+        double said = reduced_bulk_error(&block.reduced, inertia);
+        assert_said(&block, terms, said);
+        if (error > said + 1e-9 || error > allowed)
+            fail_msg("eta2/eta1 %g, viscosity %g, inertia %g of %g: error %g, said %g, allowed %g",
+                     material->eta2 / material->eta1, viscosity, inertia, element, error, said,
+                     allowed);
+        worst = fmax(worst, error / allowed);
+    }
+    print_message("tolerance %g: %d of %d unknowns, worst error %.2f of the allowed\n", tolerance,
+                  block.reduced.count, block.bulk.dof_count, worst);
+    assert_true(worst > 0.1);   // nothing is added that is not needed
+    reduced_block_destroy(&block);
+}
+
 static void test_error_is_known(void **state)
 {
     (void)state;
@@ -46,40 +91,29 @@ static void test_error_is_known(void **state)
         {.kind = ELEMENT_T6, .nx = 6, .nz = 6, .length = 1, .height = 0.5, .distortion = 0.1}};
     const double tolerances[] = {1e-1, 2e-2, 2e-3};
     Random random = {.state = 17};
-    for (int32_t s = 0; s < 3; s++) {
-        for (int32_t t = 0; t < 3; t++) {
-            ReducedBlock block;
-            reduced_block_build(&shapes[s], &MATERIAL, 0.003, tolerances[t], &block);
-            const ReductionErrors *errors = &block.reduced.errors;
-            double element = errors->inertia[errors->count - 2], lowest = errors->inertia[0];
-            double worst = 0;
-            for (int32_t k = 0; k < 30; k++) {
-                double inertia = lowest * pow(element / lowest, random_between(&random, -0.3, 1));
-                double viscosity = random_between(&random, 0, 1);
-                OperatorTerms terms = strip_terms(&block.def.scales, viscosity, inertia);
-                double error = response_error(&block, &block.reduced, terms);
-                double allowed = tolerances[t] * (tolerances[t] + 2.5 * inertia / element);
-                double said = reduced_bulk_error(&block.reduced, inertia);
-                BulkOperator system;
-                Error err = {0};
-                double *turn = hand_matrix(block.interface_count, 1);
-                assert_true(bulk_operator_reduce(&block.reduced, turn, 1, &system, &err));
-                assert_near("said", bulk_operator_error(&system, terms), said, 1e-12 * said);
-                bulk_operator_destroy(&system);
-                free(turn);
-                if (error > 1.1 * said + 1e-9 || error > 1.1 * allowed)
-                    fail_msg("shape %d, viscosity %g, inertia %g of %g: error %g, said %g, "
-                             "allowed %g",
-                             s, viscosity, inertia, element, error, said, allowed);
-                worst = fmax(worst, error / allowed);
-            }
-            print_message("shape %d, tolerance %g: %d of %d unknowns, worst error %.2f of the "
-                          "allowed\n",
-                          s, tolerances[t], block.reduced.count, block.bulk.dof_count, worst);
-            assert_true(worst > 0.1);   // nothing is added that is not needed
-            reduced_block_destroy(&block);
-        }
-    }
+    for (int32_t s = 0; s < 3; s++)
+        for (int32_t t = 0; t < 3; t++) check_error(&shapes[s], &MATERIAL, tolerances[t], &random);
+}
+
+// The same where C is nothing like K: almost all in the change of volume, or in shear alone.
+static void test_error_of_unlike_damping(void **state)
+{
+    (void)state;
+    const BlockDef shape = {.kind = ELEMENT_Q4, .nx = 16, .nz = 8, .length = 1, .height = 0.5};
+    const Material materials[] = {
+        {.young = 2, .poisson = 0.34, .density = 1, .eta1 = 0.3, .eta2 = 3},
+        {.young = 2, .poisson = 0.34, .density = 1, .eta1 = 0.5},
+        {.young = 2, .poisson = 0.48, .density = 1, .eta1 = 0.5, .plane_strain = true},
+        {.young = 2,
+         .poisson = 0.45,
+         .density = 1,
+         .eta1 = 0.5,
+         .eta2 = 0.5,
+         .plane_strain = true}};
+    Random random = {.state = 18};
+    for (int32_t k = 0; k < 4; k++)
+        for (int32_t t = 0; t < 2; t++)
+            check_error(&shape, &materials[k], t ? 2e-3 : 2e-2, &random);
 }
 
 // Beyond the inertia of an element S is worse, and the basis says so.
@@ -95,7 +129,7 @@ static void test_shortest_steps(void **state)
         double error =
             response_error(&block, &block.reduced, strip_terms(&block.def.scales, 1, inertia));
         double said = reduced_bulk_error(&block.reduced, inertia);
-        if (error > 1.1 * said) fail_msg("inertia %g: error %g, said %g", inertia, error, said);
+        if (error > 1.0001 * said) fail_msg("inertia %g: error %g, said %g", inertia, error, said);
     }
     assert_true(reduced_bulk_error(&block.reduced, 1e9 * element) > 0.06);
     reduced_block_destroy(&block);
@@ -225,9 +259,9 @@ static void test_viscous(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_error_is_known), cmocka_unit_test(test_shortest_steps),
-        cmocka_unit_test(test_units),          cmocka_unit_test(test_another_length),
-        cmocka_unit_test(test_viscous),
+        cmocka_unit_test(test_error_is_known), cmocka_unit_test(test_error_of_unlike_damping),
+        cmocka_unit_test(test_shortest_steps), cmocka_unit_test(test_units),
+        cmocka_unit_test(test_another_length), cmocka_unit_test(test_viscous),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
