@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The public header of amontons: when and how an elastic block starts to slide. The command line
-// and the end-to-end tests include nothing else of ours.
+// includes nothing else of ours but the two beside it, amontons_stability.h (growth rates) and
+// amontons_model1d.h (the 1D model).
 //
 //   Error err = {0};
 //   Scene *scene = NULL;
@@ -206,8 +207,5 @@ typedef struct InfoOptions {
 bool amontons_info(const char *path, const InfoOptions *options, FILE *out, Error *err);
 // The index of the one of `names` that a mistyped `word` probably means; -1: none is near.
 int32_t amontons_nearest_name(const char *word, const char *const *names, int32_t count);
-
-#include "amontons_model1d.h"   // the paper's 1D effective model
-#include "amontons_stability.h"   // growth rates of slow slip
 
 #endif

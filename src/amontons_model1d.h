@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The part of the public header, amontons.h, that belongs to `amontons model1d`.
+// What stands behind `amontons model1d`: the 1D model of a block. Public, as amontons.h.
 #ifndef AMONTONS_MODEL1D_H
 #define AMONTONS_MODEL1D_H
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The part of the public header, amontons.h, that belongs to `amontons stability`.
+// What stands behind `amontons stability`: growth rates of slow slip. Public, as amontons.h.
 #ifndef AMONTONS_STABILITY_H
 #define AMONTONS_STABILITY_H
 

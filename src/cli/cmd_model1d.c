@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // `amontons model1d`: theory beside simulation, a line a position of the front, then the lengths
 // and coefficients by each way of finding them.
+#include "amontons_model1d.h"
 #include "cli/commands.h"
 #include "cli/point_table.h"
 #include "cli/scene_words.h"

@@ -42,7 +42,7 @@ static int run_scene(const Scene *scene, const SceneWords *words, bool profile)
     return 0;
 }
 
-// Without -o the folder is named after the scene and made where the user is, not where the scene is.
+// Without -o the folder is named after the scene, and made in the current folder.
 int command_run(int argc, char **argv)
 {
     SceneWords words = {0};

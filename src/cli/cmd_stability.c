@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // `amontons stability`: the quasi-static path as a table, a line a position of the front, and below
 // it where stability is lost.
+#include "amontons_stability.h"
 #include "cli/commands.h"
 #include "cli/point_table.h"
 #include "cli/scene_words.h"

@@ -6,7 +6,7 @@
 //     s_xz    = E_2 (U - u)/h + eta_s (V - u')/h,     p(x) = 2 P x/L,     F_T = integral of s_xz
 //
 // with E_1 = E/(1 - nu^2), E_2 = E/(2 (1 + nu)), eta_t = eta1 + eta2, eta_s = eta1/2. It is used by
-// amontons_model1d (amontons.h) in two ways, which this header lists:
+// amontons_model1d in two ways, which this header lists:
 //
 //   theory   model1d_theory: adiabatic slip and the paper's growth rates, mode by mode;
 //            model1d_modes: the same linear problem with its modes coupled
@@ -15,7 +15,7 @@
 #ifndef AMONTONS_STUDY_LINE_MODEL1D_H
 #define AMONTONS_STUDY_LINE_MODEL1D_H
 
-#include "amontons.h"
+#include "amontons_model1d.h"
 #include "record/history.h"
 #include "scene/scene.h"
 #include "stepping/growth.h"

@@ -4,10 +4,11 @@
 // the rod so slow that the velocity drops out (V -> 0). Whenever a further node begins to slip, the
 // state just before is asked for its growth rates (stepping/growth). Or, without a path, the
 // state in which the scene's own run ends is asked for its own.
-// amontons_stability, in amontons.h, is the entry; this is what its files share.
+// amontons_stability is the entry; this is what its files share.
 #ifndef AMONTONS_STUDY_STABILITY_STABILITY_H
 #define AMONTONS_STUDY_STABILITY_STABILITY_H
 
+#include "amontons_stability.h"
 #include "run/simulation.h"
 #include "stepping/growth.h"
 

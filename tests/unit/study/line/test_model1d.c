@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // amontons_model1d on scenes: simulation against theory, tolerance, what it refuses, what it
 // leaves, every allocation that fails.
-#include "amontons.h"
+#include "amontons_model1d.h"
 
 #include "base/memory.h"
 #include "near.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The path on coarse meshes: what it finds against the dynamic run of the same scene, against the
 // full mesh, and what it refuses; every allocation that fails.
-#include "amontons.h"
+#include "amontons_stability.h"
 
 #include "base/memory.h"
 #include "near.h"
