@@ -172,7 +172,6 @@ static void write_results(JsonWriter *json, const RunReport *report)
         json_end(json);
     }
     json_end(json);
-    write_warnings(json, report->warnings);
     falls_write_json(report->falls, json);
     pads_write_json(report->pads, json);
     write_events(json, report->events, length);
@@ -207,10 +206,7 @@ bool report_write(const char *folder, const RunReport *report, Error *err)
         json_text(json, "message", report->failure->message);
     }
     json_text(json, "version", AMONTONS_VERSION);
-    json_begin_list(json, "warnings");
-    const char *warning = amontons_scene_warning(report->scene);
-    if (warning) json_text(json, NULL, warning);
-    json_end(json);
+    write_warnings(json, report->warnings);
     scene_write_json(report->scene, json, "scene");
     write_steps(json, report->counters);
     write_rungs(json, report->ladder);

@@ -125,11 +125,11 @@ bool amontons_simulation_create(const Scene *scene, const RunOptions *options, S
         FAIL(err, ERROR_INPUT,
              "%s: says not when to stop (time.until): it is a scene for `amontons static`",
              scene->path);
+    const char *warning = amontons_scene_warning(scene);
+    if (warning) warnings_add(&simulation->warnings, "%s", warning);
     TRY(model_obtain(&simulation->scene, &simulation->model, err));
     TRY(start_prepare_steps(simulation, err));
     TRY(result_folder_clear(&simulation->folder, err));   // the scene can be computed
-    const char *warning = amontons_scene_warning(scene);
-    if (warning) warnings_add(&simulation->warnings, "%s", warning);
     warnings_of_resolution(&simulation->control.certificate, simulation->model.scales.load,
                            &simulation->warnings);
     double begun = clock_processor_seconds();

@@ -77,7 +77,7 @@ def judge(case, ended, cpu_limit):
             faults.append("should have been computed")
         return ("refused" if ended.status == 2 else "gave up"), faults, None
     faults = done_faults(case, ended)
-    warned = ended.report.get("results", {}).get("warnings") or []
+    warned = ended.report.get("warnings") or []
     if case.must_warn and not warned:
         faults.append("should have warned")
     if case.must_refuse:
@@ -95,7 +95,7 @@ def show(value, form=".2g"):
 def row(case, ended, word, faults, difference):
     report = ended.report
     steps, errors = report.get("steps", {}), report.get("errors", {})
-    warned = report.get("results", {}).get("warnings") or []
+    warned = report.get("warnings") or []
     said = " ".join(ended.said.split()) or "; ".join(warned)
     bad = f"**WRONG**: {'; '.join(faults)}. " if faults else ""
     return [case.group, case.name, word, steps.get("accepted", "-"), steps.get("rejected", "-"),

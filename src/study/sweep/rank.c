@@ -108,8 +108,7 @@ static bool row_notes(const Sweep *sweep, const RankRow *row, char note[NOTE_SIZ
         add_note(note, "too few falls");
     if (row->period > 1) add_note(note, "falls by turns");
     if (row->as_good) add_note(note, "as good as the first");
-    if (report && (json_find_text(report, "results.warnings.0", warning, RUN_WARNING_SIZE) ||
-                   json_find_text(report, "warnings.0", warning, RUN_WARNING_SIZE)))
+    if (report && json_find_text(report, "warnings.0", warning, RUN_WARNING_SIZE))
         add_note(note, "warned");
 cleanup:
     memory_free(report);
