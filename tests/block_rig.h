@@ -32,7 +32,7 @@ static inline RigDef rig_def(void)
 {
     return (RigDef){.block = {.kind = ELEMENT_Q4, .nx = 4, .nz = 2, .length = 1, .height = 0.5},
                     .material = material_default(),
-                    .law = friction_law_default(),
+                    .law = {FRICTION_LINEAR_WEAKENING, 0.38, 0.1, 3.4e-4},   // the paper's set A
                     .rod_height = 0.25,
                     .rod_width = 0.1,
                     .traction = {0, -0.003}};

@@ -20,23 +20,13 @@ void model_set_materials(Model *model)
                                  .eta1 = scene->material.eta1,
                                  .eta2 = scene->material.eta2,
                                  .plane_strain = scene->material.plane == PLANE_STRAIN};
-    static const FrictionKind kinds[] = {
-        [LAW_COULOMB] = FRICTION_COULOMB,
-        [LAW_LINEAR_WEAKENING] = FRICTION_LINEAR_WEAKENING,
-        [LAW_EXPONENTIAL_WEAKENING] = FRICTION_EXPONENTIAL_WEAKENING};
-    model->law = (FrictionLaw){.kind = kinds[scene->friction.law],
-                               .mu_static = scene->friction.mu_static,
-                               .mu_kinetic = scene->friction.mu_kinetic,
-                               .critical_velocity = scene->friction.critical_velocity};
+    model->law = scene->friction;
 }
 
 double model_friction_slip(const Model *model)
 {
-    const FrictionLaw *law = &model->law;
-    double drop = law->kind == FRICTION_COULOMB ? law->mu_static : law->mu_static - law->mu_kinetic;
-    if (drop <= 0) drop = law->mu_static > 0 ? law->mu_static : 1;
     double pressure = model->scales.load / model->length;
-    return drop * pressure * model->height / model->material.young;
+    return friction_slip(&model->law, pressure, model->height, model->material.young);
 }
 
 // 4 mu (lambda + mu)/(lambda + 2 mu) of sigma = D eps: what a half-plane sets against a pressure.

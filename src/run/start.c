@@ -79,8 +79,7 @@ bool start_relax(Simulation *simulation, Error *err)
     double started = clock_seconds();
     RelaxationDef def = {.speed_max = scene->start.tolerance * model->scales.slip_velocity,
                          .duration_max = scene->start.duration_max * model->scales.time};
-    if (scene->start.friction == START_FRICTION_OFF)
-        simulation->law = (FrictionLaw){.kind = FRICTION_COULOMB, .mu_static = 0};
+    if (scene->start.friction == START_FRICTION_OFF) simulation->law = friction_constant(0);
     if (scene->start.state == START_RELAXED)
         TRY(relax(&simulation->control, &def, &simulation->relaxation_steps, err));
     simulation->law = model->law;

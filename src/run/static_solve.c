@@ -146,7 +146,7 @@ bool static_solve(Model *model, StaticSolution *solution, Error *err)
     const Scene *scene = model->scene;
     RodKind kind = scene->rod.kind == ROD_BONDED ? ROD_IS_BONDED : ROD_PUSHES;
     TRY(model_build_rod(model, kind, &solution->rod, err));
-    solution->law = (FrictionLaw){.kind = FRICTION_COULOMB, .mu_static = scene->friction.mu_static};
+    solution->law = friction_constant(scene->friction.mu_static);
     memcpy(solution->load, bulk->load, (size_t)bulk->dof_count * sizeof(double));
     TRY(model_hold_supports(model, err));
     TRY(bulk_operator_create(bulk, model->mesh.position, interface->dofs, interface->count, &system,

@@ -66,7 +66,7 @@ static bool is_static(const Scene *scene)
 
 static bool is_needed(const SceneKey *key, const Scene *scene)
 {
-    if (strcmp(key->name, "friction.mu_kinetic") == 0) return scene->friction.law != LAW_COULOMB;
+    if (strcmp(key->name, "friction.mu_kinetic") == 0) return friction_has_drop(&scene->friction);
     if (strcmp(key->name, "rod.velocity") == 0)
         return scene->rod.kind != ROD_NONE && !is_static(scene);
     return !key->standard || (key->given_in_si && scene->units == UNITS_SI);
@@ -92,17 +92,17 @@ static bool check_required(const Check *check)
 static bool check_friction(const Check *check)
 {
     const Scene *scene = check->scene;
-    bool coulomb = scene->friction.law == LAW_COULOMB;
+    bool weakens = friction_has_drop(&scene->friction);
     double mu_static = scene->friction.mu_static, mu_kinetic = scene->friction.mu_kinetic;
-    if (coulomb && is_given(check, "friction.mu_kinetic") && mu_kinetic != mu_static)
+    if (!weakens && is_given(check, "friction.mu_kinetic") && mu_kinetic != mu_static)
         return blame(check, "friction.mu_kinetic",
-                     "the law `coulomb` has one coefficient, mu_static (%g); leave this key out or "
+                     "the law `%s` has one coefficient, mu_static (%g); leave this key out or "
                      "make it the same",
-                     mu_static);
-    if (!coulomb && mu_kinetic > mu_static)
+                     friction_law_name(&scene->friction), mu_static);
+    if (weakens && mu_kinetic > mu_static)
         return blame(check, "friction.mu_kinetic", "%g is more than mu_static (%g)", mu_kinetic,
                      mu_static);
-    if (!coulomb && !(scene->friction.critical_velocity > 0))
+    if (weakens && !(scene->friction.critical_velocity > 0))
         return blame(check, "friction.critical_velocity",
                      "a weakening law needs it; allowed: a number > 0");
     return true;
@@ -168,9 +168,7 @@ static bool check_output(const Check *check)
 
 const char *amontons_scene_warning(const Scene *scene)
 {
-    bool weakens = scene->friction.law != LAW_COULOMB &&
-                   scene->friction.mu_static > scene->friction.mu_kinetic;
-    if (!weakens || scene->material.eta1 > 0) return NULL;
+    if (!(friction_drop(&scene->friction) > 0) || scene->material.eta1 > 0) return NULL;
     return "material.eta1 is 0: with friction that weakens, the shortest wave that the mesh can "
            "hold "
            "grows fastest, so the answer has no limit as the mesh gets finer (an ill-posed "

@@ -11,11 +11,14 @@
 #include <math.h>
 #include <string.h>
 
-// Choices stand in the order of their enums in scene/scene.h.
+// Choices stand in the order of their enums in scene/scene.h and contact/friction_law.h.
 static const char *const units_choices[] = {"normalised", "si", NULL};
 static const char *const plane_choices[] = {"stress", "strain", NULL};
-static const char *const law_choices[] = {"coulomb", "linear-weakening", "exponential-weakening",
-                                          NULL};
+static const char *const law_choices[] = {
+#define X(symbol, name) name,
+    FRICTION_LAWS(X)
+#undef X
+        NULL};
 static const char *const rod_ends_choices[] = {"exact", "nodes", NULL};
 static const char *const rod_choices[] = {"push", "bonded", "none", NULL};
 static const char *const switch_choices[] = {"off", "on", NULL};
@@ -64,7 +67,7 @@ static const SceneKey keys[] = {
     {"material.plane", KEY_CHOICE, offsetof(Scene, material.plane), "1", RANGE_ANY, "stress",
      .sentence = "Plane stress (a thin plate) or plane strain (a wide block).",
      .choices = plane_choices},
-    {"friction.law", KEY_CHOICE, offsetof(Scene, friction.law), "1", RANGE_ANY, "linear-weakening",
+    {"friction.law", KEY_CHOICE, offsetof(Scene, friction.kind), "1", RANGE_ANY, "linear-weakening",
      .sentence = "How the local coefficient falls with slip rate.", .choices = law_choices},
     {"friction.mu_static", KEY_NUMBER, offsetof(Scene, friction.mu_static), "1", RANGE_NOT_NEGATIVE,
      NULL, .sentence = "Local coefficient mu_S at rest."},

@@ -276,7 +276,8 @@ static bool finish_reading(Reader *reader, const char *path, Scene *scene, Error
 {
     TRY(store_settings(reader, scene, err));
     TRY(scene_check(scene, reader->sources, reader->file, err));
-    if (scene->friction.law == LAW_COULOMB) scene->friction.mu_kinetic = scene->friction.mu_static;
+    if (!friction_has_drop(&scene->friction))
+        scene->friction.mu_kinetic = scene->friction.mu_static;
     TRY(resolve_mesh_file(path, scene, err));
 cleanup:
     return error_is_clean(err);

@@ -6,6 +6,7 @@
 #define AMONTONS_SCENE_SCENE_H
 
 #include "base/error.h"
+#include "contact/friction_law.h"
 #include "io/mesh_file.h"
 #include "io/yaml_document.h"
 
@@ -17,7 +18,6 @@ enum {
 
 typedef enum SceneUnits { UNITS_NORMALISED, UNITS_SI } SceneUnits;
 typedef enum ScenePlane { PLANE_STRESS, PLANE_STRAIN } ScenePlane;
-typedef enum SceneLaw { LAW_COULOMB, LAW_LINEAR_WEAKENING, LAW_EXPONENTIAL_WEAKENING } SceneLaw;
 typedef enum SceneRodEnds { ROD_ENDS_EXACT, ROD_ENDS_NODES } SceneRodEnds;
 typedef enum SceneRodKind { ROD_PUSH, ROD_BONDED, ROD_NONE } SceneRodKind;
 typedef enum SceneStartFriction { START_FRICTION_OFF, START_FRICTION_ON } SceneStartFriction;
@@ -66,10 +66,7 @@ typedef struct Scene {
         double young, poisson, density, eta1, eta2;
         ScenePlane plane;
     } material;
-    struct {
-        SceneLaw law;
-        double mu_static, mu_kinetic, critical_velocity;
-    } friction;
+    FrictionLaw friction;
     struct {
         double radius;   // of the substrate's curvature; 0: flat
     } contact;

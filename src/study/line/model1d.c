@@ -33,12 +33,12 @@ static bool check_scene(const Scene *scene, Error *err)
              "%s: the 1D model is driven by a rod: rod.velocity must be above 0 and rod.kind push "
              "or bonded",
              path);
-    if (scene->friction.law == LAW_COULOMB ||
-        !(scene->friction.mu_static > scene->friction.mu_kinetic))
+    if (!(friction_drop(&scene->friction) > 0))
         FAIL(err, ERROR_INPUT,
              "%s: the 1D model's slip starts from mu_kinetic and ends at mu_static: it needs a "
-             "weakening friction.law with friction.mu_static above friction.mu_kinetic",
-             path);
+             "weakening friction.law (this one is `%s`) with friction.mu_static above "
+             "friction.mu_kinetic",
+             path, friction_law_name(&scene->friction));
     if (!(scene->load.pressure > 0))
         FAIL(err, ERROR_INPUT, "%s: the 1D model needs load.pressure above 0", path);
     if (scene->load.traction_count > 0 || scene->load.support_count > 0)
@@ -118,12 +118,7 @@ static bool translate_scene(const Scene *scene, const Model1dOptions *options, M
                        .velocity = scene->rod.velocity,
                        .young = young,
                        .speed = sqrt(confined / scene->material.density),
-                       .law = {.kind = scene->friction.law == LAW_LINEAR_WEAKENING
-                                           ? FRICTION_LINEAR_WEAKENING
-                                           : FRICTION_EXPONENTIAL_WEAKENING,
-                               .mu_static = scene->friction.mu_static,
-                               .mu_kinetic = scene->friction.mu_kinetic,
-                               .critical_velocity = scene->friction.critical_velocity}};
+                       .law = scene->friction};
     TRY(measure_block(scene, model, err));
     model->drive = scene->rod.height > 0 ? scene->rod.height : model->height / 2;
 cleanup:

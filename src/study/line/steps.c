@@ -17,13 +17,6 @@
 static const double TOLERANCES[] = {
     [ACCURACY_DRAFT] = 5e-3, [ACCURACY_STANDARD] = 5e-4, [ACCURACY_FINE] = 5e-5};
 
-// (mu_S - mu_K) P H/E, length.
-static double friction_slip(const Model1d *model)
-{
-    return (model->law.mu_static - model->law.mu_kinetic) * model->pressure * model->height /
-           model->young;
-}
-
 // history.h5 as a block's, so that the same programs draw it; a line has no shear waves.
 static bool open_history(Model1dSimulation *simulation, Error *err)
 {
@@ -57,9 +50,10 @@ static bool open_simulation(Model1dSimulation *simulation, Error *err)
                                              .time = model->length / model->speed,
                                              .slip_velocity = model->velocity};
     simulation->t_end = step_rule_end(scene);
-    StepSizes sizes = {.slip = friction_slip(model),
-                       .crossing = simulation->scales.time,
-                       .tolerance = TOLERANCES[scene->time.accuracy]};
+    StepSizes sizes = {
+        .slip = friction_slip(&model->law, model->pressure, model->height, model->young),
+        .crossing = simulation->scales.time,
+        .tolerance = TOLERANCES[scene->time.accuracy]};
     StepControlDef def = step_rule(scene, &sizes);
     TRY(chain_build(model, simulation->options->nodes, &simulation->chain, err));
     TRY(step_control_create(&simulation->chain.block, &def, &simulation->control, err));

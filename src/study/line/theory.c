@@ -32,12 +32,6 @@ double model1d_range(const Model1d *model)
     return sqrt(model->elastic_x / model->elastic_shear * spring_area(model));
 }
 
-// mu_S - mu_K
-static double friction_drop(const Model1d *model)
-{
-    return model->law.mu_static - model->law.mu_kinetic;
-}
-
 // cosh(a)/sinh(b) for 0 <= a <= b, without overflow
 static double cosh_over_sinh(double a, double b)
 {
@@ -57,7 +51,7 @@ double model1d_rest(const Model1d *model, double x)
 // c of the head, 1: slip per length of front
 static double slip_scale(const Model1d *model)
 {
-    return 2 * friction_drop(model) * model->drive * model->pressure /
+    return 2 * friction_drop(&model->law) * model->drive * model->pressure /
            (model->elastic_shear * model->length);
 }
 
@@ -80,12 +74,12 @@ double model1d_mu(const Model1d *model, double l)
 {
     double q = model1d_range(model), part = l / model->length;
     double ahead = 2 * (1 - part) * (part - q / model->length * tanh(l / (2 * q)));
-    return model->law.mu_kinetic + friction_drop(model) * (part * part + ahead);
+    return model->law.mu_kinetic + friction_drop(&model->law) * (part * part + ahead);
 }
 
 double model1d_mu_line(const Model1d *model, double l)
 {
-    return model->law.mu_kinetic + friction_drop(model) * l / model->length;
+    return model->law.mu_kinetic + friction_drop(&model->law) * l / model->length;
 }
 
 // --- growth rates -------------------------------------------------------------------------------

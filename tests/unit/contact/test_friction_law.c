@@ -57,8 +57,57 @@ static void test_slopes(void **state)
         FrictionLaw law = law_of(KINDS[k]);
         double spent = friction_spent_speed(&law);
         double left = friction_coefficient(&law, spent) - friction_coefficient(&law, 100 * spent);
-        assert_true(left <= 0.01 * (law.mu_static - law.mu_kinetic));
+        assert_true(left <= 0.01 * friction_drop(&law));
     }
+}
+
+// Either side of a kink as a curve of its own: the law where the law is on that side, elsewhere the
+// same straight line, which is what the linear law has on both sides.
+static void test_branches(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        FrictionLaw law = law_of(KINDS[k]);
+        double kink = friction_kink(&law), slope;
+        assert_int_equal(isfinite(kink), KINDS[k] == FRICTION_LINEAR_WEAKENING);
+        for (double v = 0.003; v < 0.2; v += 0.01) {
+            double mu = friction_branch(&law, v >= kink, v, &slope);
+            assert_near("mu", mu, friction_coefficient(&law, v), 0);
+            assert_near("slope", slope, friction_slope(&law, v), 0);
+            if (!isfinite(kink)) continue;
+            assert_near("before", friction_branch(&law, false, v, &slope), 0.6 - 8 * v, 1e-14);
+            assert_near("before", slope, -8, 1e-14);
+            assert_near("beyond", friction_branch(&law, true, v, &slope), 0.2, 1e-14);
+            assert_near("beyond", slope, 0, 0);
+        }
+    }
+}
+
+// The drop from rest to fast slip, and the slip that it can drive.
+static void test_drop(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        FrictionLaw law = law_of(KINDS[k]);
+        double drop = friction_coefficient(&law, 0) - friction_coefficient(&law, 1e9);
+        assert_near("drop", friction_drop(&law), drop, 1e-15);
+        assert_int_equal(friction_has_drop(&law), drop > 0);
+        double driven = (drop > 0 ? drop : 0.6) * 3 * 0.5 / 20;
+        assert_near("slip", friction_slip(&law, 3, 0.5, 20), driven, 1e-15);
+    }
+    FrictionLaw none = friction_constant(0), rough = friction_constant(0.7);
+    assert_near("mu", friction_coefficient(&rough, 5), 0.7, 0);
+    assert_near("slip without friction", friction_slip(&none, 3, 0.5, 20), 3 * 0.5 / 20, 1e-15);
+}
+
+// A kind that there is not is called so, and counts as one that does not weaken.
+static void test_names(void **state)
+{
+    (void)state;
+    FrictionLaw none = law_of((FrictionKind)99), linear = law_of(FRICTION_LINEAR_WEAKENING);
+    assert_string_equal(friction_law_name(&none), "unknown");
+    assert_string_equal(friction_law_name(&linear), "linear-weakening");
+    assert_true(friction_drop(&none) == 0 && !friction_has_drop(&none));
 }
 
 // phi = max(0, 1 - v/v_c), and mu = mu_K + (mu_S - mu_K) phi wherever something weakens.
@@ -76,21 +125,15 @@ static void test_contact_density(void **state)
     assert_near("nothing weakens", friction_contact_density(&level, 1), 1, 0);
 }
 
-static void test_default_is_set_a(void **state)
-{
-    (void)state;
-    FrictionLaw law = friction_law_default();
-    assert_int_equal(law.kind, FRICTION_LINEAR_WEAKENING);
-    assert_true(law.mu_static == 0.38 && law.mu_kinetic == 0.1 && law.critical_velocity == 3.4e-4);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_values),
         cmocka_unit_test(test_slopes),
         cmocka_unit_test(test_contact_density),
-        cmocka_unit_test(test_default_is_set_a),
+        cmocka_unit_test(test_branches),
+        cmocka_unit_test(test_drop),
+        cmocka_unit_test(test_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

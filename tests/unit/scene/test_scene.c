@@ -56,7 +56,7 @@ static void test_figure_1(void **state)
     assert_true(scene.material.young == 1 && scene.material.poisson == 0.34);
     assert_true(scene.material.density == 1 && scene.material.eta1 == 1);
     assert_true(scene.material.eta2 == 1 && scene.material.plane == PLANE_STRESS);
-    assert_int_equal(scene.friction.law, LAW_LINEAR_WEAKENING);
+    assert_int_equal(scene.friction.kind, FRICTION_LINEAR_WEAKENING);
     assert_true(scene.friction.mu_static == 0.38 && scene.friction.mu_kinetic == 0.1);
     assert_true(scene.friction.critical_velocity == 3.4e-4);
     assert_true(scene.load.pressure == 0.003 && scene.load.traction_count == 0);
@@ -83,7 +83,7 @@ static void test_defaults(void **state)
     assert_int_equal(scene.groups.contact.count, 0);
     assert_true(scene.material.young == 1 && scene.material.density == 1);
     assert_true(scene.material.eta1 == 1 && scene.material.eta2 == 1);
-    assert_int_equal(scene.friction.law, LAW_LINEAR_WEAKENING);
+    assert_int_equal(scene.friction.kind, FRICTION_LINEAR_WEAKENING);
     assert_true(scene.rod.height == 0 && scene.rod.width == 0 && scene.rod.kind == ROD_PUSH);
     assert_int_equal(scene.start.friction, START_FRICTION_ON);
     assert_int_equal(scene.start.rod, START_ROD_AWAY);

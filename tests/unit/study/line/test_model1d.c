@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "near.h"
 #include "result_place.h"
+#include "scene/scene.h"
 
 enum { OVERRIDES_MAX = 12, FIXED = 2 };
 
@@ -189,6 +190,15 @@ static void test_refusals(void **state)
         amontons_scene_destroy(scene);
     }
     Scene *scene = read_scene(NULL, 0);
+    scene->friction.kind = (FrictionKind)99;   // a law that the model knows nothing of, by its name
+    Model1dOptions usual = amontons_model1d_options();
+    Model1dSummary none;
+    Error unknown = {0};
+    assert_false(amontons_model1d(scene, &usual, &none, &unknown));
+    assert_int_equal(unknown.code, ERROR_INPUT);
+    assert_non_null(strstr(unknown.message, "`unknown`"));
+    amontons_scene_destroy(scene);
+    scene = read_scene(NULL, 0);
     Model1dOptions wrong[] = {{.alpha = 0, .nodes = 81},
                               {.alpha = -1, .nodes = 81},
                               {.alpha = NAN, .nodes = 81},
