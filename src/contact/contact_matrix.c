@@ -25,7 +25,6 @@ bool contact_matrix_create(const double *schur, int32_t count, ContactMatrix *ma
     matrix->work = NEW_ARRAY(double, count, err);
     matrix->factors = memory_bytes(bytes, err);
     matrix->pivots = NEW_ARRAY(int32_t, count, err);
-    matrix->free = NEW_ARRAY(int32_t, count, err);
     matrix->status = NEW_ARRAY(uint8_t, count, err);
     return error_is_clean(err);
 }
@@ -37,7 +36,6 @@ void contact_matrix_destroy(ContactMatrix *matrix)
     memory_free(matrix->work);
     memory_free(matrix->factors);
     memory_free(matrix->pivots);
-    memory_free(matrix->free);
     memory_free(matrix->status);
     *matrix = (ContactMatrix){0};
 }

@@ -25,12 +25,10 @@ typedef struct ContactMatrix {
     double *work;   // [count]
     int32_t swept;   // sweeps since `closed` was copied from S; -1: it is no copy
     int64_t sweeps;   // counted
-    // Kept by contact/contact_solver: LU of Newton's matrix and what it belongs to.
+    // Kept by contact/contact_solver: LU of the derivative, and the statuses that it is for.
     double *factors;   // [count^2]
     int32_t *pivots;   // [count]
-    int32_t *free;   // [count] unknowns it is for, free_count of them
-    uint8_t *status;   // [count] statuses and touching rod nodes it is for
-    int32_t free_count;
+    uint8_t *status;   // [contact_count + rod_count <= count] ContactStatus, rod_touches
     int64_t factored;   // which of the solver's factorisations made it; 0: none is kept
 } ContactMatrix;
 

@@ -14,6 +14,7 @@
 
 #include "base/dense.h"
 #include "base/memory.h"
+#include "contact/contact_equations.h"
 
 #include <math.h>
 #include <string.h>
@@ -68,15 +69,15 @@ void contact_path_destroy(ContactPath *path)
 }
 
 // A point of the path and all that stays the same along it. Nothing is owned.
-typedef struct Walk {
+typedef struct Trace {
     ContactPath *path;
     const ContactProblem *problem;
     ContactSolution *at;
+    ContactEquations equations;   // of problem and at; free: all that is not held
+    ContactScales scales;   // by g alone: reactions are not known before the start
     double tau;   // velocity
     double tau_rate;   // along the tangent
-    double force, velocity;   // scales
-    int32_t free_count;
-} Walk;
+} Trace;
 
 // A bound: condition `kind` of contact node `node`, or of rod node `node` - contact_count, or (ALL)
 // tau = 0.
@@ -85,130 +86,60 @@ typedef struct Bound {
     double distance;   // along the tangent
 } Bound;
 
-static bool has_kink(const FrictionLaw *law)
+static void add_free(Trace *trace, int32_t unknown)
 {
-    return law->kind == FRICTION_LINEAR_WEAKENING;
-}
-
-// mu of slipping node i on its side of the kink, and its slope; smooth beyond the kink.
-static double side_friction(const Walk *walk, int32_t i, double speed, double *slope)
-{
-    const FrictionLaw *law = walk->problem->law;
-    *slope = 0;
-    if (walk->path->fast[i]) return law->mu_kinetic;
-    if (!has_kink(law)) {
-        *slope = friction_slope(law, speed);
-        return friction_coefficient(law, speed);
-    }
-    *slope = -(law->mu_static - law->mu_kinetic) / law->critical_velocity;
-    return law->mu_static + *slope * speed;
-}
-
-// The slipping node whose tangent `unknown` is; -1: none.
-static int32_t slipping_at(const Walk *walk, int32_t unknown)
-{
-    if (unknown >= 2 * walk->problem->interface->contact_count || unknown % 2 != 0) return -1;
-    return status_slips(walk->at->status[unknown / 2]) ? unknown / 2 : -1;
-}
-
-static void add_free(Walk *walk, int32_t unknown)
-{
-    walk->path->place[unknown] = walk->free_count;
-    walk->path->free[walk->free_count++] = unknown;
+    trace->path->place[unknown] = trace->equations.free_count;
+    trace->path->free[trace->equations.free_count++] = unknown;
 }
 
 // Lists what is free and puts what is held in its place.
-static void arrange(Walk *walk)
+static void arrange(Trace *trace)
 {
-    const Interface *interface = walk->problem->interface;
-    walk->free_count = 0;
-    for (int32_t k = 0; k < interface->count; k++) walk->path->place[k] = -1;
+    const ContactProblem *problem = trace->problem;
+    const Interface *interface = problem->interface;
+    const ContactSolution *at = trace->at;
+    contact_hold(&trace->equations);
+    trace->equations.free_count = 0;
+    for (int32_t k = 0; k < interface->count; k++) trace->path->place[k] = -1;
     for (int32_t i = 0; i < interface->contact_count; i++) {
-        int32_t t = interface_tangent(i), n = interface_normal(i);
-        if (walk->at->status[i] == CONTACT_STICK)
-            walk->at->velocity[t] = 0;
-        else
-            add_free(walk, t);
-        if (walk->at->status[i] == CONTACT_OPEN)
-            add_free(walk, n);
-        else
-            walk->at->velocity[n] = walk->problem->bound[n];
+        if (at->status[i] != CONTACT_STICK) add_free(trace, interface_tangent(i));
+        if (at->status[i] == CONTACT_OPEN) add_free(trace, interface_normal(i));
     }
     for (int32_t j = 0; j < interface->rod_count; j++) {
-        int32_t x = interface_rod(interface, j);
-        if (walk->at->rod_touches[j] && rod_stiffness(walk->problem, j) == 0)
-            walk->at->velocity[x] = walk->problem->bound[x];
-        else
-            add_free(walk, x);
+        if (!at->rod_touches[j] || rod_stiffness(problem, j) > 0)
+            add_free(trace, interface_rod(interface, j));
     }
 }
 
 // r = S v - g + tau d
-static void find_reaction(Walk *walk)
+static void find_reaction(Trace *trace)
 {
-    int32_t count = walk->path->count;
-    double *reaction = walk->at->reaction;
-    dense_symmetric_apply(walk->problem->matrix->schur, count, walk->at->velocity, reaction);
-    for (int32_t k = 0; k < count; k++)
-        reaction[k] += walk->tau * walk->path->lift[k] - walk->problem->g[k];
-}
-
-// The stiffness of the spring on a free unknown: of a soft rod node that touches.
-static double spring_at(const Walk *walk, int32_t unknown)
-{
-    int32_t j = unknown - 2 * walk->problem->interface->contact_count;
-    return j >= 0 && walk->at->rod_touches[j] ? rod_stiffness(walk->problem, j) : 0;
-}
-
-// Force per width; 0 on the path. As in contact/contact_solver but with side_friction, which goes
-// on smoothly beyond the kink: an exchange of status, not a jump of slope, leads over it.
-static double equation(const Walk *walk, int32_t unknown)
-{
-    const double *reaction = walk->at->reaction;
-    int32_t i = slipping_at(walk, unknown);
-    double spring = spring_at(walk, unknown), bound = walk->problem->bound[unknown];
-    if (spring > 0) return reaction[unknown] + spring * (walk->at->velocity[unknown] - bound);
-    if (i < 0) return reaction[unknown];
-    double slope, mu = side_friction(walk, i, fabs(walk->at->velocity[unknown]), &slope);
-    return reaction[unknown] +
-           status_direction(walk->at->status[i]) * mu * reaction[interface_normal(i)];
+    contact_react(&trace->equations);
+    dense_add_scaled(trace->tau, trace->path->lift, trace->path->count, trace->at->reaction);
 }
 
 // Factors [J E_tau; last].
 // Size free_count + 1, column after column; `last` is its lowest row [free_count + 1]. false:
 // singular, as at a point where two paths meet.
-static bool factor(Walk *walk, const double *last)
+static bool factor(Trace *trace, const double *last)
 {
-    ContactPath *path = walk->path;
-    int32_t free_count = walk->free_count, size = free_count + 1;
-    for (int32_t a = 0; a < free_count; a++) {
-        int32_t row = path->free[a], i = slipping_at(walk, row);
-        const double *own = walk->problem->matrix->schur + (int64_t)row * path->count,
-                     *normal = own;
-        double *out = path->matrix + a, signed_mu = 0, slope = 0;
-        if (i >= 0) {
-            signed_mu = status_direction(walk->at->status[i]) *
-                        side_friction(walk, i, fabs(walk->at->velocity[row]), &slope);
-            normal = walk->problem->matrix->schur + (int64_t)interface_normal(i) * path->count;
-        }
-        for (int32_t b = 0; b < free_count; b++)
-            out[(int64_t)b * size] = own[path->free[b]] + signed_mu * normal[path->free[b]];
-        out[(int64_t)free_count * size] =
-            path->lift[row] + (i >= 0 ? signed_mu * path->lift[interface_normal(i)] : 0);
-        out[(int64_t)a * size] += spring_at(walk, row);
-        if (i >= 0) out[(int64_t)a * size] += slope * walk->at->reaction[interface_normal(i)];
-    }
+    ContactPath *path = trace->path;
+    int32_t free_count = trace->equations.free_count, size = free_count + 1;
+    contact_jacobian(&trace->equations, trace->problem->matrix->schur, size, path->matrix);
+    for (int32_t a = 0; a < free_count; a++)
+        path->matrix[(int64_t)free_count * size + a] =
+            contact_combine(&trace->equations, path->free[a], path->lift);
     for (int32_t b = 0; b < size; b++) path->matrix[(int64_t)b * size + free_count] = last[b];
     return dense_lu(path->matrix, size, path->pivots);
 }
 
 // The tangent along which path->row grows, of length 1, and the rates of v and r along it.
-static bool find_tangent(Walk *walk)
+static bool find_tangent(Trace *trace)
 {
-    ContactPath *path = walk->path;
-    int32_t free_count = walk->free_count, count = path->count;
+    ContactPath *path = trace->path;
+    int32_t free_count = trace->equations.free_count, count = path->count;
     double *tangent = path->tangent;
-    if (!factor(walk, path->row)) return false;
+    if (!factor(trace, path->row)) return false;
     memset(tangent, 0, (size_t)free_count * sizeof(double));
     tangent[free_count] = 1;
     dense_lu_solve(path->matrix, free_count + 1, path->pivots, tangent);
@@ -217,10 +148,10 @@ static bool find_tangent(Walk *walk)
     for (int32_t a = 0; a <= free_count; a++) tangent[a] /= length;
     memset(path->velocity_rate, 0, (size_t)count * sizeof(double));
     for (int32_t a = 0; a < free_count; a++) path->velocity_rate[path->free[a]] = tangent[a];
-    walk->tau_rate = tangent[free_count];
-    dense_symmetric_apply(walk->problem->matrix->schur, count, path->velocity_rate,
+    trace->tau_rate = tangent[free_count];
+    dense_symmetric_apply(trace->problem->matrix->schur, count, path->velocity_rate,
                           path->reaction_rate);
-    for (int32_t k = 0; k < count; k++) path->reaction_rate[k] += walk->tau_rate * path->lift[k];
+    for (int32_t k = 0; k < count; k++) path->reaction_rate[k] += trace->tau_rate * path->lift[k];
     return true;
 }
 
@@ -228,45 +159,48 @@ static bool find_tangent(Walk *walk)
 
 // Condition `kind` of `node`: >= 0 where its status holds, over its scale; INFINITY: there is no
 // such condition. one: 1 for the value at v, r; 0 for the rate at their rates.
-static double condition(const Walk *walk, int32_t node, int32_t kind, const double *v,
+static double condition(const Trace *trace, int32_t node, int32_t kind, const double *v,
                         const double *r, double one)
 {
-    const ContactProblem *problem = walk->problem;
+    const ContactProblem *problem = trace->problem;
     const Interface *interface = problem->interface;
     if (node >= interface->contact_count) {
         int32_t j = node - interface->contact_count, x = interface_rod(interface, j);
         if (kind > 0 || problem->rod_kind != ROD_PUSHES) return INFINITY;
-        return walk->at->rod_touches[j] ? r[x] / walk->force
-                                        : (v[x] - one * problem->bound[x]) / walk->velocity;
+        return trace->at->rod_touches[j]
+                   ? r[x] / trace->scales.force
+                   : (v[x] - one * problem->bound[x]) / trace->scales.velocity;
     }
     int32_t t = interface_tangent(node), n = interface_normal(node);
-    uint8_t status = walk->at->status[node];
+    uint8_t status = trace->at->status[node];
     if (status == CONTACT_OPEN)
-        return kind == 0 ? (v[n] - one * problem->bound[n]) / walk->velocity : INFINITY;
+        return kind == 0 ? (v[n] - one * problem->bound[n]) / trace->scales.velocity : INFINITY;
     if (status == CONTACT_STICK) {
         if (kind > 1) return INFINITY;
-        return (problem->law->mu_static * r[n] + (kind == 0 ? r[t] : -r[t])) / walk->force;
+        return (problem->law->mu_static * r[n] + (kind == 0 ? r[t] : -r[t])) / trace->scales.force;
     }
     double speed = status_direction(status) * v[t];
-    if (kind == 0) return speed / walk->velocity;
-    if (kind == 1) return r[n] / walk->force;
-    if (!has_kink(problem->law)) return INFINITY;
-    double beyond = (speed - one * problem->law->critical_velocity) / walk->velocity;
-    return walk->path->fast[node] ? beyond : -beyond;
+    if (kind == 0) return speed / trace->scales.velocity;
+    if (kind == 1) return r[n] / trace->scales.force;
+    double kink = friction_kink(problem->law);
+    if (!isfinite(kink)) return INFINITY;
+    double beyond = (speed - one * kink) / trace->scales.velocity;
+    return trace->path->fast[node] ? beyond : -beyond;
 }
 
 // The bound that the tangent reaches first; distance INFINITY: none.
-static Bound nearest_bound(const Walk *walk)
+static Bound nearest_bound(const Trace *trace)
 {
-    const Interface *interface = walk->problem->interface;
-    const ContactPath *path = walk->path;
+    const Interface *interface = trace->problem->interface;
+    const ContactPath *path = trace->path;
     Bound nearest = {.node = ALL, .distance = INFINITY};
-    if (walk->tau_rate < 0) nearest.distance = walk->tau / -walk->tau_rate;
+    if (trace->tau_rate < 0) nearest.distance = trace->tau / -trace->tau_rate;
     for (int32_t node = 0; node < interface->contact_count + interface->rod_count; node++) {
         for (int32_t kind = 0; kind < CONDITIONS; kind++) {
-            double value = condition(walk, node, kind, walk->at->velocity, walk->at->reaction, 1);
+            double value =
+                condition(trace, node, kind, trace->at->velocity, trace->at->reaction, 1);
             if (value == INFINITY) break;
-            double rate = condition(walk, node, kind, path->velocity_rate, path->reaction_rate, 0);
+            double rate = condition(trace, node, kind, path->velocity_rate, path->reaction_rate, 0);
             if (!(rate < 0) || fmax(value, 0) >= -rate * nearest.distance) continue;
             nearest = (Bound){node, kind, fmax(value, 0) / -rate};
         }
@@ -276,14 +210,15 @@ static Bound nearest_bound(const Walk *walk)
 
 // The least of all conditions at the point, below 0 where one is broken.
 // tau = 0 counts as a condition, too (ALL), so that a step beyond the path's end is cut back to it.
-static double worst_condition(const Walk *walk, Bound *worst)
+static double worst_condition(const Trace *trace, Bound *worst)
 {
-    const Interface *interface = walk->problem->interface;
-    double least = walk->tau / walk->velocity;
+    const Interface *interface = trace->problem->interface;
+    double least = trace->tau / trace->scales.velocity;
     *worst = (Bound){.node = ALL};
     for (int32_t node = 0; node < interface->contact_count + interface->rod_count; node++) {
         for (int32_t kind = 0; kind < CONDITIONS; kind++) {
-            double value = condition(walk, node, kind, walk->at->velocity, walk->at->reaction, 1);
+            double value =
+                condition(trace, node, kind, trace->at->velocity, trace->at->reaction, 1);
             if (value >= least) continue;
             least = value;
             *worst = (Bound){.node = node, .kind = kind};
@@ -293,20 +228,21 @@ static double worst_condition(const Walk *walk, Bound *worst)
 }
 
 // row += factor * gradient of r_k
-static void add_reaction_row(Walk *walk, int32_t k, double factor)
+static void add_reaction_row(Trace *trace, int32_t k, double factor)
 {
-    ContactPath *path = walk->path;
-    const double *own = walk->problem->matrix->schur + (int64_t)k * path->count;
-    for (int32_t b = 0; b < walk->free_count; b++) path->row[b] += factor * own[path->free[b]];
-    path->row[walk->free_count] += factor * path->lift[k];
+    ContactPath *path = trace->path;
+    const double *own = trace->problem->matrix->schur + (int64_t)k * path->count;
+    for (int32_t b = 0; b < trace->equations.free_count; b++)
+        path->row[b] += factor * own[path->free[b]];
+    path->row[trace->equations.free_count] += factor * path->lift[k];
 }
 
 // Beyond its bound a node takes its next status; `row` becomes what grows from 0 there.
-static void exchange(Walk *walk, Bound bound)
+static void exchange(Trace *trace, Bound bound)
 {
-    ContactPath *path = walk->path;
-    const Interface *interface = walk->problem->interface;
-    ContactSolution *at = walk->at;
+    ContactPath *path = trace->path;
+    const Interface *interface = trace->problem->interface;
+    ContactSolution *at = trace->at;
     int32_t i = bound.node, contacts = interface->contact_count;
     bool rod = i >= contacts;
     int32_t t = rod ? interface_rod(interface, i - contacts) : interface_tangent(i);
@@ -320,8 +256,7 @@ static void exchange(Walk *walk, Bound bound)
         *touches = !*touches;
     } else if (before == CONTACT_OPEN) {
         at->status[i] = at->velocity[t] < 0 ? CONTACT_SLIP_BACKWARD : CONTACT_SLIP_FORWARD;
-        path->fast[i] = has_kink(walk->problem->law) &&
-                        fabs(at->velocity[t]) > walk->problem->law->critical_velocity;
+        path->fast[i] = fabs(at->velocity[t]) > friction_kink(trace->problem->law);
         normal = 1;
     } else if (before == CONTACT_STICK) {
         at->status[i] = bound.kind == 0 ? CONTACT_SLIP_FORWARD : CONTACT_SLIP_BACKWARD;
@@ -329,7 +264,7 @@ static void exchange(Walk *walk, Bound bound)
         velocity_sign = status_direction(at->status[i]);
     } else if (bound.kind == 0) {
         at->status[i] = CONTACT_STICK;
-        normal = walk->problem->law->mu_static;
+        normal = trace->problem->law->mu_static;
         tangent = direction;
     } else if (bound.kind == 1) {
         at->status[i] = CONTACT_OPEN;
@@ -339,25 +274,25 @@ static void exchange(Walk *walk, Bound bound)
         path->fast[i] = !path->fast[i];
         velocity_sign = path->fast[i] ? direction : -direction;
     }
-    arrange(walk);
-    memset(path->row, 0, ((size_t)walk->free_count + 1) * sizeof(double));
+    arrange(trace);
+    memset(path->row, 0, ((size_t)trace->equations.free_count + 1) * sizeof(double));
     if (velocity_sign != 0) path->row[path->place[grown]] = velocity_sign;
-    if (tangent != 0) add_reaction_row(walk, t, tangent);
-    if (normal != 0) add_reaction_row(walk, interface_normal(i), normal);
+    if (tangent != 0) add_reaction_row(trace, t, tangent);
+    if (normal != 0) add_reaction_row(trace, interface_normal(i), normal);
 }
 
 // --- steps --------------------------------------------------------------------------------------
 
 // No node's friction changes so much that the step might have met another part of the path.
-static bool stays_near(const Walk *walk)
+static bool stays_near(const Trace *trace)
 {
-    const ContactPath *path = walk->path;
-    const FrictionLaw *law = walk->problem->law;
-    if (law->kind == FRICTION_COULOMB) return true;
-    for (int32_t a = 0; a < walk->free_count; a++) {
-        int32_t i = slipping_at(walk, path->free[a]);
+    const ContactPath *path = trace->path;
+    const FrictionLaw *law = trace->problem->law;
+    if (!(friction_drop(law) > 0)) return true;
+    for (int32_t a = 0; a < trace->equations.free_count; a++) {
+        int32_t i = contact_slipping_node(&trace->equations, path->free[a]);
         if (i < 0 || path->fast[i]) continue;
-        double before = fabs(path->kept[a]), after = fabs(walk->at->velocity[path->free[a]]);
+        double before = fabs(path->kept[a]), after = fabs(trace->at->velocity[path->free[a]]);
         if (fabs(after - before) > BEND * fmax(law->critical_velocity, before)) return false;
     }
     return true;
@@ -367,29 +302,29 @@ static bool stays_near(const Walk *walk)
 // or so far aside that it may be another path.
 // On success velocity, reaction and tau are those of the point; on failure they are of no use, and
 // the next trial starts from `kept` again.
-static bool place_point(Walk *walk, double tau_kept, double distance)
+static bool place_point(Trace *trace, double tau_kept, double distance)
 {
-    ContactPath *path = walk->path;
-    double *velocity = walk->at->velocity, *step = path->row, aside = 0;
-    int32_t free_count = walk->free_count;
+    ContactPath *path = trace->path;
+    double *velocity = trace->at->velocity, *step = path->row, aside = 0;
+    int32_t free_count = trace->equations.free_count;
     for (int32_t a = 0; a < free_count; a++)
         velocity[path->free[a]] = path->kept[a] + distance * path->tangent[a];
-    walk->tau = tau_kept + distance * path->tangent[free_count];
+    trace->tau = tau_kept + distance * path->tangent[free_count];
     for (int32_t k = 0; k < CORRECTIONS; k++) {
         double largest = 0;
-        find_reaction(walk);
+        find_reaction(trace);
         for (int32_t a = 0; a < free_count; a++) {
-            step[a] = -equation(walk, path->free[a]);
+            step[a] = contact_defect(&trace->equations, path->free[a], NULL);
             largest = fmax(largest, fabs(step[a]));
         }
         step[free_count] = 0;
-        if (largest <= NEAR * walk->force) return stays_near(walk);
-        if (!isfinite(largest) || !factor(walk, path->tangent)) return false;
+        if (largest <= NEAR * trace->scales.force) return stays_near(trace);
+        if (!isfinite(largest) || !factor(trace, path->tangent)) return false;
         dense_lu_solve(path->matrix, free_count + 1, path->pivots, step);
         for (int32_t a = 0; a < free_count; a++) velocity[path->free[a]] += step[a];
-        walk->tau += step[free_count];
+        trace->tau += step[free_count];
         aside += sqrt(dense_dot(step, step, free_count + 1));
-        if (aside > ASIDE * distance + NEAR * walk->velocity) return false;
+        if (aside > ASIDE * distance + NEAR * trace->scales.velocity) return false;
     }
     return false;
 }
@@ -397,16 +332,17 @@ static bool place_point(Walk *walk, double tau_kept, double distance)
 // A step to the first bound, or to a point before it (reached->node NOWHERE).
 // false: no point was found within TRIALS. The length of a first trial is bounded by the scale of
 // velocity beyond tau, as a tangent that meets no bound would lead to infinity.
-static bool advance(Walk *walk, Bound *reached)
+static bool advance(Trace *trace, Bound *reached)
 {
-    ContactPath *path = walk->path;
-    double tau_kept = walk->tau, low = 0, high = INFINITY, low_value = 0, high_value = -INFINITY;
-    double distance = fmin(nearest_bound(walk).distance, walk->velocity + fabs(walk->tau));
-    for (int32_t a = 0; a < walk->free_count; a++)
-        path->kept[a] = walk->at->velocity[path->free[a]];
+    ContactPath *path = trace->path;
+    double tau_kept = trace->tau, low = 0, high = INFINITY, low_value = 0, high_value = -INFINITY;
+    double distance =
+        fmin(nearest_bound(trace).distance, trace->scales.velocity + fabs(trace->tau));
+    for (int32_t a = 0; a < trace->equations.free_count; a++)
+        path->kept[a] = trace->at->velocity[path->free[a]];
     for (int32_t trial = 0; trial < TRIALS; trial++) {
-        bool placed = place_point(walk, tau_kept, distance);
-        double least = placed ? worst_condition(walk, reached) : -INFINITY;
+        bool placed = place_point(trace, tau_kept, distance);
+        double least = placed ? worst_condition(trace, reached) : -INFINITY;
         if (fabs(least) <= NEAR) return true;
         if (least > 0 && !isfinite(high_value)) {   // the arc bent away: on from here
             reached->node = NOWHERE;
@@ -427,66 +363,54 @@ static bool advance(Walk *walk, Bound *reached)
     return false;
 }
 
-// As problem_scales of contact/contact_solver, from g alone: reactions are not known before the
-// start.
-static void find_scales(Walk *walk)
-{
-    int32_t count = walk->path->count;
-    double diagonal = 0;
-    for (int32_t k = 0; k < count; k++)
-        diagonal = fmax(diagonal, walk->problem->matrix->schur[(int64_t)k * count + k]);
-    walk->force = dense_max_abs(walk->problem->g, count);
-    if (walk->force == 0) walk->force = 1;
-    walk->velocity = walk->force / diagonal;
-}
-
 // The first rod node that breaks its condition; -1: none.
-static int32_t broken_rod(const Walk *walk)
+static int32_t broken_rod(const Trace *trace)
 {
-    const Interface *interface = walk->problem->interface;
+    const Interface *interface = trace->problem->interface;
     for (int32_t j = 0; j < interface->rod_count; j++) {
         int32_t node = interface->contact_count + j;
-        if (condition(walk, node, 0, walk->at->velocity, walk->at->reaction, 1) < 0) return j;
+        if (condition(trace, node, 0, trace->at->velocity, trace->at->reaction, 1) < 0) return j;
     }
     return -1;
 }
 
 // Everything is pressed so hard that it sticks; tau falls. What the rod does then is a small linear
 // complementarity problem, solved by changing the first status that is wrong (Murty's rule).
-static bool start_pressed(Walk *walk)
+static bool start_pressed(Trace *trace)
 {
-    const ContactProblem *problem = walk->problem;
+    const ContactProblem *problem = trace->problem;
     const Interface *interface = problem->interface;
-    ContactPath *path = walk->path;
-    ContactSolution *at = walk->at;
+    ContactPath *path = trace->path;
+    ContactSolution *at = trace->at;
     Bound worst;
     for (int32_t k = 0; k < path->count; k++) {
         bool normal = k < 2 * interface->contact_count && k % 2 == 1;
-        path->lift[k] = normal ? walk->force / walk->velocity : 0;
+        path->lift[k] = normal ? trace->scales.force / trace->scales.velocity : 0;
     }
     memset(at->status, CONTACT_STICK, (size_t)interface->contact_count);
     memset(at->rod_touches, problem->rod_kind != ROD_AWAY, (size_t)interface->rod_count);
     memset(path->fast, 0, (size_t)interface->contact_count);
     memset(at->velocity, 0, (size_t)path->count * sizeof(double));
-    walk->tau = 4 * walk->velocity;
+    trace->tau = 4 * trace->scales.velocity;
     for (int32_t trial = 0; trial < STARTS; trial++) {
-        arrange(walk);
-        memset(path->row, 0, ((size_t)walk->free_count + 1) * sizeof(double));
-        path->row[walk->free_count] = -1;
-        if (!find_tangent(walk)) return false;
-        find_reaction(walk);
-        for (int32_t a = 0; a < walk->free_count; a++)
-            path->row[a] = -equation(walk, path->free[a]);
-        path->row[walk->free_count] = 0;
-        dense_lu_solve(path->matrix, walk->free_count + 1, path->pivots, path->row);
-        for (int32_t a = 0; a < walk->free_count; a++) at->velocity[path->free[a]] += path->row[a];
-        find_reaction(walk);
-        int32_t j = broken_rod(walk);
-        if (j < 0 && worst_condition(walk, &worst) >= 0) return true;
+        arrange(trace);
+        memset(path->row, 0, ((size_t)trace->equations.free_count + 1) * sizeof(double));
+        path->row[trace->equations.free_count] = -1;
+        if (!find_tangent(trace)) return false;
+        find_reaction(trace);
+        for (int32_t a = 0; a < trace->equations.free_count; a++)
+            path->row[a] = contact_defect(&trace->equations, path->free[a], NULL);
+        path->row[trace->equations.free_count] = 0;
+        dense_lu_solve(path->matrix, trace->equations.free_count + 1, path->pivots, path->row);
+        for (int32_t a = 0; a < trace->equations.free_count; a++)
+            at->velocity[path->free[a]] += path->row[a];
+        find_reaction(trace);
+        int32_t j = broken_rod(trace);
+        if (j < 0 && worst_condition(trace, &worst) >= 0) return true;
         if (j >= 0)
             at->rod_touches[j] = !at->rod_touches[j];
         else
-            walk->tau *= 4;
+            trace->tau *= 4;
     }
     return false;
 }
@@ -494,20 +418,21 @@ static bool start_pressed(Walk *walk)
 // From a start to tau = 0.
 // false: given up after STEPS_EACH steps for each unknown, where a step was not found, or on a ray
 // that leaves for tau to infinity.
-static bool walk_path(Walk *walk)
+static bool trace_path(Trace *trace)
 {
-    ContactPath *path = walk->path;
+    ContactPath *path = trace->path;
     Bound reached = {.node = NOWHERE};
-    double highest = RAY * walk->tau;
-    for (int32_t step = 0; step < STEPS_EACH * path->count && walk->tau < highest; step++) {
-        if (step > 0 && !find_tangent(walk)) return false;
+    double highest = RAY * trace->tau;
+    for (int32_t step = 0; step < STEPS_EACH * path->count && trace->tau < highest; step++) {
+        if (step > 0 && !find_tangent(trace)) return false;
         path->steps++;
-        if (!advance(walk, &reached)) return false;
+        if (!advance(trace, &reached)) return false;
         if (reached.node == ALL) return true;
         if (reached.node == NOWHERE)
-            memcpy(path->row, path->tangent, ((size_t)walk->free_count + 1) * sizeof(double));
+            memcpy(path->row, path->tangent,
+                   ((size_t)trace->equations.free_count + 1) * sizeof(double));
         else
-            exchange(walk, reached);
+            exchange(trace, reached);
     }
     return false;
 }
@@ -515,8 +440,13 @@ static bool walk_path(Walk *walk)
 bool contact_path_follow(ContactPath *path, const ContactProblem *problem,
                          ContactSolution *solution)
 {
-    Walk walk = {.path = path, .problem = problem, .at = solution};
+    Trace trace = {
+        .path = path,
+        .problem = problem,
+        .at = solution,
+        .equations = {
+            .problem = problem, .at = solution, .beyond = path->fast, .free = path->free}};
     if (!(problem->law->mu_static > 0)) return false;
-    find_scales(&walk);
-    return start_pressed(&walk) && walk_path(&walk);
+    trace.scales = contact_scales(problem, NULL);
+    return start_pressed(&trace) && trace_path(&trace);
 }

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/contact_equations.h"
+
+#include "base/dense.h"
+
+#include <math.h>
+
+// Row k of the equations: that of the unknown itself, plus `mu` times that of `normal`, plus the
+// diagonal. mu = 0 (and normal = k) where it does not slip.
+typedef struct Row {
+    int32_t normal;
+    double mu;   // s mu(|v_t|), 1
+    double slope;   // mu'(|v_t|), one over a velocity
+    double stiffness;   // of the spring at a soft rod node, force/width per velocity
+} Row;
+
+ContactScales contact_scales(const ContactProblem *problem, const double *reaction)
+{
+    int32_t count = problem->interface->count;
+    double diagonal = 0, force = dense_max_abs(problem->g, count);
+    for (int32_t k = 0; k < count; k++)
+        diagonal = fmax(diagonal, problem->matrix->schur[(int64_t)k * count + k]);
+    if (reaction) force = fmax(force, dense_max_abs(reaction, count));
+    if (force == 0) force = 1;
+    return (ContactScales){.force = force, .velocity = force / diagonal};
+}
+
+int32_t contact_slipping_node(const ContactEquations *equations, int32_t unknown)
+{
+    if (unknown >= 2 * equations->problem->interface->contact_count || unknown % 2 != 0) return -1;
+    return status_slips(equations->at->status[unknown / 2]) ? unknown / 2 : -1;
+}
+
+void contact_hold(const ContactEquations *equations)
+{
+    const ContactProblem *problem = equations->problem;
+    const Interface *interface = problem->interface;
+    ContactSolution *at = equations->at;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        if (at->status[i] == CONTACT_OPEN) continue;
+        at->velocity[interface_normal(i)] = problem->bound[interface_normal(i)];
+        if (at->status[i] == CONTACT_STICK) at->velocity[interface_tangent(i)] = 0;
+    }
+    for (int32_t j = 0; j < interface->rod_count; j++) {
+        int32_t x = interface_rod(interface, j);
+        if (at->rod_touches[j] && rod_stiffness(problem, j) == 0)
+            at->velocity[x] = problem->bound[x];
+    }
+}
+
+void contact_react(const ContactEquations *equations)
+{
+    const ContactProblem *problem = equations->problem;
+    int32_t count = problem->interface->count;
+    double *reaction = equations->at->reaction;
+    dense_symmetric_apply(problem->matrix->schur, count, equations->at->velocity, reaction);
+    for (int32_t k = 0; k < count; k++) reaction[k] -= problem->g[k];
+}
+
+static Row row_of(const ContactEquations *equations, int32_t unknown)
+{
+    const ContactProblem *problem = equations->problem;
+    Row row = {.normal = unknown};
+    int32_t i = contact_slipping_node(equations, unknown);
+    int32_t j = unknown - 2 * problem->interface->contact_count;
+    if (j >= 0 && equations->at->rod_touches[j]) row.stiffness = rod_stiffness(problem, j);
+    if (i < 0) return row;
+    double speed = fabs(equations->at->velocity[unknown]);
+    double mu;
+    if (equations->beyond) {
+        mu = friction_branch(problem->law, equations->beyond[i], speed, &row.slope);
+    } else {
+        mu = friction_coefficient(problem->law, speed);
+        row.slope = friction_slope(problem->law, speed);
+    }
+    row.mu = status_direction(equations->at->status[i]) * mu;
+    row.normal = interface_normal(i);
+    return row;
+}
+
+double contact_equation(const ContactEquations *equations, int32_t unknown)
+{
+    Row row = row_of(equations, unknown);
+    const double *reaction = equations->at->reaction;
+    double value = reaction[unknown] + row.mu * reaction[row.normal];
+    if (row.stiffness == 0) return value;
+    return value +
+           row.stiffness * (equations->at->velocity[unknown] - equations->problem->bound[unknown]);
+}
+
+double contact_defect(const ContactEquations *equations, int32_t unknown, const double *x)
+{
+    double defect = -contact_equation(equations, unknown);
+    if (!x) return defect;
+    Row row = row_of(equations, unknown);
+    return defect + x[unknown] + row.mu * x[row.normal];
+}
+
+double contact_combine(const ContactEquations *equations, int32_t unknown, const double *x)
+{
+    Row row = row_of(equations, unknown);
+    return x[unknown] + row.mu * x[row.normal];
+}
+
+void contact_jacobian(const ContactEquations *equations, const double *matrix, int32_t stride,
+                      double *jacobian)
+{
+    int32_t count = equations->problem->interface->count, free_count = equations->free_count;
+    for (int32_t a = 0; a < free_count; a++) {
+        int32_t unknown = equations->free[a];
+        Row row = row_of(equations, unknown);
+        const double *own = matrix + (int64_t)unknown * count;   // symmetric
+        const double *normal = matrix + (int64_t)row.normal * count;
+        double *out = jacobian + a;
+        for (int32_t b = 0; b < free_count; b++)
+            out[(int64_t)b * stride] = own[equations->free[b]] +
+                                       row.mu * normal[equations->free[b]];
+        out[(int64_t)a * stride] += row.slope * equations->at->reaction[row.normal] + row.stiffness;
+    }
+}

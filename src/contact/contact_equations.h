@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The equations of a contact problem while the statuses stay (Alart and Curnier, Comp. Meth. Appl.
+// Mech. Eng. 92, 1991, in their status form), and their derivatives. With r = S v - g, an unknown
+// that is not held has the equation
+//
+//     open, or rod node let go        E_k = r_k
+//     slipping tangent t of normal n  E_t = r_t + s mu(|v_t|) r_n,       s = +1, -1: sign of slip
+//     soft rod node that touches      E_x = r_x + stiffness (v_x - bound_x)
+//
+// and, as s^2 = 1, a row of the derivative by the velocities is
+//
+//     S_k + s mu S_n + (mu'(|v_t|) r_n + stiffness) e_k.
+//
+// Held are normals that touch (at their bound), tangents that stick (at 0) and rigid rod nodes that
+// touch (at their bound). Used by contact/contact_solver and contact/contact_path.
+#ifndef AMONTONS_CONTACT_CONTACT_EQUATIONS_H
+#define AMONTONS_CONTACT_CONTACT_EQUATIONS_H
+
+#include "contact/contact_problem.h"
+
+// Nothing is owned.
+typedef struct ContactEquations {
+    const ContactProblem *problem;
+    ContactSolution *at;
+    const uint8_t *beyond;   // [contact_count] 1: the node is on the law's branch beyond its kink,
+        // 0: before it, whatever its speed (friction_branch); NULL: as the speed says
+    int32_t *free;   // [count] unknowns that are solved for, free_count of them
+    int32_t free_count;
+} ContactEquations;
+
+// What makes forces and velocities comparable; neither is 0.
+typedef struct ContactScales {
+    double force;   // the largest of g, and of `reaction` [count] unless that is NULL
+    double velocity;   // that over the largest diagonal entry of S
+} ContactScales;
+
+ContactScales contact_scales(const ContactProblem *problem, const double *reaction);
+
+// The slipping node that `unknown` is the tangent of; -1: none.
+int32_t contact_slipping_node(const ContactEquations *equations, int32_t unknown);
+
+// Puts what is held in its place; what is free keeps its velocity.
+void contact_hold(const ContactEquations *equations);
+
+// r = S v - g, from the velocities as they are.
+void contact_react(const ContactEquations *equations);
+
+// E of a free unknown, force/width.
+double contact_equation(const ContactEquations *equations, int32_t unknown);
+
+// -E of `unknown` with `x` [count] taken off all reactions; NULL: with nothing.
+double contact_defect(const ContactEquations *equations, int32_t unknown, const double *x);
+
+// x_k + s mu x_n: how the equation of `unknown` takes what is added to the reactions.
+double contact_combine(const ContactEquations *equations, int32_t unknown, const double *x);
+
+// The derivative by the free unknowns, column after column with `stride` >= free_count entries
+// each. matrix: S, or S with open nodes condensed out, [count^2].
+void contact_jacobian(const ContactEquations *equations, const double *matrix, int32_t stride,
+                      double *jacobian);
+
+#endif
