@@ -10,9 +10,8 @@
 #define AMONTONS_MODEL_BASIS_CACHE_H
 
 #include "bulk/reduced_bulk.h"
-#include "bulk/reduction_block.h"
+#include "io/cache_file.h"
 #include "io/file_lock.h"
-#include "model/shape_cache.h"
 
 // Stands in every key. A basis that comes out otherwise than before, or arrays with a new meaning,
 // need a new number: tests/unit/model/test_basis_cache.c notices.

@@ -10,6 +10,7 @@
 #include "bulk/reduction_block.h"
 #include "model/assemble.h"
 #include "model/basis_cache.h"
+#include "model/shape_cache.h"
 
 #include <math.h>
 
@@ -112,6 +113,17 @@ cleanup:
     return error_is_clean(err);
 }
 
+// The greatest x of a rod node, from the trailing end over the block's length; 0 without a rod.
+static double rod_reach(const Model *model)
+{
+    const Interface *interface = &model->interface;
+    const Mesh *mesh = &model->mesh;
+    double reach = 0;
+    for (int32_t j = 0; j < interface->rod_count; j++)
+        reach = fmax(reach, mesh->position[2 * interface->rod_node[j]] - mesh->x_min);
+    return reach / model->length;
+}
+
 // Reduces the assembled bulk; key: where the cache keeps the shape, empty for nowhere.
 static bool reduce_bulk(Model *model, const char *key, Error *err)
 {
@@ -124,7 +136,8 @@ static bool reduce_bulk(Model *model, const char *key, Error *err)
                              .elements = model->elements,
                              .full_dofs = bulk->dof_count,
                              .load_size = model->unit_load.size,
-                             .load_resultant = model->unit_load.resultant}};
+                             .load_resultant = model->unit_load.resultant,
+                             .rod_reach = rod_reach(model)}};
     shape.interface = model->interface;
     model->interface = (Interface){0};
     TRY(reduction_block_create(&model->mesh, bulk, &model->material, load, &block, err));
@@ -165,30 +178,23 @@ static bool reduction_pays(const Model *model)
            REDUCTION_BYTES * n * m < REDUCTION_BYTES_MAX;
 }
 
-// Any rod node on the leading half.
-static bool rod_leads(const Model *model)
+// A pushing rod comes from behind: on the leading face it would have to stand inside the block.
+static bool check_rod(const Scene *scene, double reach, Error *err)
 {
-    const Interface *interface = &model->interface;
-    const Mesh *mesh = &model->mesh;
-    double middle = 0.5 * (mesh->x_min + mesh->x_max);
-    for (int32_t j = 0; j < interface->rod_count; j++)
-        if (mesh->position[2 * interface->rod_node[j]] > middle) return true;
-    return false;
-}
-
-static bool assemble_operator(Model *model, const char *key, Error *err)
-{
-    const Interface *interface = &model->interface;
-    TRY(model_build_bulk(model, err));
-    // A pushing rod comes from behind: on the leading face it would have to stand inside the block.
-    bool leads = rod_leads(model);
-    if (leads && model->scene->rod.kind == ROD_PUSH)
+    if (reach > 0.5 && scene->rod.kind == ROD_PUSH)
         FAIL(err, ERROR_INPUT,
              "%s: rod.kind: push, but group `%s` is on the leading half of the block, which a rod "
              "that moves along +x cannot push; let it pull there (rod.kind: bonded) or name the "
              "trailing face (groups.rod)",
-             model->scene->path, model->scene->groups.rod);
-    if (leads) key = "";   // a push must not find it in the cache
+             scene->path, scene->groups.rod);
+cleanup:
+    return error_is_clean(err);
+}
+
+// The assembled bulk becomes the operator; key: where the cache keeps the shape.
+static bool make_operator(Model *model, const char *key, Error *err)
+{
+    const Interface *interface = &model->interface;
     TRY(model_hold_supports(model, err));
     if (is_reducible(model->scene) && reduction_pays(model))
         TRY(reduce_bulk(model, key, err));
@@ -204,8 +210,7 @@ static bool find_key(Model *model, char key[HASH_TEXT_SIZE], Error *err)
 {
     const Scene *scene = model->scene;
     key[0] = 0;
-    bool moves = scene->start.velocity_x != 0 || scene->start.velocity_z != 0;
-    if (!is_reducible(scene) || scene->load.support_count > 0 || moves) return true;
+    if (!is_reducible(scene) || scene->load.support_count > 0) return true;
     return shape_key(scene, reduction_tolerance(scene), key, err);
 }
 
@@ -257,10 +262,13 @@ bool model_obtain(const Scene *scene, Model *model, Error *err)
     TRY(find_key(model, key, err));
     TRY(find_shape(model, key, &shape, &found, err));
     if (!found || scene->output.fields) TRY(model_read_mesh(model, err));
+    if (!found) TRY(model_build_bulk(model, err));
+    // What a scene may ask of a shape is checked here, wherever the shape comes from.
+    TRY(check_rod(scene, found ? shape.sizes.rod_reach : rod_reach(model), err));
     if (found)
         TRY(adopt_shape(model, &shape, err));
     else
-        TRY(assemble_operator(model, key, err));
+        TRY(make_operator(model, key, err));
     set_scales(model);
 cleanup:
     shape_destroy(&shape);

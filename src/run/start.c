@@ -53,17 +53,19 @@ static void touch_rod(Simulation *simulation)
         simulation->rod.origin[j] = now[system->interface_dofs[interface_rod(interface, j)]];
 }
 
-// Adds the velocity at t = 0, but for what is held. A reduced bulk's first unknowns are the
-// interface's, and their static modes move all of it.
+// Adds the velocity at t = 0, but for what is held (nothing is, where the shape came from the
+// cache). A reduced bulk's first unknowns are the interface's, and their static modes move all of
+// it.
 static void set_moving(const Model *model, State *state)
 {
     const Interface *interface = &model->interface;
     const BulkOperator *system = &model->system;
     double velocity[2] = {model->scene->start.velocity_x, model->scene->start.velocity_z};
+    const uint8_t *held = model->bulk.held;
     int32_t moved = system->reduced ? interface->count : state->dof_count;
     for (int32_t k = 0; k < moved; k++) {
         int32_t dof = system->reduced ? interface->dofs[k] : k;
-        if (!model->bulk.held[dof]) state->velocity[k] += velocity[dof % 2];
+        if (!held || !held[dof]) state->velocity[k] += velocity[dof % 2];
     }
     for (int32_t k = 0; k < interface->count; k++)
         state->slip_rate[k] = state->velocity[system->interface_dofs[k]];

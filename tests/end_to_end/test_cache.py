@@ -131,10 +131,27 @@ class SameBits(Cached):
         for setting in ("reduction.cache=false", "reduction.use=never"):
             self.assertFalse(self.model(*PLAIN, setting)["from_cache"], setting)
             self.assertEqual(self.files(), [], setting)
-        # Its start needs the mesh each time; the basis is the same.
-        for cached in (False, True):
-            self.assertEqual(self.model(*PLAIN, "start.velocity_x=1e-9")["from_cache"], cached)
-            self.assertEqual(self.endings(), [".basis", ".modes"])
+
+    def test_moving_start(self):
+        """It moves the interface, which the cache has: no mesh, and the same bits."""
+        moves = [*PLAIN, "start.velocity_x=1e-5"]
+        none, _ = self.run_scene(*moves, cache="")
+        self.run_scene(*PLAIN)
+        cached, report = self.run_scene(*moves)
+        self.assertEqual(report["timing_s"]["mesh"], 0)
+        self.assert_same_history(none, cached)
+
+    def test_rod_on_the_leading_face(self):
+        """It may pull there, and a shape so stored does not let it push."""
+        leads = [*PLAIN, "groups.rod=leading"]
+        for again in (False, True):
+            _, report = self.run_scene(*leads, "rod.kind=bonded")
+            self.assertEqual(report["timing_s"]["mesh"] == 0, again)
+            done = subprocess.run([BIN / "amontons", "run", SCENE, "-o", self.folder / f"push-{again}",
+                                   "--quiet", "--set", *SHORT, *leads], capture_output=True, text=True,
+                                  env=dict(os.environ, AMONTONS_CACHE=str(self.cache)), timeout=60)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("leading half of the block", done.stderr)
 
     def test_msh_and_include(self):
         """A mesh by its content, text or not; a .geo that draws on others is meshed each time."""
