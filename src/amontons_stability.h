@@ -13,16 +13,16 @@ typedef struct StabilityPoint {
     double U, mu;   // displacement of the rod, length; F_T / F_N
     double rate_re, rate_im;   // the rightmost lambda of exp(lambda t), 1/time
     double real_rate;   // the largest real one above 0, 1/time; 0: none
-    double load;   // weakening over what viscosity, inertia and elasticity bear,
-        // pressure held fixed; from 1 on slip runs away
-    bool certified;   // viscosity alone bears the weakening
+    double load;   // weakening over the resistance of viscosity, inertia and elasticity, pressure
+        // held fixed; from 1 on slip accelerates without oscillating (it runs away)
+    bool certified;   // viscosity alone outweighs the weakening
 } StabilityPoint;
 
 // Where something is first lost, over L, between two positions of the front; NaN: nowhere. l_c and
 // l_c_rod are 1 where the front crosses the block before.
 enum { STABILITY_PADS_MAX = 64 };
 
-// What a contact curve (pad) bears in the state where slip runs away at the scene's V; l, drag and
+// Resistance of a contact curve (pad) to slip in the state where slip runs away at the scene's V; l, drag and
 // stiffness of the pad alone, everything else held.
 typedef struct StabilityPad {
     char name[64];
@@ -31,7 +31,7 @@ typedef struct StabilityPad {
     double slipping;   // how much of it slips, length
     double mode;   // how much it takes part: mean |slip| of the mode that grows,
         // over the largest of all pads
-    double load;   // when all of it slips: weakening over what it bears; below 1 it
+    double load;   // when all of it slips: weakening over its resistance; below 1 it
         // cannot run away alone
     double l_c;   // how much of it, from its trailing edge on, may slip before it
         // runs away alone, length; NaN: all of it
@@ -47,7 +47,7 @@ typedef struct StabilitySummary {
     double l_c;   // real growth: slow slip turns into sliding however slow the rod
     double l_c_rod;   // at the scene's V already: an oscillation grows from V to v_c
         // within half a period, pi Re/Im > ln(v_c/V)
-    double mu_sc;   // mu at l_sc; NaN: nothing swings
+    double mu_sc;   // mu at l_sc; NaN: nothing oscillates
     double mu_snap;   // where a node first jumps instead of slipping on; NaN: none
     double mu_c, mu_rod;   // mu at l_c and at l_c_rod: mu_M for V -> 0, and for V
     double U_c, U_rod;   // U there, length

@@ -17,12 +17,12 @@
 // need a new number: tests/unit/model/test_basis_cache.c notices.
 extern const char BASIS_FORMAT[];
 
-// Fills `reduced`, scales left at 0. *found: false when there is nothing, or nothing to be trusted:
+// Fills `reduced`, scales left at 0. *found: false when there is nothing, or nothing that is valid:
 // `note` then says why. with_modes: the modes must be there too. name: empty for none.
 bool basis_cache_load(const char *name, bool with_modes, ReducedBulk *reduced, bool *found,
                       char note[CACHE_NOTE_SIZE], Error *err);
 
-// Waits while another process builds the basis, some minutes at the most. true: nobody else will
+// Waits while another process builds the basis, some minutes at the most. true: no other will
 // until file_lock_release; look once more whether it is there now. false: no lock is to be had, go
 // on without. name: empty for none.
 bool basis_cache_lock(const char *name, FileLock *lock);

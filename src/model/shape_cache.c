@@ -171,7 +171,7 @@ static bool read_shape(const CacheFile *file, Shape *shape, Error *err)
            read_numbers(file, "rotation", interface->count, &shape->rotation, err);
 }
 
-// A shape that is not to be trusted is no error: found is false and `note` says why.
+// A shape that is not valid is no error: found is false and `note` says why.
 bool shape_cache_load(const char *key, Shape *shape, bool *found, char note[CACHE_NOTE_SIZE],
                       Error *err)
 {

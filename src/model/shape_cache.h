@@ -39,7 +39,7 @@ double load_reference(const Scene *scene);
 // others) or the scene wants no cache.
 bool shape_key(const Scene *scene, double tolerance, char key[HASH_TEXT_SIZE], Error *err);
 
-// Fills `shape`, arrays owned by it. *found: false when there is nothing, or nothing to be trusted:
+// Fills `shape`, arrays owned by it. *found: false when there is nothing, or nothing that is valid:
 // `note` then says why.
 bool shape_cache_load(const char *key, Shape *shape, bool *found, char note[CACHE_NOTE_SIZE],
                       Error *err);

@@ -11,13 +11,12 @@ bool pace_check(Pace *pace, int64_t steps, double time, double end, Error *err)
     double left = (end - time) / step;
     *pace = (Pace){.steps = steps, .time = time};
     if (left > STEPS_LEFT_MAX)
-        FAIL(
-            err, ERROR_COMPUTE,
-            "steps of %.2g are the longest that are accepted, and the end is %.1e of "
-            "them away: slip has come to a state that weakens faster than viscosity can bear on an "
-            "element. Smaller elements at the contact, less pressure or a larger "
-            "friction.critical_velocity would bear it",
-            step, left);
+        FAIL(err, ERROR_COMPUTE,
+             "steps of %.2g are the longest that are accepted, and the end is %.1e of "
+             "them away: slip has come to a state that weakens faster than viscosity can damp on "
+             "an element. Smaller elements at the contact, less pressure or a larger "
+             "friction.critical_velocity would help",
+             step, left);
 cleanup:
     return error_is_clean(err);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// run.json: what was asked, what was done, what came out and how far it can be trusted. One object,
-// written last, atomically. Keys that DESIGN section 5 names keep their names.
+// run.json: what was asked, what was done, what came out with which errors. One object,
+// written last, atomically.
 #ifndef AMONTONS_RUN_REPORT_H
 #define AMONTONS_RUN_REPORT_H
 

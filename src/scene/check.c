@@ -53,7 +53,7 @@ static bool is_given(const Check *check, const char *name)
     return check->scene->given[scene_key_index(name)];
 }
 
-// A scene that says where the rod stands, or has none, and says nothing of time is for `amontons
+// A scene that says where the rod stands, or has none, and gives no end of time is for `amontons
 // static`; `amontons run` refuses it.
 static bool is_static(const Scene *scene)
 {

@@ -156,7 +156,7 @@ static const SceneKey keys[] = {
      .sentence = "Longest step while slip is not certified to be stable, in wave crossings of the "
                  "block, L / c_L (L / 2 c_S where that is longer)."},
     {"time.watch", KEY_NUMBER, offsetof(Scene, time.watch), "1", RANGE_NOT_NEGATIVE, "20",
-     .sentence = "How long the swings of slow slip beyond l_sc are followed at each position of "
+     .sentence = "How long oscillations of slow slip beyond l_sc are followed at each position of "
                  "the front, in wave crossings of the block; after that those that stay small are "
                  "stepped over, so that a slow rod costs no more than a fast one. 0: all of them "
                  "are followed."},

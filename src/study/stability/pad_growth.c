@@ -6,13 +6,13 @@
 //
 //     drag       smallest v' S_C[T,T] v / v' w v over slips v of the whole pad
 //     stiffness  smallest v' S_K[T,T] v / v' w v
-//     load(J)    largest weakening over what S(s) = s M + C + K/s bears on J, over s
+//     load(J)    largest weakening over the resistance S(s) = s M + C + K/s of J, over s
 //                (stepping/growth, growth_scan); it rises with J, and l_c is where it reaches 1
 //
 // Drag is what a geometry has of viscosity against slip: eta1/2 over H for a layer of height H that
 // shears, about eta over the length for a short pad on a large block. Weakening over drag,
-// (mu_S - mu_K) p / (v_c drag), decides where slip begins to swing; elasticity and inertia together
-// bear more, so a pad runs away by itself only where load > 1.
+// (mu_S - mu_K) p / (v_c drag), decides where slip begins to oscillate; elasticity and inertia together
+// resist more, so a pad runs away by itself only where load > 1.
 #include "study/stability/stability.h"
 
 #include "base/dense.h"

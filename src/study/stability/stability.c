@@ -6,7 +6,7 @@
 //     [ lambda M + C + K/lambda ] v = W v   on J, all other contact nodes held,
 //
 // plus what the pressure changes that slip brings along do to friction (stepping/growth solves it).
-// As l grows a pair of rates crosses the imaginary axis (l_sc: disturbances swing and grow), meets
+// As l grows a pair of rates crosses the imaginary axis (l_sc: disturbances oscillate and grow), meets
 // on the real axis (l_c: they run away), and the block slides. Between node positions the crossing
 // is interpolated in l, since the front itself can only stand at nodes.
 #include "study/stability/stability.h"
@@ -144,7 +144,7 @@ static int32_t count_slipping(const State *state)
 }
 
 // Half a period's growth against v_c/V: pi Re/Im - ln(v_c/V). From 0 on a disturbance of the rod's
-// size comes to v_c, where friction no longer weakens, before its swing turns it back: slip then
+// size comes to v_c, where friction no longer weakens, before its oscillation turns it back: slip then
 // runs away although the pair is still complex.
 static double half_period(const StabilityPath *path, int32_t k)
 {
@@ -277,14 +277,14 @@ static double certificate_margin(const StabilityPath *path, int32_t k)
     return path->points[k].certified ? -INFINITY : 0;
 }
 
-// Of the pair that swings: the overdamped rates, which stay near -E/eta, say nothing about it.
+// Of the oscillating pair: the overdamped rates, which stay near -E/eta, say nothing about it.
 static double real_part(const StabilityPath *path, int32_t k)
 {
     const StabilityPoint *point = &path->points[k];
     return point->rate_im > 0 || point->rate_re > 0 ? point->rate_re : -INFINITY;
 }
 
-// Weakening over what M, C and K bear at the best s, less 1 (growth_scan; pressure kept).
+// Weakening over the resistance of M, C and K at the worst s, less 1 (growth_scan; pressure kept).
 static double overload(const StabilityPath *path, int32_t k)
 {
     return path->points[k].load - 1;
@@ -353,23 +353,23 @@ static void summarise(const StabilityPath *path, StabilitySummary *summary)
 {
     const Interface *interface = &path->model->interface;
     double length = path->model->length;
-    StabilityPoint swings = first_loss(path, real_part);
+    StabilityPoint oscillates = first_loss(path, real_part);
     StabilityPoint slides = first_sliding(path, frequency_square);
     StabilityPoint rod = first_sliding(path, half_period);
     if (slides.front < rod.front) rod = slides;
     *summary =
         (StabilitySummary){.l_sc_certificate = first_loss(path, certificate_margin).front / length,
-                           .l_sc = swings.front / length,
+                           .l_sc = oscillates.front / length,
                            .l_c_scan = first_loss(path, overload).front / length,
                            .l_c = slides.front / length,
                            .l_c_rod = rod.front / length,
-                           .mu_sc = swings.mu,
+                           .mu_sc = oscillates.mu,
                            .mu_snap = path->mu_snap,
                            .mu_c = slides.mu,
                            .mu_rod = rod.mu,
                            .U_c = slides.U,
                            .U_rod = rod.U,
-                           .frequency = swings.rate_im,
+                           .frequency = oscillates.rate_im,
                            .element = 1.0 / fmax(interface->contact_count - 1, 1),
                            .points = path->count,
                            .path_steps = path->control.counters.accepted,
