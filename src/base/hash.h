@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A 128-bit content hash: names a cached file by what it depends on, and shows when its bytes have
-// changed. Not for secrets. Two FNV-1a style streams of 64 bits over 8-byte words, mixed at the end
-// (Fowler, Noll, Vo; the final mix is MurmurHash3's, Appleby).
+// changed. Not for secrets: it does not stop somebody who wants two files to agree. XXH3 of xxHash
+// behind it, which gives the same on every processor; the bytes are taken as they lie in memory, so
+// names do not travel between byte orders, as cached files do not.
 #ifndef AMONTONS_BASE_HASH_H
 #define AMONTONS_BASE_HASH_H
 
