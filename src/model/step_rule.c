@@ -9,7 +9,6 @@
 static const double STEP_MAX_SLIP = 0.2;   // rung 0: the rod moves this part of that slip
 static const double STEPS_AT_LEAST = 50;   // without a rod a run has at least so many
 static const double STEP_RANGE = 1e-10;   // step_min over step_max
-static const double GROWTH_MAX = 2;   // of a step over the one before
 
 // Before an explicit run the block relaxes by SDIRK2; the line knows no explicit steps.
 static const TableauKind TABLEAUS[] = {[SCHEME_SDIRK2] = TABLEAU_SDIRK2,
@@ -38,7 +37,6 @@ StepControlDef step_rule(const Scene *scene, const StepSizes *sizes)
                           .step_max = step_rule_end(scene) / STEPS_AT_LEAST,
                           .wave_step = scene->time.wave_step * sizes->crossing,
                           .watch_time = scene->time.watch * sizes->crossing,
-                          .growth_max = GROWTH_MAX,
                           .energy_tolerance = scene->time.energy_tolerance,
                           .use_certificate = scene->time.certificate};
     if (driven) {

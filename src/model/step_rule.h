@@ -16,7 +16,7 @@ typedef struct StepSizes {
 // When the scene ends, by time.until.U or time.until.t, whichever comes first.
 double step_rule_end(const Scene *scene);
 
-// Tolerance, longest, shortest and wave-resolving step, watch and growth; relaxing is the caller's.
+// Tolerance, longest, shortest and wave-resolving step and watch; relaxing is the caller's.
 StepControlDef step_rule(const Scene *scene, const StepSizes *sizes);
 
 #endif

@@ -7,7 +7,6 @@
 #include "stepping/stable_step.h"
 
 #include <math.h>
-#include <string.h>
 
 static const double RECORDS = 2000;   // a run: some more than the implicit scheme has steps
 
@@ -34,31 +33,14 @@ bool explicit_loop_prepare(Simulation *simulation, Error *err)
                        .step = interval / steps};
     TRY(explicit_reference_create(&def, &simulation->explicit_reference, err));
     explicit_reference_start(&simulation->explicit_reference, &control->now);
-    // The ladder that relaxed the block is done with; now there is one rung, which needs no matrix.
-    ladder_destroy(&control->ladder);
-    ladder_init(&simulation->model.system, def.step, def.step, &control->ladder);
-    control->def.step_max = control->def.step_min = def.step;
+    step_control_use_explicit(control, &simulation->explicit_reference);
 cleanup:
     return error_is_clean(err);
 }
 
-// One record: explicit_steps steps. The contact conditions of its last step are copied to where
-// record/observation looks for those of an implicit stage.
+// One record: explicit_steps steps.
 bool explicit_loop_advance(Simulation *simulation, Error *err)
 {
-    StepControl *control = &simulation->control;
-    ExplicitReference *scheme = &simulation->explicit_reference;
-    TRY(explicit_reference_advance(scheme, simulation->explicit_steps, &control->now,
-                                   &control->ledger, err));
-    control->last_step = scheme->def.step;
-    control->counters.accepted = scheme->steps;
-    control->ladder.accepted[0] = scheme->steps;
-    control->outcome.residual = scheme->residual;
-    memcpy(control->scheme.bound, scheme->bound,
-           (size_t)simulation->model.interface.count * sizeof(double));
-    control->scheme.reach = scheme->def.step;
-    if (control->def.use_certificate)   // limits nothing here; says where l_sc is
-        control->certified = certificate_holds(&control->certificate, &control->now);
-cleanup:
-    return error_is_clean(err);
+    return step_control_advance_explicit(&simulation->control, &simulation->explicit_reference,
+                                         simulation->explicit_steps, err);
 }

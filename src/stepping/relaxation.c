@@ -21,9 +21,8 @@ static double fastest(const StepControl *control)
 // step_control_restart. ERROR_COMPUTE: it did not settle.
 bool relax(StepControl *control, const RelaxationDef *def, int64_t *steps, Error *err)
 {
-    double speed = INFINITY, energy_tolerance = control->def.energy_tolerance;
-    control->def.energy_tolerance = 0;   // the state it ends in is asked for, not the way there
-    control->coarsest = 0;
+    double speed = INFINITY;
+    step_control_settle(control);
     for (*steps = 0; speed > def->speed_max; (*steps)++) {
         if (control->now.time > def->duration_max)
             FAIL(
@@ -36,7 +35,6 @@ bool relax(StepControl *control, const RelaxationDef *def, int64_t *steps, Error
         speed = fastest(control);
     }
 cleanup:
-    control->def.energy_tolerance = energy_tolerance;
     if (!error_is_clean(err)) error_context(err, "while relaxing before the rod moves");
     return error_is_clean(err);
 }

@@ -8,27 +8,19 @@
 #include "stepping/step_control.h"
 
 #include <math.h>
+#include <string.h>
 
 // A longer step is tried only when its error is expected to be this fraction of the tolerance.
 static const double SAFETY = 0.5;
 
-// A step may leave the first part of what it turned over unaccounted, in units of the ledger's
-// tolerance; or the second part of all that was turned over so far. Nothing is asked of steps below
-// the third part of the wave step: what hits something loses the energy of the nodes that hit,
-// however short the step, and shorter ones only drive the force of the blow up.
-static const double STEP_BALANCE = 0.5, TOTAL_BALANCE = 1e-4, SHORTEST_BALANCED = 0.25;
-
-// A rung that slip outgrew is not tried again for a while, twice as long each time: it would fail
-// again. Without this half of all steps were repeated where growth limits the step (set B).
-enum { HOLD_FIRST = 4, HOLD_MAX = 256 };
+// Numerics may use up this part of what the ledger of a run may miss: a step that would take more is
+// taken shorter, as long as waves are resolved. (What hits something loses the energy of the nodes
+// that hit, however short the step; still shorter ones only drive the force of the blow up.)
+static const double LEDGER_SHARE = 0.5;
 
 // Rungs down from a long step into a state that is not certified, at most as far as waves are
 // resolved: where slip first goes too far is closed in on by eighths.
 enum { UNCERTIFIED_DROP = 3 };
-// Steps in a row without a solution before the contact solver follows its path: Newton gives up
-// after some 20 steps, a path takes thousands where weakening folds it (set B on pads; with 8 it
-// cost more than all else there).
-enum { SHORTER_FIRST = 16 };
 
 // Part of v_c that oscillations may reach to be stepped over unseen. 0.01 keeps a rod at v_c/30, as in
 // the paper, out of it: with 0.03 the second peak of Figure 1's block moved by up to 1 %.
@@ -64,8 +56,15 @@ void step_control_destroy(StepControl *control)
     *control = (StepControl){0};
 }
 
+void step_control_settle(StepControl *control)
+{
+    control->settles = true;
+    control->coarsest = 0;
+}
+
 void step_control_restart(StepControl *control)
 {
+    control->settles = false;
     control->now.time = 0;
     control->counters = (StepCounters){0};
     for (int32_t k = 0; k < LADDER_RUNGS_MAX; k++) control->ladder.accepted[k] = 0;
@@ -95,18 +94,19 @@ static EnergyLedger book_step(const StepControl *control, int32_t k, const StepO
     return ledger;
 }
 
-// Twice lenient: of what the step turned over a part, or of all that the run turned over a far
-// smaller one, as a step in which next to nothing moves has nothing to compare with.
+static int32_t wave_rung(const StepControl *control)
+{
+    return ladder_find(&control->ladder, control->def.wave_step);
+}
+
 static bool step_balances(const StepControl *control, int32_t k, const StepOutcome *outcome)
 {
-    double tolerance = control->def.energy_tolerance;
-    bool short_enough = ladder_step(&control->ladder, k) <
-                        SHORTEST_BALANCED * control->def.wave_step;
-    if (tolerance == 0 || short_enough) return true;
-    EnergyLedger before = control->ledger, after = book_step(control, k, outcome);
-    double missing = fabs(energy_imbalance(&after) - energy_imbalance(&before));
-    if (missing <= TOTAL_BALANCE * tolerance * energy_turnover(&after)) return true;
-    return missing <= STEP_BALANCE * tolerance * energy_turned_over(&before, &after);
+    double part = LEDGER_SHARE * control->def.energy_tolerance;
+    if (part == 0 || control->settles || k > wave_rung(control)) return true;
+    EnergyLedger after = book_step(control, k, outcome);
+    double missing = fabs(energy_imbalance(&after));
+    return missing <=
+           fmax(part * energy_turnover(&after), fabs(energy_imbalance(&control->ledger)));
 }
 
 // A real growth rate stands above some built rung's 1/(gamma dt).
@@ -184,33 +184,21 @@ static int32_t smaller_rung(const StepControl *control, int32_t k, Verdict verdi
         target = ladder_find(&control->ladder, ladder_step(&control->ladder, k) * shrink);
     }
     if (verdict == STEP_UNCERTIFIED) {
-        int32_t wave_rung = ladder_find(&control->ladder, control->def.wave_step);
-        target = wave_rung < k + UNCERTIFIED_DROP ? wave_rung : k + UNCERTIFIED_DROP;
+        int32_t resolving = wave_rung(control);
+        target = resolving < k + UNCERTIFIED_DROP ? resolving : k + UNCERTIFIED_DROP;
     }
     return target > k ? target : k + 1;
-}
-
-// Counted in accepted steps.
-static void hold_rung(StepControl *control)
-{
-    control->hold = control->hold == 0 ? HOLD_FIRST : 2 * control->hold;
-    if (control->hold > HOLD_MAX) control->hold = HOLD_MAX;
-    control->hold_end = control->counters.accepted + control->hold;
 }
 
 // The rung after an accepted step: one up when the error allows it and the certificate does.
 static int32_t next_rung(StepControl *control, int32_t k, double error, bool retried)
 {
-    double stretch = control->def.growth_max;
-    double expected = error * pow(stretch, estimate_order(control));
-    bool held = control->counters.accepted < control->hold_end;
-    bool grows = !retried && !held && k > control->coarsest &&
-                 expected < SAFETY * control->def.tolerance;
-    int32_t next = grows ? k - 1 : k;
-    int32_t wave_rung = ladder_find(&control->ladder, control->def.wave_step);
-    if (next >= wave_rung || control->certified || may_skip_waves(control, &control->now))
+    double expected = error * exp2(estimate_order(control));
+    bool grows = !retried && k > control->coarsest && expected < SAFETY * control->def.tolerance;
+    int32_t next = grows ? k - 1 : k, resolving = wave_rung(control);
+    if (next >= resolving || control->certified || may_skip_waves(control, &control->now))
         return next;
-    return wave_rung;
+    return resolving;
 }
 
 // The coarsest built rung that does not overshoot; the chosen one when none is.
@@ -268,13 +256,6 @@ static void accept_step(StepControl *control, int32_t k, const StepOutcome *outc
     control->ladder.accepted[k]++;
 }
 
-// A path through the contact problem costs as much as some hundred steps on a large interface, a
-// shorter step mostly needs none: it is taken when shortening has failed so often, or cannot go on.
-static bool should_follow_path(const StepControl *control, int32_t k, int32_t unsolved)
-{
-    return unsolved >= SHORTER_FIRST || k == control->ladder.rung_count - 1;
-}
-
 // A step that was shortened only to end where the run ends does not choose the next rung.
 bool step_control_advance(StepControl *control, double remaining, Error *err)
 {
@@ -287,15 +268,15 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
     StepCounters *counters = &control->counters;
     int32_t k = fit_rung(control, control->rung, remaining);
     bool shortened = k != control->rung, retried = false, certified = true;
-    int32_t unsolved = 0;
     for (;;) {
         StepOutcome outcome;
-        control->scheme.solver.follows_path = should_follow_path(control, k, unsolved);
+        // A path through the contact problem costs as much as some hundred steps on a large
+        // interface, and shorter steps need none: only where none is left.
+        control->scheme.solver.follows_path = k == control->ladder.rung_count - 1;
         TRY(sdirk_step(&control->scheme, k, &control->now, &control->next, &outcome, err));
         Verdict verdict = judge_step(control, k, &outcome, &certified);
         if (verdict == STEP_ACCEPTED) {
             control->certified = certified;
-            if (certified) control->hold = control->hold_end = 0;
             accept_step(control, k, &outcome);
             scan_growth(control);
             if (!shortened || retried)
@@ -303,17 +284,42 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
             break;
         }
         counters->unsolved += verdict == STEP_UNSOLVED;
-        unsolved += verdict == STEP_UNSOLVED;
         counters->rejected_error += verdict == STEP_INACCURATE;
         counters->rejected_energy += verdict == STEP_UNBALANCED;
         counters->rejected_uncertified += verdict == STEP_UNCERTIFIED;
         retried = true;
-        if (verdict == STEP_UNCERTIFIED || verdict == STEP_UNBALANCED) hold_rung(control);
         k = smaller_rung(control, k, verdict, &outcome);
         if (k >= control->ladder.rung_count)
             FAIL(err, ERROR_COMPUTE, "at t = %.9g the step went below time.step_min = %g: %s",
                  control->now.time, control->def.step_min, reasons[verdict]);
     }
+cleanup:
+    return error_is_clean(err);
+}
+
+// One rung, which needs no matrix.
+void step_control_use_explicit(StepControl *control, const ExplicitReference *scheme)
+{
+    BulkOperator *system = control->ladder.system;
+    ladder_destroy(&control->ladder);
+    ladder_init(system, scheme->def.step, scheme->def.step, &control->ladder);
+    control->def.step_max = control->def.step_min = scheme->def.step;
+}
+
+// The contact conditions of the last step stand where those of an implicit stage would. The
+// certificate limits nothing here; it says where l_sc is.
+bool step_control_advance_explicit(StepControl *control, ExplicitReference *scheme, int64_t steps,
+                                   Error *err)
+{
+    TRY(explicit_reference_advance(scheme, steps, &control->now, &control->ledger, err));
+    control->last_step = scheme->def.step;
+    control->counters.accepted = control->ladder.accepted[0] = scheme->steps;
+    control->outcome.residual = scheme->residual;
+    memcpy(control->scheme.bound, scheme->bound,
+           (size_t)control->now.interface_count * sizeof(double));
+    control->scheme.reach = scheme->def.step;
+    if (control->def.use_certificate)
+        control->certified = certificate_holds(&control->certificate, &control->now);
 cleanup:
     return error_is_clean(err);
 }

@@ -2,7 +2,7 @@
 // Chooses the rung, tries it, and accepts a step only when
 //   1. both its contact problems were solved,
 //   2. the estimated local error is within tolerance,
-//   3. its energies balance: numerics take or give only a small part of what the step turned over,
+//   3. numerics take or give no more energy than a part of what the run's ledger may miss,
 //   4. its end state is certified dissipative, or the step resolves waves (dt <= wave_step) and no
 //      single real rate of growth lies above 1/(gamma dt) (stepping/certificate), or what
 //      oscillates there stays small, as certified or as seen before (stepping/oscillation_record),
@@ -13,6 +13,7 @@
 #define AMONTONS_STEPPING_STEP_CONTROL_H
 
 #include "stepping/certificate.h"
+#include "stepping/explicit_reference.h"
 #include "stepping/sdirk.h"
 #include "stepping/oscillation_record.h"
 
@@ -27,7 +28,6 @@ typedef struct StepControlDef {
     double watch_time;   // oscillations are resolved so long before they are stepped over, time; 0:
         // always
     double energy_tolerance;   // of the ledger, relative to what was turned over; 0: not asked
-    double growth_max;   // a step's successor may be at most this many times longer: 2
     bool use_certificate;   // off only to study what it prevents
 } StepControlDef;
 
@@ -53,8 +53,7 @@ typedef struct StepControl {
     int32_t scanned;   // nodes that slipped then
     int32_t rung;   // to try next
     int32_t coarsest;   // rung of the longest step allowed
-    int64_t hold;   // steps for which no longer one is tried, after growth was met
-    int64_t hold_end;   // accepted steps when that is over
+    bool settles;   // see step_control_settle
     StepCounters counters;
 } StepControl;
 
@@ -68,6 +67,16 @@ bool step_control_advance(StepControl *control, double remaining, Error *err);
 
 // Whether a rung that is built is at most `remaining` long: what is less is not worth a new one.
 bool step_control_fits(const StepControl *control, double remaining);
+
+// Until the next restart only the state reached in the end matters: steps may be as long as
+// relax_step, and nothing is asked of energy.
+void step_control_settle(StepControl *control);
+
+// Explicit steps of one length in place of those that step_control_advance chooses; the ladder that
+// got the block here is let go. `scheme` is at `now`.
+void step_control_use_explicit(StepControl *control, const ExplicitReference *scheme);
+bool step_control_advance_explicit(StepControl *control, ExplicitReference *scheme, int64_t steps,
+                                   Error *err);
 
 // Starts counting anew at `now`: time 0, ledger opened, coarse steps to be earned again.
 void step_control_restart(StepControl *control);

@@ -103,7 +103,6 @@ static bool open_path(StabilityPath *path, Error *err)
                           .step_max = step,
                           .step_min = 1e-12 * step,
                           .wave_step = INFINITY,
-                          .growth_max = 2,
                           .use_certificate = false};
     Block block = {
         .system = &model->system, .interface = interface, .law = &model->law, .rod = &path->rod};

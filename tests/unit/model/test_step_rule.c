@@ -26,7 +26,7 @@ static void test_driven(void **state)
     assert_near("0.04, 0.08, 0.16: not below 0.1", def.step_max, 0.16, 1e-15);
     assert_near("watch", def.watch_time, 6, 1e-15);
     assert_near("shortest", def.step_min, 4e-12, 1e-24);
-    assert_true(def.use_certificate && def.growth_max == 2 && def.energy_tolerance == 0.01);
+    assert_true(def.use_certificate && def.energy_tolerance == 0.01);
     scene.time.tolerance = 0.1;
     scene.time.step_max = 5;
     scene.time.step_min = 1e-3;

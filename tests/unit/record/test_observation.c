@@ -18,7 +18,6 @@ static void test_sums_over_the_mesh(void **state)
                             .step_max = 0.5,
                             .step_min = 1e-6,
                             .wave_step = 0.1,
-                            .growth_max = 2,
                             .use_certificate = true};
     ObservationScales scales = {.load = 0.003, .length = 1, .time = 3, .slip_velocity = 1e-4};
     BlockRig rig;

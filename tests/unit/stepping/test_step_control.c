@@ -49,8 +49,9 @@ static void check_rules(double wave_step, double tolerance)
     // The run saw both: long steps while certified, waves resolved while not.
     assert_true(uncertified > 10 && longest > 10);
     assert_true(control->counters.rejected_uncertified > 0);
+    // A tenth of what runs allow by default (time.energy_tolerance).
     assert_true(fabs(energy_imbalance(&control->ledger)) <
-                1e-1 * energy_turnover(&control->ledger));
+                1e-4 * energy_turnover(&control->ledger));
     pushed_destroy(&run);
 }
 
@@ -167,38 +168,32 @@ static void test_gives_up(void **state)
     }
 }
 
-// Steps as long as the error allows lose energy; asked to balance, each long one does: what is
-// missing goes down with what is allowed, at no more than some further steps.
+// A tolerance of the error far too coarse: steps as long as it allows lose more energy than a run
+// may. With the ledger's tolerance given the imbalance stays within that at all times.
 static void test_energy_balance(void **state)
 {
     (void)state;
+    const double allowed = 1e-3;
     RigDef def = pushed_def(10);
-    double missing[2];
-    int64_t accepted[2];
-    for (int strict = 0; strict < 2; strict++) {
+    double largest[2] = {0};
+    for (int asked = 0; asked < 2; asked++) {
         StepControlDef steps = pushed_steps();
         steps.tolerance = 2.7e-3;
-        steps.energy_tolerance = strict ? 1e-4 : 0;
+        steps.energy_tolerance = asked ? allowed : 0;
         PushedBlock run;
         pushed_build(&def, &steps, &run);
         StepControl *control = &run.control;
-        while (control->now.time < 450) {
-            EnergyLedger before = control->ledger;
+        while (control->now.time < 900) {
             pushed_advance(&run, INFINITY);
-            double left = fabs(energy_imbalance(&control->ledger) - energy_imbalance(&before));
-            bool asked = strict && control->last_step > steps.wave_step;
-            double allowed = fmax(0.5 * energy_turned_over(&before, &control->ledger),
-                                  1e-4 * energy_turnover(&control->ledger));
-            if (asked) assert_true(left <= 1e-4 * allowed);
+            double missing = fabs(energy_imbalance(&control->ledger));
+            largest[asked] = fmax(largest[asked], missing / energy_turnover(&control->ledger));
         }
-        missing[strict] = fabs(energy_imbalance(&control->ledger)) /
-                          energy_turnover(&control->ledger);
-        accepted[strict] = control->counters.accepted;
-        assert_true((control->counters.rejected_energy > 0) == (strict == 1));
+        print_message("%d steps, %g of the energy missing\n", (int)control->counters.accepted,
+                      largest[asked]);
+        assert_true((control->counters.rejected_energy > 0) == asked);
         pushed_destroy(&run);
     }
-    assert_true(missing[1] < 0.5 * missing[0]);
-    assert_true(accepted[1] > accepted[0] && accepted[1] < 5 * accepted[0]);
+    assert_true(largest[0] > 2 * allowed && largest[1] <= allowed);
 }
 
 // In the loop nothing is allocated but new rungs.

@@ -100,7 +100,6 @@ static double slip_error(int32_t nodes)
                           .step_max = end / 256,
                           .step_min = end * 1e-9,
                           .wave_step = 0.1,
-                          .growth_max = 2,
                           .use_certificate = true};
     assert_true(chain_build(&model, nodes, &chain, &err));
     assert_true(step_control_create(&chain.block, &def, &control, &err));
