@@ -5,7 +5,6 @@ test on a fresh Debian.)"""
 import os
 import re
 import shutil
-import statistics
 import subprocess
 import tempfile
 import time
@@ -96,6 +95,13 @@ class Project(unittest.TestCase):
         user = NOBODY if os.geteuid() == 0 else None
         return self.run_launcher(*arguments, user=user, **environment)
 
+    def run_as_root(self, *arguments, **environment):
+        """... whom an ordinary user plays in a name space of his own."""
+        if os.geteuid() == 0:
+            return self.run_launcher(*arguments, **environment)
+        return self.run_launcher("--map-root-user", self.root / "amontons", *arguments,
+                                 script="unshare", **environment)
+
     def calls(self, name=""):
         return [c for c in self.calls_file.read_text().splitlines() if c.startswith(name)]
 
@@ -147,20 +153,21 @@ class PassThrough(Project):
         self.assertEqual(self.calls(), [])
 
     def test_costs_little(self):
-        """A few milliseconds on top of the program's own time (25 allowed on a busy machine)."""
+        """A few milliseconds on top of the program's own time (25 allowed), at the best of times:
+        the machine may be busy."""
         program = self.root / "build/bin/amontons"
         program.unlink()
         shutil.copy("/bin/true", program)
 
-        def median(command):
+        def shortest(command):
             taken = []
             for _ in range(15):
                 start = time.perf_counter()
                 subprocess.run([command, "run"], check=True)
                 taken.append(time.perf_counter() - start)
-            return statistics.median(taken)
+            return min(taken)
 
-        self.assertLess(median(self.root / "amontons") - median(program), 0.025)
+        self.assertLess(shortest(self.root / "amontons") - shortest(program), 0.025)
 
     def test_builds_again_after_a_change(self):
         """An edited, a new and a deleted source, and edited build files: never a stale program."""
@@ -303,9 +310,8 @@ class FirstTime(Project):
 class Installing(Project):
     MISSING = "cmake libvtk9-dev"
 
-    @unittest.skipIf(os.geteuid(), "only root installs without sudo")
     def test_root(self):
-        done = self.run_launcher("demo", MISSING=self.MISSING)
+        done = self.run_as_root("demo", MISSING=self.MISSING)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(self.calls("apt-get"), [
             "apt-get -q update",
@@ -313,7 +319,7 @@ class Installing(Project):
             + self.MISSING])
         self.assertEqual(set(self.calls("env")), {"env noninteractive C"})
         self.assertIn("2 Debian packages", done.stderr)
-        self.run_launcher("demo", MISSING=self.MISSING)
+        self.run_as_root("demo", MISSING=self.MISSING)
         self.assertEqual(self.calls("apt-get") + self.calls("dpkg-query"), [], "the stamp stands")
 
     def test_user_with_sudo(self):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The quick part of the validation suite, with FreeFem++ really executed; and that the suite sees
-what it should: a wrong row, a broken invariant, a missed mistake each make it fail."""
+"""The validation suite sees what it should: a wrong row, a broken invariant, a missed mistake each
+make it fail; and its closed forms are right."""
 import os
 import subprocess
 import sys
@@ -17,35 +17,6 @@ from exact import bulk, instability, stick_slip                      # noqa: E40
 from harness import (ELEMENTS, PROGRAMS, Control, Row, Study, mesh_set, observed_order,   # noqa: E402
                      relative, schemes)
 from report import write_report                                     # noqa: E402
-
-
-class Suite(unittest.TestCase):
-    def run_groups(self, *groups):
-        with tempfile.TemporaryDirectory() as folder:
-            done = subprocess.run([SOURCE / "validation/run", "--quick", "-o", folder, *groups],
-                                  capture_output=True, text=True)
-            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-            text = (Path(folder) / "report.md").read_text()
-            self.assertNotIn("FAIL", text)
-            self.assertNotIn("MISSED", text)
-            if "(charts.png)" in text:
-                self.assertEqual((Path(folder) / "charts.png").read_bytes()[:4], b"\x89PNG")
-            return text
-
-    def test_freefem(self):
-        text = self.run_groups("freefem")
-        self.assertGreaterEqual(text.count("| pass |"), 40)
-        self.assertGreaterEqual(text.count("| caught |"), 6)
-        self.assertEqual(text.count("| nothing broke |"), 1)
-
-    def test_exact(self):
-        text = self.run_groups("bulk", "speeds", "statics", "instability", "growth", "impact",
-                               "orders")
-        self.assertGreaterEqual(text.count("| pass |"), 100)
-        self.assertGreaterEqual(text.count("| caught |"), 19)
-        self.assertIn("(charts.png)", text)
-        for scheme in schemes():
-            self.assertIn(f"| {scheme}, stick-slip", text)
 
 
 class Verdicts(unittest.TestCase):

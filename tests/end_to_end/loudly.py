@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Runs one of the files beside this for CTest, which is told (status 77: Skipped) when some test of
+it was skipped: what checked nothing must not count as passed."""
+import importlib
+import sys
+import unittest
+
+SKIPPED = 77
+
+if __name__ == "__main__":
+    module = importlib.import_module(sys.argv[1])
+    outcome = unittest.main(module, argv=sys.argv[:1], exit=False).result
+    for test, reason in outcome.skipped:
+        print(f"skipped: {test}: {reason}")
+    if not outcome.wasSuccessful():
+        sys.exit(1)
+    sys.exit(SKIPPED if outcome.skipped or not outcome.testsRun else 0)
