@@ -8,8 +8,8 @@
 // and on to the bound by secants. The tangent itself solves the same system with (0, 1) on the
 // right, the last row being the tangent before or, after an exchange, the gradient of what the new
 // status lets grow from 0.
-// Tolerances and limits here decide only whether a path is found: what it leads to is solved again
-// by contact/contact_solver, to that one's own tolerance.
+// Tolerances and limits here decide only whether a path is found: contact/contact_solver solves
+// again, to its own tolerance, from where it ends.
 #include "contact/contact_path.h"
 
 #include "base/dense.h"
@@ -22,7 +22,7 @@
 static const double NEAR = 1e-10;   // of the scales: on the path, on a bound
 static const double ASIDE = 0.5;   // of a step: Newton may lead so far from its tangent
 static const double BEND = 0.5;   // of v_c, or of its velocity: a node may go so far in a step
-static const double RAY = 1e6;   // of tau at the start: the path does not come back
+static const double RAY = 1e6;   // of tau at the start: beyond, the path does not come back
 enum {
     STEPS_EACH = 200,   // steps for each unknown; with friction 5 on 12 pads 170 were needed
     CORRECTIONS = 8,   // Newton steps back onto the path
@@ -32,8 +32,7 @@ enum {
 };
 enum { ALL = -1, NOWHERE = -2 };   // in place of a node
 
-// For any problem on `interface`; the matrix has one row and column more than the interface, for
-// tau.
+// The matrix has one row and column more than the interface, for tau.
 bool contact_path_create(const Interface *interface, ContactPath *path, Error *err)
 {
     int64_t count = interface->count;
@@ -71,9 +70,7 @@ void contact_path_destroy(ContactPath *path)
 // A point of the path and all that stays the same along it. Nothing is owned.
 typedef struct Trace {
     ContactPath *path;
-    const ContactProblem *problem;
-    ContactSolution *at;
-    ContactEquations equations;   // of problem and at; free: all that is not held
+    ContactEquations system;   // of problem and at; free: all that is not held
     ContactScales scales;   // by g alone: reactions are not known before the start
     double tau;   // velocity
     double tau_rate;   // along the tangent
@@ -88,18 +85,18 @@ typedef struct Bound {
 
 static void add_free(Trace *trace, int32_t unknown)
 {
-    trace->path->place[unknown] = trace->equations.free_count;
-    trace->path->free[trace->equations.free_count++] = unknown;
+    trace->path->place[unknown] = trace->system.free_count;
+    trace->path->free[trace->system.free_count++] = unknown;
 }
 
 // Lists what is free and puts what is held in its place.
 static void arrange(Trace *trace)
 {
-    const ContactProblem *problem = trace->problem;
+    const ContactProblem *problem = trace->system.problem;
     const Interface *interface = problem->interface;
-    const ContactSolution *at = trace->at;
-    contact_hold(&trace->equations);
-    trace->equations.free_count = 0;
+    const ContactSolution *at = trace->system.at;
+    contact_hold(&trace->system);
+    trace->system.free_count = 0;
     for (int32_t k = 0; k < interface->count; k++) trace->path->place[k] = -1;
     for (int32_t i = 0; i < interface->contact_count; i++) {
         if (at->status[i] != CONTACT_STICK) add_free(trace, interface_tangent(i));
@@ -114,8 +111,8 @@ static void arrange(Trace *trace)
 // r = S v - g + tau d
 static void find_reaction(Trace *trace)
 {
-    contact_react(&trace->equations);
-    dense_add_scaled(trace->tau, trace->path->lift, trace->path->count, trace->at->reaction);
+    contact_react(&trace->system);
+    dense_add_scaled(trace->tau, trace->path->lift, trace->path->count, trace->system.at->reaction);
 }
 
 // Factors [J E_tau; last].
@@ -124,11 +121,11 @@ static void find_reaction(Trace *trace)
 static bool factor(Trace *trace, const double *last)
 {
     ContactPath *path = trace->path;
-    int32_t free_count = trace->equations.free_count, size = free_count + 1;
-    contact_jacobian(&trace->equations, trace->problem->matrix->schur, size, path->matrix);
+    int32_t free_count = trace->system.free_count, size = free_count + 1;
+    contact_jacobian(&trace->system, trace->system.problem->matrix->schur, size, path->matrix);
     for (int32_t a = 0; a < free_count; a++)
         path->matrix[(int64_t)free_count * size + a] =
-            contact_combine(&trace->equations, path->free[a], path->lift);
+            contact_combine(&trace->system, path->free[a], path->lift);
     for (int32_t b = 0; b < size; b++) path->matrix[(int64_t)b * size + free_count] = last[b];
     return dense_lu(path->matrix, size, path->pivots);
 }
@@ -137,7 +134,7 @@ static bool factor(Trace *trace, const double *last)
 static bool find_tangent(Trace *trace)
 {
     ContactPath *path = trace->path;
-    int32_t free_count = trace->equations.free_count, count = path->count;
+    int32_t free_count = trace->system.free_count, count = path->count;
     double *tangent = path->tangent;
     if (!factor(trace, path->row)) return false;
     memset(tangent, 0, (size_t)free_count * sizeof(double));
@@ -149,7 +146,7 @@ static bool find_tangent(Trace *trace)
     memset(path->velocity_rate, 0, (size_t)count * sizeof(double));
     for (int32_t a = 0; a < free_count; a++) path->velocity_rate[path->free[a]] = tangent[a];
     trace->tau_rate = tangent[free_count];
-    dense_symmetric_apply(trace->problem->matrix->schur, count, path->velocity_rate,
+    dense_symmetric_apply(trace->system.problem->matrix->schur, count, path->velocity_rate,
                           path->reaction_rate);
     for (int32_t k = 0; k < count; k++) path->reaction_rate[k] += trace->tau_rate * path->lift[k];
     return true;
@@ -162,17 +159,17 @@ static bool find_tangent(Trace *trace)
 static double condition(const Trace *trace, int32_t node, int32_t kind, const double *v,
                         const double *r, double one)
 {
-    const ContactProblem *problem = trace->problem;
+    const ContactProblem *problem = trace->system.problem;
     const Interface *interface = problem->interface;
     if (node >= interface->contact_count) {
         int32_t j = node - interface->contact_count, x = interface_rod(interface, j);
         if (kind > 0 || problem->rod_kind != ROD_PUSHES) return INFINITY;
-        return trace->at->rod_touches[j]
+        return trace->system.at->rod_touches[j]
                    ? r[x] / trace->scales.force
                    : (v[x] - one * problem->bound[x]) / trace->scales.velocity;
     }
     int32_t t = interface_tangent(node), n = interface_normal(node);
-    uint8_t status = trace->at->status[node];
+    uint8_t status = trace->system.at->status[node];
     if (status == CONTACT_OPEN)
         return kind == 0 ? (v[n] - one * problem->bound[n]) / trace->scales.velocity : INFINITY;
     if (status == CONTACT_STICK) {
@@ -191,14 +188,14 @@ static double condition(const Trace *trace, int32_t node, int32_t kind, const do
 // The bound that the tangent reaches first; distance INFINITY: none.
 static Bound nearest_bound(const Trace *trace)
 {
-    const Interface *interface = trace->problem->interface;
+    const Interface *interface = trace->system.problem->interface;
     const ContactPath *path = trace->path;
     Bound nearest = {.node = ALL, .distance = INFINITY};
     if (trace->tau_rate < 0) nearest.distance = trace->tau / -trace->tau_rate;
     for (int32_t node = 0; node < interface->contact_count + interface->rod_count; node++) {
         for (int32_t kind = 0; kind < CONDITIONS; kind++) {
-            double value =
-                condition(trace, node, kind, trace->at->velocity, trace->at->reaction, 1);
+            double value = condition(trace, node, kind, trace->system.at->velocity,
+                                     trace->system.at->reaction, 1);
             if (value == INFINITY) break;
             double rate = condition(trace, node, kind, path->velocity_rate, path->reaction_rate, 0);
             if (!(rate < 0) || fmax(value, 0) >= -rate * nearest.distance) continue;
@@ -208,17 +205,17 @@ static Bound nearest_bound(const Trace *trace)
     return nearest;
 }
 
-// The least of all conditions at the point, below 0 where one is broken.
+// The least of all conditions at the point, below 0 where one is violated.
 // tau = 0 counts as a condition, too (ALL), so that a step beyond the path's end is cut back to it.
 static double worst_condition(const Trace *trace, Bound *worst)
 {
-    const Interface *interface = trace->problem->interface;
+    const Interface *interface = trace->system.problem->interface;
     double least = trace->tau / trace->scales.velocity;
     *worst = (Bound){.node = ALL};
     for (int32_t node = 0; node < interface->contact_count + interface->rod_count; node++) {
         for (int32_t kind = 0; kind < CONDITIONS; kind++) {
-            double value =
-                condition(trace, node, kind, trace->at->velocity, trace->at->reaction, 1);
+            double value = condition(trace, node, kind, trace->system.at->velocity,
+                                     trace->system.at->reaction, 1);
             if (value >= least) continue;
             least = value;
             *worst = (Bound){.node = node, .kind = kind};
@@ -231,18 +228,18 @@ static double worst_condition(const Trace *trace, Bound *worst)
 static void add_reaction_row(Trace *trace, int32_t k, double factor)
 {
     ContactPath *path = trace->path;
-    const double *own = trace->problem->matrix->schur + (int64_t)k * path->count;
-    for (int32_t b = 0; b < trace->equations.free_count; b++)
+    const double *own = trace->system.problem->matrix->schur + (int64_t)k * path->count;
+    for (int32_t b = 0; b < trace->system.free_count; b++)
         path->row[b] += factor * own[path->free[b]];
-    path->row[trace->equations.free_count] += factor * path->lift[k];
+    path->row[trace->system.free_count] += factor * path->lift[k];
 }
 
 // Beyond its bound a node takes its next status; `row` becomes what grows from 0 there.
 static void exchange(Trace *trace, Bound bound)
 {
     ContactPath *path = trace->path;
-    const Interface *interface = trace->problem->interface;
-    ContactSolution *at = trace->at;
+    const Interface *interface = trace->system.problem->interface;
+    ContactSolution *at = trace->system.at;
     int32_t i = bound.node, contacts = interface->contact_count;
     bool rod = i >= contacts;
     int32_t t = rod ? interface_rod(interface, i - contacts) : interface_tangent(i);
@@ -256,7 +253,7 @@ static void exchange(Trace *trace, Bound bound)
         *touches = !*touches;
     } else if (before == CONTACT_OPEN) {
         at->status[i] = at->velocity[t] < 0 ? CONTACT_SLIP_BACKWARD : CONTACT_SLIP_FORWARD;
-        path->fast[i] = fabs(at->velocity[t]) > friction_kink(trace->problem->law);
+        path->fast[i] = fabs(at->velocity[t]) > friction_kink(trace->system.problem->law);
         normal = 1;
     } else if (before == CONTACT_STICK) {
         at->status[i] = bound.kind == 0 ? CONTACT_SLIP_FORWARD : CONTACT_SLIP_BACKWARD;
@@ -264,7 +261,7 @@ static void exchange(Trace *trace, Bound bound)
         velocity_sign = status_direction(at->status[i]);
     } else if (bound.kind == 0) {
         at->status[i] = CONTACT_STICK;
-        normal = trace->problem->law->mu_static;
+        normal = trace->system.problem->law->mu_static;
         tangent = direction;
     } else if (bound.kind == 1) {
         at->status[i] = CONTACT_OPEN;
@@ -275,7 +272,7 @@ static void exchange(Trace *trace, Bound bound)
         velocity_sign = path->fast[i] ? direction : -direction;
     }
     arrange(trace);
-    memset(path->row, 0, ((size_t)trace->equations.free_count + 1) * sizeof(double));
+    memset(path->row, 0, ((size_t)trace->system.free_count + 1) * sizeof(double));
     if (velocity_sign != 0) path->row[path->place[grown]] = velocity_sign;
     if (tangent != 0) add_reaction_row(trace, t, tangent);
     if (normal != 0) add_reaction_row(trace, interface_normal(i), normal);
@@ -287,12 +284,13 @@ static void exchange(Trace *trace, Bound bound)
 static bool stays_near(const Trace *trace)
 {
     const ContactPath *path = trace->path;
-    const FrictionLaw *law = trace->problem->law;
+    const FrictionLaw *law = trace->system.problem->law;
     if (!(friction_drop(law) > 0)) return true;
-    for (int32_t a = 0; a < trace->equations.free_count; a++) {
-        int32_t i = contact_slipping_node(&trace->equations, path->free[a]);
+    for (int32_t a = 0; a < trace->system.free_count; a++) {
+        int32_t i = contact_slipping_node(&trace->system, path->free[a]);
         if (i < 0 || path->fast[i]) continue;
-        double before = fabs(path->kept[a]), after = fabs(trace->at->velocity[path->free[a]]);
+        double before = fabs(path->kept[a]),
+               after = fabs(trace->system.at->velocity[path->free[a]]);
         if (fabs(after - before) > BEND * fmax(law->critical_velocity, before)) return false;
     }
     return true;
@@ -305,8 +303,8 @@ static bool stays_near(const Trace *trace)
 static bool place_point(Trace *trace, double tau_kept, double distance)
 {
     ContactPath *path = trace->path;
-    double *velocity = trace->at->velocity, *step = path->row, aside = 0;
-    int32_t free_count = trace->equations.free_count;
+    double *velocity = trace->system.at->velocity, *step = path->row, aside = 0;
+    int32_t free_count = trace->system.free_count;
     for (int32_t a = 0; a < free_count; a++)
         velocity[path->free[a]] = path->kept[a] + distance * path->tangent[a];
     trace->tau = tau_kept + distance * path->tangent[free_count];
@@ -314,7 +312,7 @@ static bool place_point(Trace *trace, double tau_kept, double distance)
         double largest = 0;
         find_reaction(trace);
         for (int32_t a = 0; a < free_count; a++) {
-            step[a] = contact_defect(&trace->equations, path->free[a], NULL);
+            step[a] = contact_defect(&trace->system, path->free[a], NULL);
             largest = fmax(largest, fabs(step[a]));
         }
         step[free_count] = 0;
@@ -338,8 +336,8 @@ static bool advance(Trace *trace, Bound *reached)
     double tau_kept = trace->tau, low = 0, high = INFINITY, low_value = 0, high_value = -INFINITY;
     double distance =
         fmin(nearest_bound(trace).distance, trace->scales.velocity + fabs(trace->tau));
-    for (int32_t a = 0; a < trace->equations.free_count; a++)
-        path->kept[a] = trace->at->velocity[path->free[a]];
+    for (int32_t a = 0; a < trace->system.free_count; a++)
+        path->kept[a] = trace->system.at->velocity[path->free[a]];
     for (int32_t trial = 0; trial < TRIALS; trial++) {
         bool placed = place_point(trace, tau_kept, distance);
         double least = placed ? worst_condition(trace, reached) : -INFINITY;
@@ -366,10 +364,12 @@ static bool advance(Trace *trace, Bound *reached)
 // The first rod node that breaks its condition; -1: none.
 static int32_t broken_rod(const Trace *trace)
 {
-    const Interface *interface = trace->problem->interface;
+    const Interface *interface = trace->system.problem->interface;
     for (int32_t j = 0; j < interface->rod_count; j++) {
         int32_t node = interface->contact_count + j;
-        if (condition(trace, node, 0, trace->at->velocity, trace->at->reaction, 1) < 0) return j;
+        if (condition(trace, node, 0, trace->system.at->velocity, trace->system.at->reaction, 1) <
+            0)
+            return j;
     }
     return -1;
 }
@@ -378,10 +378,10 @@ static int32_t broken_rod(const Trace *trace)
 // complementarity problem, solved by changing the first status that is wrong (Murty's rule).
 static bool start_pressed(Trace *trace)
 {
-    const ContactProblem *problem = trace->problem;
+    const ContactProblem *problem = trace->system.problem;
     const Interface *interface = problem->interface;
     ContactPath *path = trace->path;
-    ContactSolution *at = trace->at;
+    ContactSolution *at = trace->system.at;
     Bound worst;
     for (int32_t k = 0; k < path->count; k++) {
         bool normal = k < 2 * interface->contact_count && k % 2 == 1;
@@ -394,15 +394,15 @@ static bool start_pressed(Trace *trace)
     trace->tau = 4 * trace->scales.velocity;
     for (int32_t trial = 0; trial < STARTS; trial++) {
         arrange(trace);
-        memset(path->row, 0, ((size_t)trace->equations.free_count + 1) * sizeof(double));
-        path->row[trace->equations.free_count] = -1;
+        memset(path->row, 0, ((size_t)trace->system.free_count + 1) * sizeof(double));
+        path->row[trace->system.free_count] = -1;
         if (!find_tangent(trace)) return false;
         find_reaction(trace);
-        for (int32_t a = 0; a < trace->equations.free_count; a++)
-            path->row[a] = contact_defect(&trace->equations, path->free[a], NULL);
-        path->row[trace->equations.free_count] = 0;
-        dense_lu_solve(path->matrix, trace->equations.free_count + 1, path->pivots, path->row);
-        for (int32_t a = 0; a < trace->equations.free_count; a++)
+        for (int32_t a = 0; a < trace->system.free_count; a++)
+            path->row[a] = contact_defect(&trace->system, path->free[a], NULL);
+        path->row[trace->system.free_count] = 0;
+        dense_lu_solve(path->matrix, trace->system.free_count + 1, path->pivots, path->row);
+        for (int32_t a = 0; a < trace->system.free_count; a++)
             at->velocity[path->free[a]] += path->row[a];
         find_reaction(trace);
         int32_t j = broken_rod(trace);
@@ -430,7 +430,7 @@ static bool trace_path(Trace *trace)
         if (reached.node == ALL) return true;
         if (reached.node == NOWHERE)
             memcpy(path->row, path->tangent,
-                   ((size_t)trace->equations.free_count + 1) * sizeof(double));
+                   ((size_t)trace->system.free_count + 1) * sizeof(double));
         else
             exchange(trace, reached);
     }
@@ -442,10 +442,7 @@ bool contact_path_follow(ContactPath *path, const ContactProblem *problem,
 {
     Trace trace = {
         .path = path,
-        .problem = problem,
-        .at = solution,
-        .equations = {
-            .problem = problem, .at = solution, .beyond = path->fast, .free = path->free}};
+        .system = {.problem = problem, .at = solution, .beyond = path->fast, .free = path->free}};
     if (!(problem->law->mu_static > 0)) return false;
     trace.scales = contact_scales(problem, NULL);
     return start_pressed(&trace) && trace_path(&trace);

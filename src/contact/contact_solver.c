@@ -48,7 +48,7 @@ void contact_solver_destroy(ContactSolver *solver)
     *solver = (ContactSolver){0};
 }
 
-// One solve and its course so far.
+// One solve so far.
 typedef struct Solve {
     ContactSolver *solver;   // not owned
     ContactEquations equations;   // free: tangents of nodes that slip, rod nodes that are soft or
@@ -237,33 +237,32 @@ static uint8_t judge_rod(const Solve *solve, int32_t j, double *violation)
     return !at->rod_touches[j];
 }
 
-// Checks all statuses, changes all that violate their conditions by more than the tolerance, or
-// only the worst, and returns how many they are. Velocities stay: `settle` brings them in line.
-// worst: contact node, or contact_count + rod node; -1: none.
-static int32_t update_statuses(const Solve *solve, int32_t *worst)
+// Checks all statuses, and changes all that violate their conditions by more than the tolerance, or
+// only the worst; where that one stuck and now slips it is remembered (starts_fast). Velocities
+// stay: `settle` brings them in line. false: none violates its conditions.
+static bool update_statuses(Solve *solve)
 {
-    ContactSolution *at = solve->equations.at;
-    int32_t contacts = interface_of(solve)->contact_count, violated = 0;
+    const ContactSolution *at = solve->equations.at;
+    int32_t contacts = interface_of(solve)->contact_count;
     double largest = 0;
-    uint8_t worst_status = 0;
-    *worst = -1;
+    uint8_t *worst = NULL, worst_status = 0;
     for (int32_t k = 0; k < contacts + interface_of(solve)->rod_count; k++) {
         double violation;
         bool rod = k >= contacts;
+        uint8_t *status = rod ? &at->rod_touches[k - contacts] : &at->status[k];
         uint8_t better = rod ? judge_rod(solve, k - contacts, &violation)
                              : judge_contact(solve, k, &violation);
         if (!(violation > solve->solver->def.tolerance)) continue;
-        violated++;
         if (violation > largest) {
             largest = violation;
-            *worst = k;
+            worst = status;
             worst_status = better;
+            solve->started = !rod && *status == CONTACT_STICK && status_slips(better) ? k : -1;
         }
-        if (solve->change_all) *(rod ? &at->rod_touches[k - contacts] : &at->status[k]) = better;
+        if (solve->change_all) *status = better;
     }
-    if (!solve->change_all && *worst >= contacts) at->rod_touches[*worst - contacts] = worst_status;
-    if (!solve->change_all && *worst >= 0 && *worst < contacts) at->status[*worst] = worst_status;
-    return violated;
+    if (!solve->change_all && worst) *worst = worst_status;
+    return worst;
 }
 
 // Of the free unknowns' equations and the forces at open nodes, force/width; infinite where a
@@ -313,7 +312,7 @@ static void clean_solution(const Solve *solve)
     }
 }
 
-// --- course -------------------------------------------------------------------------------------
+// --- the order of things -----------------------------------------------------------------------
 
 // Only the worst status is changed from here on.
 static void change_one(Solve *solve)
@@ -354,16 +353,6 @@ static bool has_stalled(Solve *solve, double residual)
     return solve->stalled >= STALLED_MAX;
 }
 
-// After the only change of statuses. A node that slips now where it stuck is watched.
-static void note_start(Solve *solve, int32_t node)
-{
-    const ContactSolution *at = solve->equations.at;
-    bool contact = node >= 0 && node < interface_of(solve)->contact_count;
-    bool starts = contact && status_slips(at->status[node]) &&
-                  at->velocity[interface_tangent(node)] == 0;
-    solve->started = starts ? node : -1;
-}
-
 // A node that is overloaded where it sticks, yet slips backwards by Newton's first step from there:
 // friction falls faster with its slip than the block resists, the others' statuses as they are.
 // Beyond the weakening lies what solves that. false: it is not so.
@@ -402,11 +391,9 @@ static Progress judge_step(Solve *solve)
     if (!equal && !solve->reused && has_stalled(solve, residual / solve->scales.force))
         return GIVEN_UP;
     if (!equal && (solve->reused || !solve->change_all)) return GOES_ON;
-    int32_t worst;
-    bool violated = update_statuses(solve, &worst) > 0;
-    if (!violated) return equal ? SOLVED : GOES_ON;
+    if (!update_statuses(solve)) return equal ? SOLVED : GOES_ON;
     note_statuses(solve);
-    if (!solve->change_all) note_start(solve, worst);
+    if (solve->change_all) solve->started = -1;
     settle(solve);
     return GOES_ON;
 }

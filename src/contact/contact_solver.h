@@ -2,18 +2,15 @@
 // Active-set Newton for the contact problem of one stage (Alart and Curnier, Comp. Meth. Appl.
 // Mech. Eng. 92, 1991, in its status form). For given statuses the unknowns are the slipping
 // tangents, both components of open nodes and the rod nodes that are soft or have let go; all else
-// is held. One Newton step on those, with the true derivative of mu(v) p,
-//
-//     row of a slipping tangent:   S_t + s mu S_n + mu'(|v_t|) r_n e_t,     s = sign of slip,
-//
-// then every status is checked against its own conditions and changed where it breaks them. Open
-// nodes are condensed out (contact/contact_matrix). The linear system is dense and unsymmetric;
-// its factors are kept with the matrix and used again (by the next iteration, stage or step)
-// while statuses stay and they still gain a digit a step. When statuses cycle, only the worst one is
-// changed at a time; when that does not settle either, or equations come no nearer, a path to a
-// solution is followed (contact/contact_path): there is one, as S is positive definite and mu
-// bounded and continuous. Where even that is not found, or the caller would rather not wait for it,
-// the problem counts as unsolved and the caller must take a smaller step. Called by stepping/sdirk.
+// is held. One Newton step on those (contact/contact_equations), then every status is checked against
+// its own conditions and changed where it violates them. Open nodes are condensed out
+// (contact/contact_matrix). The linear system is dense and unsymmetric; its factors are kept with
+// the matrix and used again (by the next iteration, stage or step) while statuses stay and they
+// still gain a digit a step. When statuses cycle, only the worst one is changed at a time; when that
+// does not settle either, or the residual no longer falls, a path to a solution is followed
+// (contact/contact_path): there is one, as S is positive definite and mu bounded and continuous.
+// Where even that is not found, or the caller prefers a shorter step to a path, the problem counts
+// as unsolved and the caller must take a shorter step. Called by stepping/sdirk.
 #ifndef AMONTONS_CONTACT_CONTACT_SOLVER_H
 #define AMONTONS_CONTACT_CONTACT_SOLVER_H
 
@@ -21,8 +18,9 @@
 #include "contact/contact_problem.h"
 
 typedef struct ContactSolverDef {
-    int32_t iterations_all;   // Newton steps in which every broken status is changed: 30, some ten
-        // times what a solvable problem was seen to need
+    int32_t
+        iterations_all;   // Newton steps in which every violated status is changed: 30, some ten
+    // times what a solvable problem was seen to need
     int32_t iterations_one;   // and then those that change only the worst: 200
     int32_t iterations_short;   // the same where the caller has shorter steps: 40
     double tolerance;   // of residual forces, relative to the largest force: 1e-12, some 1e2
@@ -33,10 +31,9 @@ ContactSolverDef contact_solver_def(void);
 typedef struct ContactSolver {
     ContactSolverDef def;
     int32_t *free;   // [count] work: the unknowns solved for; owned
-    int32_t *open;   // [count] work, open_count of them used: unknowns of open nodes; owned
-    int32_t open_count;
+    int32_t *open;   // [count] work: unknowns of open nodes; owned
     double *step;   // [count] work; owned
-    double *pull;   // [count] work: of what is open; owned
+    double *pull;   // [count] work: what forces at open nodes do to the others; owned
     uint8_t *anchor;   // [contact_count + rod_count] work: statuses met before; owned
     int64_t factorisations;   // counted
     int64_t solves;   // counted

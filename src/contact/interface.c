@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Contact nodes come from the mesh's contact curves (bulk/mesh_contact: one a pad), rod nodes from
 // the strip of the face that is named. Weights are lumped: w_i is the integral of node i's shape
-// function along its curve, so that a pressure field p gives the nodal force p_i w_i (DESIGN 3:
-// consistent integration gave a resultant 17 % wrong).
+// function along its curve, so that a pressure field p gives the nodal force p_i w_i (consistent
+// integration gave a resultant 17 % wrong).
 #include "contact/interface.h"
 
 #include "base/memory.h"
@@ -53,7 +53,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// A walk over all: done once for each node of the rod's face, when the mesh is read.
+// Looks through all: done once for each node of the rod's face, when the mesh is read.
 static bool is_contact_node(const Interface *interface, int32_t node)
 {
     for (int32_t i = 0; i < interface->contact_count; i++) {
