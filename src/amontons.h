@@ -72,16 +72,16 @@ typedef struct RunWarnings {   // what makes an answer doubtful, a sentence each
 
 // What a run came to, for the closing lines; run.json holds more.
 typedef struct RunSummary {
-    double mu_low, mu_high;   // smallest and largest peak, the first left out
+    // Answers, as record/answers.h defines them: macroscopic static friction coefficient, holding
+    // coefficient, the largest mu. NaN: the block did not slide; the load did not drop.
+    double mu_M, mu_hold, mu_max;
+    double mu_M_error, mu_hold_error;   // one standard error; NaN: not known
+    double mu_M_spread;   // largest less smallest of the peaks in mu_M; NaN: fewer than two
+    int32_t peaks, peaks_counted;   // before bulk sliding: seen; those in mu_M
     int32_t period;   // peaks repeat after so many slidings; 0: they do not
-    double mu_M, mu_M_spread;   // of the periodic peaks; NaN: no peak seen
-    double mu_trusted;   // of falls of the force, all sliding or not: the lowest that repeats, or
-        // where none does the lowest decile; NaN: no fall
-    double mu_falls;   // their mean
-    double mu_trusted_error, mu_falls_error;   // one standard error; NaN: one fall
-    int32_t falls, fall_period;   // counted for them; after how many they repeat, 0: they do not
-    bool falls_enough;   // they repeat, or the mean of 30 and more is known to 2 %
-    int32_t peaks, peaks_counted;   // seen, and belonging to the periodic regime
+    int32_t drops,
+        drop_period;   // load drops in mu_hold; they repeat after so many, 0: they do not
+    bool drops_enough;   // they repeat, or the mean of 30 and more is known to 2 %
     int32_t quasi_static, bounded, leading;   // events by kind
     double critical_length;   // l_c / L seen in the dynamics; NaN: none
     double energy_error, moment_error, complementarity_error;   // the largest, relative

@@ -6,7 +6,7 @@
 
 #include "near.h"
 #include "record/events.h"
-#include "record/recorder.h"
+#include "record/observation.h"
 
 enum { SEEN_NODES = 5 };
 

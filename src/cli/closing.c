@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a user wants to know first stands first: mu_M, and whether to trust it. Only files that are
-// there are named.
+// What a user wants to know first stands first: the three answers, and what bounds each. Only files
+// that are there are named.
 #include "cli/closing.h"
 
 #include <dirent.h>
@@ -10,58 +10,63 @@
 #include <string.h>
 #include <unistd.h>
 
-// Where parts of the block slide on their own, the force may fall below mu_M; falls that do not
-// repeat are said with their errors.
-static void print_falls(const RunSummary *summary)
+// "0.3280 +- 0.0002", without an error where none is known.
+static void print_estimate(const char *name, double value, double error)
 {
-    const double same = 0.01;
-    bool is_known = summary->fall_period > 0 ||
-                    summary->falls < 4;   // else mu_M is not settled either
-    if (isnan(summary->mu_trusted)) return;
-    if (is_known && summary->mu_trusted > (1 - same) * summary->mu_M) return;
-    if (summary->fall_period > 0) {
-        printf(
-            "  to trust        %.4f: here the force falls by 5 %% or more, though not all slides;\n"
-            "                  the lowest of %d falls that repeat after %d\n",
-            summary->mu_trusted, summary->falls, summary->fall_period);
-        return;
-    }
-    if (!summary->falls_enough) {
-        printf(
-            "  to trust        %.4f so far: one in ten of %d falls by 5 %% or more came earlier, "
-            "too few to say;\n"
-            "                  they do not repeat yet, and 30 with their mean within 2 %% are "
-            "enough:\n"
-            "                  give a later time.until\n",
-            summary->mu_trusted, summary->falls);
-        return;
-    }
-    printf("  to trust        %.4f +- %.4f: one in ten falls of the force by 5 %% or more comes "
-           "earlier;\n"
-           "                  they do not repeat, and the mean of %d is %.4f +- %.4f\n",
-           summary->mu_trusted, summary->mu_trusted_error, summary->falls, summary->mu_falls,
-           summary->mu_falls_error);
+    printf("  %-15s %.4f", name, value);
+    if (!isnan(error)) printf(" +- %.4f", error);
 }
 
-// Each number with what bounds it: how many peaks it comes from, by how much they differ, whether
-// they repeat.
+// The macroscopic static friction coefficient, from how many peaks, and whether they repeat.
+static void print_mu_M(const RunSummary *summary)
+{
+    if (summary->peaks == 0) {
+        printf("  mu_M            none: the block as a whole did not slide in this run\n");
+        return;
+    }
+    if (isnan(summary->mu_M)) {
+        printf("  mu_M            none: after the start only parts of the block slid\n");
+        return;
+    }
+    print_estimate("mu_M", summary->mu_M, summary->mu_M_error);
+    printf(", static friction: mean of the last %d of %d peaks before the whole\n"
+           "                  block slides",
+           summary->peaks_counted, summary->peaks);
+    if (!isnan(summary->mu_M_spread)) printf("; they differ by %.4f", summary->mu_M_spread);
+    if (summary->period > 1) printf(" and repeat after %d slidings", summary->period);
+    if (summary->peaks > 2 && summary->period == 0) printf("; not periodic yet");
+    printf("\n");
+}
+
+// The holding coefficient: parts of a block that slide on their own make the load drop below mu_M.
+static void print_mu_hold(const RunSummary *summary)
+{
+    if (isnan(summary->mu_hold)) {
+        printf("  mu_hold         none: the load did not drop in this run\n");
+        return;
+    }
+    print_estimate("mu_hold", summary->mu_hold, summary->mu_hold_error);
+    if (summary->drop_period > 0)
+        printf(", what the contact holds: the lowest of %d drops of the load\n"
+               "                  that repeat after %d\n",
+               summary->drops, summary->drop_period);
+    else if (summary->drops_enough)
+        printf(", what the contact holds: one in ten drops of the load comes earlier\n"
+               "                  (%d drops, which do not repeat)\n",
+               summary->drops);
+    else
+        printf(" so far, what the contact holds: one in ten of %d drops of the load\n"
+               "                  comes earlier. That is too few to say: give a later time.until, "
+               "until they repeat or\n"
+               "                  30 of them have a mean known to 2 %%\n",
+               summary->drops);
+}
+
 static void print_answers(const RunSummary *summary)
 {
-    if (isnan(summary->mu_M))
-        printf("  mu_M            none: the block as a whole did not slide in this run\n");
-    else if (isnan(summary->mu_M_spread))
-        printf("  mu_M            %.4f, from one of %d peaks: spread not known\n", summary->mu_M,
-               summary->peaks);
-    else
-        printf("  mu_M            %.4f, the mean of the last %d of %d peaks; they differ by %.4f\n",
-               summary->mu_M, summary->peaks_counted, summary->peaks, summary->mu_M_spread);
-    if (summary->peaks > 2 && summary->period == 0)
-        printf("                  not periodic yet: after the first, peaks lie in %.4f to %.4f\n",
-               summary->mu_low, summary->mu_high);
-    if (summary->period > 1)
-        printf("                  repeats after %d slidings: %.4f to %.4f, run.json: branches\n",
-               summary->period, summary->mu_low, summary->mu_high);
-    print_falls(summary);
+    print_mu_M(summary);
+    print_mu_hold(summary);
+    printf("  mu_max          %.4f, the largest load ratio of the run\n", summary->mu_max);
     printf("  precursors      %d quasi-static, %d bounded rapid, %d leading rapid\n",
            summary->quasi_static, summary->bounded, summary->leading);
     if (isnan(summary->critical_length))

@@ -194,3 +194,10 @@ void events_close(Events *events, const Observation *last)
     }
     end_slow(events);
 }
+
+bool events_pad_slid(const Events *events, const Interface *interface, int32_t p)
+{
+    for (int32_t i = 0; i < interface->contact_count; i++)
+        if (interface->pad[i] == p && !events->slipped[i]) return false;
+    return true;
+}

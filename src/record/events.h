@@ -3,8 +3,8 @@
 // or below; a rapid event begins when some contact node slips faster than `rate_start` and ends
 // when all are below `rate_stop`. It is leading when it carried the whole interface (every node
 // slipped from the trailing to the leading edge), bounded otherwise. Between slidings the slow
-// growth of the front is one quasi-static event. Read by record/peaks, record/fields and
-// run/report.
+// growth of the front is one quasi-static event. Read by record/drops, record/pads, record/fields
+// and run/report.
 #ifndef AMONTONS_RECORD_EVENTS_H
 #define AMONTONS_RECORD_EVENTS_H
 
@@ -57,5 +57,7 @@ bool events_create(const Interface *interface, double rate_scale, Events *events
 void events_destroy(Events *events);
 bool events_record(void *self, const Observation *seen, Error *err);   // a Recorder
 void events_close(Events *events, const Observation *last);   // ends what is under way
+// Every node of pad p slipped in the rapid event that is under way, or that ended in this step.
+bool events_pad_slid(const Events *events, const Interface *interface, int32_t p);
 
 #endif

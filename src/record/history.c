@@ -183,19 +183,22 @@ cleanup:
     return error_is_clean(err);
 }
 
-// A table is stored a column at a time: entry `table` of one peak; events likewise below.
-static double peak_column(const Peak *peak, ResultTable table)
+// A table is stored a column at a time. Peaks are the bulk slidings among the drops; how many.
+static int32_t peak_column(const Drops *drops, const Answers *answers, ResultTable table,
+                           double *column)
 {
-    switch (table) {
-    case PEAKS_U:
-        return peak->U;
-    case PEAKS_MU:
-        return peak->mu;
-    default:
-        return peak->counts;
+    int32_t count = 0;
+    for (int32_t k = 0; k < drops->count; k++) {
+        if (!drop_is(&drops->list[k], DROP_BULK)) continue;
+        Drop peak = drops_as(drops, DROP_BULK, k);
+        column[count++] = table == PEAKS_U    ? peak.U
+                          : table == PEAKS_MU ? peak.mu
+                                              : k >= answers->first;
     }
+    return count;
 }
 
+// Entry `table` of one event.
 static double event_column(const Event *event, ResultTable table)
 {
     switch (table) {
@@ -225,25 +228,25 @@ static bool is_peak_table(ResultTable table)
 
 // Tables of peaks and events, mu_M and l_c where there are any, then the file gets its final name.
 // After a failure the file is no longer `history`'s.
-bool history_finish(History *history, const Peaks *peaks, const Events *events,
-                    const PeaksSummary *summary, Error *err)
+bool history_finish(History *history, const Drops *drops, const Answers *answers, Error *err)
 {
-    int32_t longest = peaks->count > events->count ? peaks->count : events->count;
-    double *column = NEW_ARRAY(double, longest, err);
+    const Events *events = drops->events;   // as many as drops, or more
+    double *column = NEW_ARRAY(double, events->count, err);
     if (!column) goto cleanup;
     for (ResultTable table = 0; table < RESULT_TABLES_COUNT; table++) {
-        int32_t count = is_peak_table(table) ? peaks->count : events->count;
-        for (int32_t k = 0; k < count; k++)
-            column[k] = is_peak_table(table) ? peak_column(&peaks->list[k], table)
-                                             : event_column(&events->list[k], table);
+        int32_t count = events->count;
+        if (is_peak_table(table))
+            count = peak_column(drops, answers, table, column);
+        else
+            for (int32_t k = 0; k < count; k++) column[k] = event_column(&events->list[k], table);
         TRY(result_file_write_table(history->file, table, column, count, err));
     }
-    if (!isnan(summary->mu_M))
-        TRY(array_file_set_number(history->file, result_number_name(NUMBER_MU_M), summary->mu_M,
-                                  err));
-    if (!isnan(summary->critical_length))
+    if (!isnan(answers->mu_M.value))
+        TRY(array_file_set_number(history->file, result_number_name(NUMBER_MU_M),
+                                  answers->mu_M.value, err));
+    if (!isnan(answers->critical_length))
         TRY(array_file_set_number(history->file, result_number_name(NUMBER_L_C),
-                                  summary->critical_length, err));
+                                  answers->critical_length, err));
     ArrayFile *file = history->file;
     history->file = NULL;
     TRY(array_file_close(file, err));

@@ -6,7 +6,7 @@
 
 #include "contact/friction_law.h"
 #include "io/result_file.h"
-#include "record/peaks.h"
+#include "record/answers.h"
 
 typedef struct History {
     ArrayFile *file;   // NULL: no history is kept; owned
@@ -30,7 +30,6 @@ void history_destroy(History *history);
 bool history_record(void *self, const Observation *seen, Error *err);   // a Recorder
 
 // Tables of peaks and events, and what is known only now; then the file gets its final name.
-bool history_finish(History *history, const Peaks *peaks, const Events *events,
-                    const PeaksSummary *summary, Error *err);
+bool history_finish(History *history, const Drops *drops, const Answers *answers, Error *err);
 
 #endif

@@ -3,6 +3,7 @@
 
 #include "base/dense.h"
 
+#include <assert.h>
 #include <float.h>
 #include <math.h>
 
@@ -94,4 +95,19 @@ Observation observe(const StepControl *control, const ObservationScales *scales)
         seen.equation_error = control->outcome.residual / scales->load;
     }
     return seen;
+}
+
+void recorders_add(Recorders *recorders, void *self,
+                   bool (*record)(void *self, const Observation *seen, Error *err))
+{
+    assert(recorders->count < RECORDERS_MAX);
+    recorders->list[recorders->count++] = (Recorder){.self = self, .record = record};
+}
+
+bool recorders_record(const Recorders *recorders, const Observation *seen, Error *err)
+{
+    for (int32_t k = 0; k < recorders->count; k++)
+        TRY(recorders->list[k].record(recorders->list[k].self, seen, err));
+cleanup:
+    return error_is_clean(err);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What is read off an accepted step, once, for everybody who records: forces, front, rates, and how
-// well the step keeps its balances. Made by run/simulation, taken by the recorders.
+// well the step keeps its balances. Each is handed to the recorders in the order in which they were
+// added; a recorder is whoever wants to see steps: events first (the others read them), then drops,
+// pads, history, fields, the caller.
 #ifndef AMONTONS_RECORD_OBSERVATION_H
 #define AMONTONS_RECORD_OBSERVATION_H
 
@@ -40,5 +42,21 @@ typedef struct ObservationScales {
 } ObservationScales;
 
 Observation observe(const StepControl *control, const ObservationScales *scales);
+
+typedef struct Recorder {
+    void *self;   // not owned
+    bool (*record)(void *self, const Observation *seen, Error *err);
+} Recorder;
+
+enum { RECORDERS_MAX = 8 };
+
+typedef struct Recorders {
+    int32_t count;
+    Recorder list[RECORDERS_MAX];
+} Recorders;
+
+void recorders_add(Recorders *recorders, void *self,
+                   bool (*record)(void *self, const Observation *seen, Error *err));
+bool recorders_record(const Recorders *recorders, const Observation *seen, Error *err);
 
 #endif

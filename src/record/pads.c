@@ -19,18 +19,11 @@ static const PadCycle NOTHING_YET = {.normal_force = NAN,
                                      .t_rapid = NAN,
                                      .slow_length = NAN};
 
-enum { FIRST_ROOM = 32 };
-
 // interface is read only here and is not kept; events is borrowed. One contact curve is one pad: a
 // plain block has one.
 bool pads_create(const Interface *interface, const Events *events, Pads *pads, Error *err)
 {
-    *pads = (Pads){.events = events,
-                   .contact_count = interface->contact_count,
-                   .mu = -INFINITY,
-                   .rising.mu = -INFINITY,
-                   .sliding_room = FIRST_ROOM};
-    pads->slidings = NEW_ARRAY(PadSliding, FIRST_ROOM, err);
+    *pads = (Pads){.events = events, .contact_count = interface->contact_count, .mu = -INFINITY};
     pads->list = NEW_ARRAY(Pad, interface->pad_count, err);
     pads->stuck = NEW_ARRAY(uint8_t, interface->contact_count, err);
     pads->slipped = NEW_ARRAY(uint8_t, interface->contact_count, err);
@@ -58,7 +51,6 @@ void pads_destroy(Pads *pads)
     memory_free(pads->list);
     memory_free(pads->stuck);
     memory_free(pads->slipped);
-    memory_free(pads->slidings);
     *pads = (Pads){0};
 }
 
@@ -139,51 +131,6 @@ static void begin_cycle(Pads *pads)
     for (int32_t p = 0; p < pads->count; p++) pads->list[p].now = NOTHING_YET;
 }
 
-// Pads of which every node slipped in the rapid event that ended in this step.
-static int32_t count_slid(Pads *pads, const Interface *interface)
-{
-    int32_t slid = 0;
-    for (int32_t p = 0; p < pads->count; p++) {
-        int32_t nodes = 0;
-        for (int32_t i = 0; i < interface->contact_count; i++)
-            if (interface->pad[i] == p) nodes += pads->events->slipped[i];
-        if (nodes < pads->list[p].nodes) continue;
-        pads->list[p].slidings++;
-        slid++;
-    }
-    return slid;
-}
-
-// `rising`, the largest mu since the sliding before, joins the list with the number of pads that
-// slid. ERROR_MEMORY leaves the list as it was.
-static bool push_sliding(Pads *pads, int32_t slid, Error *err)
-{
-    PadSliding *list = memory_grow(pads->slidings, pads->sliding_count, &pads->sliding_room,
-                                   sizeof(PadSliding), err);
-    if (!list) return false;
-    pads->slidings = list;
-    pads->rising.pads = slid;
-    list[pads->sliding_count++] = pads->rising;
-    pads->rising = (PadSliding){.mu = -INFINITY};
-    return true;
-}
-
-// Events of one pad or of several, whoever crosses; mu rises only while nothing is rapid.
-static bool follow_slidings(Pads *pads, const Observation *seen, Error *err)
-{
-    const Events *events = pads->events;
-    if (events->ended) {
-        pads->slid = count_slid(pads, seen->interface);
-        if (pads->slid > 0) TRY(push_sliding(pads, pads->slid, err));
-    }
-    if (events->rapid < 0 && seen->mu > pads->rising.mu) {
-        pads->rising.mu = seen->mu;
-        pads->rising.U = seen->U;
-    }
-cleanup:
-    return error_is_clean(err);
-}
-
 // While the block slides as a whole nothing is followed but the step in which it crosses: what pads
 // do then says nothing of how they let go.
 bool pads_record(void *self, const Observation *seen, Error *err)
@@ -192,7 +139,8 @@ bool pads_record(void *self, const Observation *seen, Error *err)
     const Events *events = pads->events;
     bool sliding = events->rapid >= 0 && events->list[events->rapid].kind == EVENT_LEADING;
     int32_t let_go = 0;
-    TRY(follow_slidings(pads, seen, err));
+    for (int32_t p = 0; events->ended && p < pads->count; p++)
+        pads->list[p].slidings += events_pad_slid(events, seen->interface, p);
     if (!sliding || events->crossed) {
         mark_nodes(pads, seen);
         for (int32_t p = 0; p < pads->count; p++) follow_pad(pads, seen, p, &let_go);
@@ -206,22 +154,11 @@ bool pads_record(void *self, const Observation *seen, Error *err)
     }
     if (sliding || (events->ended && events->list[events->count - 1].kind == EVENT_LEADING))
         begin_cycle(pads);
-cleanup:
     return error_is_clean(err);
-}
-
-// Of the later half of the slidings: what the start left is gone by then.
-static double lowest_sliding(const Pads *pads)
-{
-    double low = NAN;
-    for (int32_t k = pads->sliding_count / 2; k < pads->sliding_count; k++)
-        low = fmin(low, pads->slidings[k].mu);   // fmin of NaN and a number is the number
-    return low;
 }
 
 void pads_write_json(const Pads *pads, JsonWriter *json)
 {
-    json_number(json, "mu_first_pad", lowest_sliding(pads));
     json_begin_list(json, "pads");
     for (int32_t p = 0; p < pads->count; p++) {
         const Pad *pad = &pads->list[p];
@@ -242,16 +179,6 @@ void pads_write_json(const Pads *pads, JsonWriter *json)
         json_number(json, "l_c", last->slow_length);
         json_number(json, "l_c_over_length", last->slow_length / pad->length);
         json_integer(json, "slidings", pad->slidings);
-        json_end(json);
-    }
-    json_end(json);
-    json_begin_list(json, "pad_slidings");
-    for (int32_t k = 0; k < pads->sliding_count; k++) {
-        const PadSliding *sliding = &pads->slidings[k];
-        json_begin_object(json, NULL);
-        json_number(json, "U", sliding->U);
-        json_number(json, "mu", sliding->mu);
-        json_integer(json, "pads", sliding->pads);
         json_end(json);
     }
     json_end(json);

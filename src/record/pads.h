@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What each contact curve (pad) does between two slidings: what it carries when mu is largest, when
 // it first slips, when all of it has, in what order pads let go, and how much of a pad slips slowly
-// before its slip turns fast; and every event in which whole pads slid. Fed after record/events;
-// written by run/report, a pad an object of results.pads. The course of loads and slip over all
-// steps is in history.h5 (pads/...).
+// before its slip turns fast (events in which whole pads slid: record/drops). Fed after
+// record/events; written by run/report, a pad an object of results.pads. The course of loads and
+// slip over all steps is in history.h5 (pads/...).
 #ifndef AMONTONS_RECORD_PADS_H
 #define AMONTONS_RECORD_PADS_H
 
@@ -19,13 +19,6 @@ typedef struct PadCycle {
     double U_rapid, t_rapid;   // when it slips rapidly for the last time before sliding
     double slow_length;   // how much of it slipped just before: l_c of the pad, length
 } PadCycle;
-
-// A rapid event in which some pads slipped over all their length, also where the others held and
-// the force hardly fell (record/falls has those in which it did).
-typedef struct PadSliding {
-    double U, mu;   // the largest mu since the one before, and where it was; length, 1
-    int32_t pads;   // that slid
-} PadSliding;
 
 typedef struct Pad {
     char name[GROUP_NAME_SIZE];
@@ -50,17 +43,12 @@ typedef struct Pads {
     int32_t cycles;   // that ended in sliding
     double mu;   // the largest of this cycle
     bool started;   // the first step was seen
-    int32_t slid;   // pads that slid in the rapid event that ended last
-    PadSliding rising;   // the largest mu since the last sliding of any pad
-    int32_t sliding_count, sliding_room;
-    PadSliding *slidings;   // [sliding_count]; owned
 } Pads;
 
 bool pads_create(const Interface *interface, const Events *events, Pads *pads, Error *err);
 void pads_destroy(Pads *pads);
 bool pads_record(void *self, const Observation *seen, Error *err);   // a Recorder
 
-// results.pads, results.pad_slidings; results.mu_first_pad: of their later half, the smallest mu.
-void pads_write_json(const Pads *pads, JsonWriter *json);
+void pads_write_json(const Pads *pads, JsonWriter *json);   // results.pads
 
 #endif

@@ -124,54 +124,11 @@ static void write_warnings(JsonWriter *json, const RunWarnings *warnings)
     json_end(json);
 }
 
-// Every branch of the counted peaks, lowest first.
-static void write_branches(const Peaks *peaks, JsonWriter *json)
-{
-    json_begin_list(json, "branches");
-    PeakBranch branch = {.high = -INFINITY};
-    while (peaks_branch_above(peaks, branch.high, &branch)) {
-        json_begin_object(json, NULL);
-        json_number(json, "mu", branch.mu);
-        json_number(json, "low", branch.low);
-        json_number(json, "high", branch.high);
-        json_integer(json, "count", branch.count);
-        json_end(json);
-    }
-    json_end(json);
-}
-
-// l_sc and l_c as the dynamics saw them, and from the growth rates beside each peak
-// (l_c_growth_over_L).
 static void write_results(JsonWriter *json, const RunReport *report)
 {
-    const PeaksSummary *summary = report->summary;
     double length = report->model->length;
     json_begin_object(json, "results");
-    json_number(json, "mu_M", summary->mu_M);
-    json_number(json, "mu_M_spread", summary->spread);
-    json_integer(json, "mu_M_peaks", summary->counted);
-    json_boolean(json, "periodic", summary->period > 0);
-    json_integer(json, "period", summary->period);
-    json_number(json, "mu_peaks_low", summary->low);
-    json_number(json, "mu_peaks_high", summary->high);
-    write_branches(report->peaks, json);
-    json_number(json, "mu_max", report->peaks->mu_max);
-    json_number(json, "l_sc_over_L", summary->subcritical_length / length);
-    json_number(json, "l_c_over_L", summary->critical_length / length);
-    json_begin_list(json, "peaks");
-    for (int32_t k = 0; k < report->peaks->count; k++) {
-        const Peak *peak = &report->peaks->list[k];
-        json_begin_object(json, NULL);
-        json_number(json, "U", peak->U);
-        json_number(json, "mu", peak->mu);
-        json_boolean(json, "counts", peak->counts);
-        json_number(json, "l_sc_over_L", peak->front_uncertified / length);
-        json_number(json, "l_c_over_L", peak->front / length);
-        json_number(json, "l_c_growth_over_L", peak->front_growth / length);
-        json_end(json);
-    }
-    json_end(json);
-    falls_write_json(report->falls, json);
+    answers_write_json(report->answers, report->drops, length, json);
     pads_write_json(report->pads, json);
     write_events(json, report->events, length);
     json_end(json);

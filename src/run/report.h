@@ -6,8 +6,8 @@
 
 #include "amontons.h"
 #include "model/model.h"
-#include "record/falls.h"
-#include "record/peaks.h"
+#include "record/answers.h"
+#include "record/pads.h"
 
 // The largest of each kind of error over a run's accepted steps, relative (record/observation).
 typedef struct RunErrors {
@@ -34,11 +34,10 @@ typedef struct RunReport {
     const Model *model;
     int64_t relaxation_steps;
     const RunErrors *errors;
-    const Peaks *peaks;
-    const Pads *pads;
-    const Falls *falls;
-    const PeaksSummary *summary;
     const Events *events;
+    const Drops *drops;
+    const Answers *answers;
+    const Pads *pads;
     const RunWarnings *warnings;
 } RunReport;
 

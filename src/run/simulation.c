@@ -45,13 +45,10 @@ static bool open_recorders(Simulation *simulation, Error *err)
     TRY(events_create(&simulation->model.interface, simulation->model.scales.slip_velocity,
                       &simulation->events, err));
     recorders_add(&simulation->recorders, &simulation->events, events_record);
-    TRY(peaks_create(&simulation->events, scene->time.periodic_tolerance, &simulation->peaks, err));
-    recorders_add(&simulation->recorders, &simulation->peaks, peaks_record);
+    TRY(drops_create(&simulation->events, scene->time.periodic_tolerance, &simulation->drops, err));
+    recorders_add(&simulation->recorders, &simulation->drops, drops_record);
     TRY(pads_create(&simulation->model.interface, &simulation->events, &simulation->pads, err));
     recorders_add(&simulation->recorders, &simulation->pads, pads_record);
-    TRY(falls_create(&simulation->events, &simulation->pads, scene->time.periodic_tolerance,
-                     &simulation->falls, err));
-    recorders_add(&simulation->recorders, &simulation->falls, falls_record);
     if (writes_results(simulation) && scene->output.history)
         TRY(output_open_history(simulation, err));
     if (writes_results(simulation) && scene->output.fields)
@@ -144,14 +141,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Falls repeat, and with them the peaks of the whole block, where it has any; or they do not, and
-// enough of them are known.
-static bool is_periodic(Simulation *simulation)
-{
-    if (simulation->falls.count == 0) return peaks_summarise(&simulation->peaks).period > 0;
-    return falls_are_settled(&simulation->falls);
-}
-
 // An explicit `step` is one record of many small ones. *finished: the end of the scene, or the
 // periodic regime where the scene asks for it; looked at only when an event has ended.
 bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *finished, Error *err)
@@ -174,7 +163,7 @@ bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *fini
     *finished = remaining <= 1e-9 * simulation->t_end ||
                 (implicit && !step_control_fits(control, remaining));
     if (simulation->scene.time.until_periodic && simulation->events.ended)
-        *finished = *finished || is_periodic(simulation);
+        *finished = *finished || answers_are_known(&simulation->drops);
     if (view) *view = step_view(&simulation->seen, &simulation->events, simulation->t_end);
 cleanup:
     return error_is_clean(err);
@@ -189,11 +178,10 @@ static bool finish_run(Simulation *simulation, const Error *failure, RunSummary 
     simulation->timing.outside -= clock_processor_seconds();
     events_close(&simulation->events, &simulation->seen);
     simulation->errors.reduction = ladder_reduction_error(&simulation->control.ladder);
-    PeaksSummary peaks = peaks_summarise(&simulation->peaks);
+    Answers answers = answers_of(&simulation->drops);
     RunCounters counters = summary_count(simulation);
     if (simulation->history.file) {
-        TRY(history_finish(&simulation->history, &simulation->peaks, &simulation->events, &peaks,
-                           err));
+        TRY(history_finish(&simulation->history, &simulation->drops, &answers, err));
         TRY(output_draw_figures(simulation, err));
     }
     simulation->timing.output += clock_seconds() - started;
@@ -208,15 +196,14 @@ static bool finish_run(Simulation *simulation, const Error *failure, RunSummary 
                             .model = &simulation->model,
                             .relaxation_steps = simulation->relaxation_steps,
                             .errors = &simulation->errors,
-                            .peaks = &simulation->peaks,
-                            .pads = &simulation->pads,
-                            .falls = &simulation->falls,
-                            .summary = &peaks,
                             .events = &simulation->events,
+                            .drops = &simulation->drops,
+                            .answers = &answers,
+                            .pads = &simulation->pads,
                             .warnings = &simulation->warnings};
         TRY(report_write(simulation->folder.path, &report, err));
     }
-    summary_fill(simulation, &counters, &peaks, summary);
+    summary_fill(simulation, &counters, &answers, summary);
 cleanup:
     return error_is_clean(err);
 }
@@ -231,9 +218,8 @@ void amontons_simulation_destroy(Simulation *simulation)
     if (!simulation) return;
     fields_destroy(&simulation->fields);
     history_destroy(&simulation->history);
-    falls_destroy(&simulation->falls);
     pads_destroy(&simulation->pads);
-    peaks_destroy(&simulation->peaks);
+    drops_destroy(&simulation->drops);
     events_destroy(&simulation->events);
     explicit_reference_destroy(&simulation->explicit_reference);
     step_control_destroy(&simulation->control);

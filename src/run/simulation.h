@@ -5,11 +5,9 @@
 #define AMONTONS_RUN_SIMULATION_H
 
 #include "amontons.h"
-#include "record/falls.h"
 #include "record/fields.h"
 #include "record/history.h"
 #include "run/pace.h"
-#include "record/recorder.h"
 #include "run/report.h"
 #include "run/result_folder.h"
 #include "model/model.h"
@@ -29,9 +27,8 @@ struct Simulation {
     int64_t explicit_steps;   // of it in a recording interval
     Observation seen;   // the last accepted step
     Events events;
-    Peaks peaks;
+    Drops drops;
     Pads pads;
-    Falls falls;
     History history;
     Fields fields;
     Recorders recorders;

@@ -100,30 +100,27 @@ RunCounters summary_count(const Simulation *simulation)
                                                  : 0};
 }
 
-// counters, peaks: made by the caller, who writes them into run.json as well.
-void summary_fill(const Simulation *simulation, const RunCounters *counters,
-                  const PeaksSummary *peaks, RunSummary *summary)
+// counters, answers: made by the caller, who writes them into run.json as well.
+void summary_fill(const Simulation *simulation, const RunCounters *counters, const Answers *answers,
+                  RunSummary *summary)
 {
     const int32_t *kinds = simulation->events.kinds;
-    FallsSummary falls = falls_summarise(&simulation->falls);
-    *summary = (RunSummary){.mu_M = peaks->mu_M,
-                            .mu_M_spread = peaks->spread,
-                            .mu_trusted = falls.trusted,
-                            .mu_trusted_error = falls.trusted_error,
-                            .mu_falls = falls.mean,
-                            .mu_falls_error = falls.mean_error,
-                            .falls_enough = falls.enough,
-                            .falls = falls.counted,
-                            .fall_period = falls.period,
-                            .mu_low = peaks->low,
-                            .mu_high = peaks->high,
-                            .period = peaks->period,
-                            .peaks = simulation->peaks.count,
-                            .peaks_counted = peaks->counted,
+    *summary = (RunSummary){.mu_M = answers->mu_M.value,
+                            .mu_M_error = answers->mu_M.error,
+                            .mu_M_spread = answers->mu_M_spread,
+                            .mu_hold = answers->mu_hold.value,
+                            .mu_hold_error = answers->mu_hold.error,
+                            .mu_max = answers->mu_max,
+                            .peaks = answers->peaks,
+                            .peaks_counted = answers->peaks_counted,
+                            .period = answers->period,
+                            .drops = answers->regime.count,
+                            .drop_period = answers->regime.period,
+                            .drops_enough = answers->enough,
                             .quasi_static = kinds[EVENT_QUASI_STATIC],
                             .bounded = kinds[EVENT_BOUNDED],
                             .leading = kinds[EVENT_LEADING],
-                            .critical_length = peaks->critical_length / simulation->model.length,
+                            .critical_length = answers->critical_length / simulation->model.length,
                             .energy_error = simulation->errors.energy,
                             .moment_error = simulation->errors.moment,
                             .complementarity_error = simulation->errors.complementarity,

@@ -10,7 +10,7 @@
 // t_end: when the scene ends, time.
 StepView step_view(const Observation *seen, const Events *events, double t_end);
 RunCounters summary_count(const Simulation *simulation);
-void summary_fill(const Simulation *simulation, const RunCounters *counters,
-                  const PeaksSummary *peaks, RunSummary *summary);
+void summary_fill(const Simulation *simulation, const RunCounters *counters, const Answers *answers,
+                  RunSummary *summary);
 
 #endif

@@ -131,8 +131,8 @@ static const SceneKey keys[] = {
     {"time.until.t", KEY_NUMBER, offsetof(Scene, time.until_t), "time", RANGE_NOT_NEGATIVE, "0",
      .sentence = "Stop at this time after the rod's start; 0: not by time."},
     {"time.until.periodic", KEY_FLAG, offsetof(Scene, time.until_periodic), "1", RANGE_ANY, "false",
-     .sentence = "Stop earlier when the periodic regime is established, or when falls of the "
-                 "force that do not repeat are enough (results.falls.enough)."},
+     .sentence = "Stop earlier when the periodic regime is established, or when load drops that "
+                 "do not repeat are enough (results.drops.enough)."},
     {"time.scheme", KEY_CHOICE, offsetof(Scene, time.scheme), "1", RANGE_ANY, "sdirk2",
      .sentence = "`sdirk2`: implicit, of order 2, steps as long as the answer allows. `euler`, "
                  "`sdirk3`: the same with backward Euler (order 1), three stages (order 3). "

@@ -245,8 +245,8 @@ class Sweep(unittest.TestCase):
             base = value[2 if k < 4 else 6]   # the same length, pushed at 0.006
             self.assertAlmostEqual(float(row["gain_percent"]), 100 * (value[k] / base - 1), places=9)
             self.assertEqual("not periodic" in row["note"], rows[k]["period"] == "0")
-            if rows[k]["period"] != "0":
-                self.assertAlmostEqual(float(row["high"]) - float(row["low"]), float(rows[k]["spread"]))
+            if rows[k]["mu_M_error"]:
+                self.assertAlmostEqual(float(row["high"]) - float(row["low"]), 4 * float(rows[k]["mu_M_error"]))
         shown = done.stdout.split("mu_M, highest first; gain over the same point with")[1].splitlines()
         self.assertEqual(len(shown), 6)   # title, head, three rows, how many more
         self.assertRegex(shown[2], rf"^ +1 .* {value[order[0]]:.4g} ")
@@ -268,22 +268,21 @@ class Sweep(unittest.TestCase):
 
     def test_bounds_of_each_result(self):
         """A plot of mu_M has the bounds of mu_M, whatever the study is ranked by; bounds known are printed."""
-        study = self.study(STUDY + "rank: {by: mu_trusted, top: 8}\nplot: {x: load.pressure, y: mu_M, series: rod.kind}\n"
-                           "record: [mu_M, spread, period, low, high, mu_trusted, mu_trusted_error]\n")
-        shown = self.sweep(study=study).stdout.split("mu_trusted, highest first")[1].splitlines()
+        study = self.study(STUDY + "rank: {by: mu_hold, top: 8}\nplot: {x: load.pressure, y: mu_M, series: rod.kind}\n"
+                           "record: [mu_M, mu_M_error, mu_hold, mu_hold_error]\n")
+        shown = self.sweep(study=study).stdout.split("mu_hold, highest first")[1].splitlines()
         known = {}
         for row in self.table():
-            mu, half = float(row["mu_M"]), float(row["spread"] or 0) / 2   # one peak has no spread, and no bounds
-            ends = (mu - half, mu + half) if row["period"] != "0" else (float(row["low"]), float(row["high"]))
-            known[mu] = ends if half else (None, None)
+            mu, error = float(row["mu_M"]), float(row["mu_M_error"] or "nan")   # one peak has no error, and no bounds
+            known[mu] = (None, None) if np.isnan(error) else (mu - 2 * error, mu + 2 * error)
         curves = [c for c in json.loads((self.folder / "out/figures/plot.json").read_text())["series"] if c["label"]]
         drawn = {y: (low, high) for c in curves for y, low, high in zip(c["y"], c["low"], c["high"])}
         self.assertEqual(drawn.keys(), known.keys())
         for mu, bounds in drawn.items():
             np.testing.assert_allclose(np.array(bounds, float), np.array(known[mu], float), rtol=1e-12)
-        self.assertEqual(shown[1].split(), ["rank", "mesh.set.length", "load.pressure", "rod.kind", "mu_trusted", "low", "high", "gain"])
-        best = max(self.table(), key=lambda row: float(row["mu_trusted"]))
-        mu, error = float(best["mu_trusted"]), float(best["mu_trusted_error"])
+        self.assertEqual(shown[1].split(), ["rank", "mesh.set.length", "load.pressure", "rod.kind", "mu_hold", "low", "high", "gain"])
+        best = max(self.table(), key=lambda row: float(row["mu_hold"]))
+        mu, error = float(best["mu_hold"]), float(best["mu_hold_error"])
         self.assertIn(f" {mu:.4g}  {mu - 2 * error:.4g}  {mu + 2 * error:.4g} ", shown[2])
 
     def test_equal_points_are_computed_once(self):
@@ -319,6 +318,14 @@ class Sweep(unittest.TestCase):
                 done = self.sweep(study=self.study(STUDY.replace(old, new)), status=2)
                 self.assertRegex(done.stderr, message)
                 self.assertFalse((self.folder / "out").exists())
+
+    def test_names_of_earlier_versions(self):
+        for words, old, new in [("rank: {by: mu_trusted}", "mu_trusted", "mu_hold"),
+                                ("record: [results.mu_trusted_error]", r"results\.mu_trusted_error", "mu_hold_error"),
+                                ("record: [mu_M, results.falls.period]", r"results\.falls\.period", "drops_period"),
+                                ("plot: {x: load.pressure, y: mu_falls}", "mu_falls", "mu_drops")]:
+            done = self.sweep(study=self.study(STUDY + words + "\n"), status=2)
+            self.assertRegex(done.stderr, rf":9:\d+: \w+: `{old}` is called `{new}` now")
 
     def test_wrong_words(self):
         for words, message in [((), "needs a study"), (("a", "b"), "one study"), (("a", "-j", "0"), "-j 0"),

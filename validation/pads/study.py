@@ -40,28 +40,28 @@ class Point:
         self.pads = self.results["pads"]
         self.P, self.mesh = scene["load"]["pressure"], scene["mesh"]["set"]
         self.n = int(self.mesh.get("n", 0))
-        self.mu, self.trusted = number(row["mu_M"]), number(row["mu_trusted"])
-        self.high, self.first_pad = number(row["mu_falls_high"]), number(row["mu_first_pad"])
-        self.l_c, self.period = number(row["l_c"]), int(number(row["results.falls.period"]) or 0)
-        self.trusted_error, falls = self.results["mu_trusted_error"], self.results["falls"]
-        self.mean, self.mean_error = falls["mean"], falls["mean_error"]
-        self.falls, self.enough = falls["counted"], falls["enough"]
+        self.mu, self.hold = number(row["mu_M"]), number(row["mu_hold"])
+        self.l_c, self.first_pad = number(row["l_c"]), number(row["mu_first_pad"])
+        self.hold_error, drops = self.results["mu_hold_error"], self.results["drops"]
+        self.high = max((b["high"] for b in drops["branches"]), default=None)
+        self.mean, self.mean_error = drops["mean"], drops["mean_error"]
+        self.drops, self.period, self.enough = drops["counted"], drops["period"], drops["enough"]
 
     def average(self):
-        """Mean of the falls, with its standard error where they do not repeat."""
+        """Mean of the load drops, with its standard error where they do not repeat."""
         if self.mean_error is None or self.period:
             return self.mean
         return f"{self.mean:.3f} ± {self.mean_error:.3f}" + ("" if self.enough else ", too few")
 
     def low_end(self):
-        """mu to trust, with its standard error where falls do not repeat."""
-        if self.trusted_error is None or self.period:
-            return self.trusted
-        return f"{self.trusted:.3f} ± {self.trusted_error:.3f}"
+        """mu_hold, with its standard error where drops do not repeat."""
+        if self.hold_error is None or self.period:
+            return self.hold
+        return f"{self.hold:.3f} ± {self.hold_error:.3f}"
 
     def branches(self):
-        """mu and the number of pads that slide, of each fall of the period or each kind of fall."""
-        return ", ".join(f"{b['mu']:.3f} ({b['pads']})" for b in self.results["falls"]["branches"])
+        """mu and the number of pads that slide, of each branch of drops."""
+        return ", ".join(f"{b['mu']:.3f} ({b['pads']})" for b in self.results["drops"]["branches"])
 
 
 class Study:
@@ -126,9 +126,9 @@ def of_pressure(points, P):
 
 
 def curve(label, points, x, color, **more):
-    """mu to trust against x, bars up to the highest fall where falls repeat."""
-    return {"label": label, "x": [x(p) for p in points], "y": [p.trusted for p in points],
-            "low": [p.trusted for p in points], "high": [p.high if p.high and p.period else p.trusted for p in points],
+    """mu_hold against x, bars up to the highest drop where drops repeat."""
+    return {"label": label, "x": [x(p) for p in points], "y": [p.hold for p in points],
+            "low": [p.hold for p in points], "high": [p.high if p.high and p.period else p.hold for p in points],
             "color": color, "marker": "circle", "line": "thin", **more}
 
 
@@ -144,17 +144,17 @@ def study_count(study, name, points, plain, pressures, title):
         here, whole = of_pressure(points, P), of_pressure(plain, P)[0]
         open_ones = [p for p in here if not p.period and p.mean_error is not None]
         content += [curve(f"~{{P}} = {stress(P)}", here, lambda p: p.n, color),
-                    level(whole.trusted, [0.6, 12.4], color)]
+                    level(whole.hold, [0.6, 12.4], color)]
         if open_ones:
             content.append({"label": "", "x": [p.n for p in open_ones], "y": [p.mean for p in open_ones], "color": color,
                             "low": [p.mean - 2 * p.mean_error for p in open_ones], "line": "none",
                             "high": [p.mean + 2 * p.mean_error for p in open_ones], "marker": "square",
                             "filled": False})
-        rows += [[stress(P), "none" if p is whole else p.n, p.low_end(), p.average(), p.falls, p.period, p.mu,
+        rows += [[stress(P), "none" if p is whole else p.n, p.low_end(), p.average(), p.drops, p.period, p.mu,
                   p.first_pad, p.branches(), p.l_c] for p in [whole] + here]
     study.table(f"Number of pads, equal contact length 0.6 L ({title}); none: the block without gaps",
-                ["P", "n", "mu to trust", "mean of falls", "falls", "period", "mu_M", "first whole pad",
-                 "falls (pads that slide)", "l_c/L"], rows)
+                ["P", "n", "mu_hold", "mean of drops", "drops", "period", "mu_M", "first whole pad",
+                 "drops (pads that slide)", "l_c/L"], rows)
     low, high = (0.2, 0.4) if name == "count" else (0.4, 1.1)
     study.plot(name, title=f"mu against the number of pads, {title}", height=0.8,
                x={"label": "pads ~{n}", "range": [0.4, 12.6]}, y={"label": MU, "range": [low, high]},
@@ -184,7 +184,7 @@ def runaway_table(study, scene, pressures, reach, points, counts=COUNTS):
                      pad["pressure"] / P * 0.6, pad["load"], pad["drag"], pad["drag"] * pad["length"]])
     study.table(f"Loss of stability at V on the quasi-static path ({scene}.yaml): the pad that the growing "
                 "mode lies on; of the trailing pad its share of load, what it bears and its drag",
-                ["P", "n", "mu where swings grow", "mu where a node jumps", "mu, stability", "mu to trust, stepping",
+                ["P", "n", "mu where swings grow", "mu where a node jumps", "mu, stability", "mu_hold, stepping",
                  "first whole pad, stepping", "pad that goes",
                  "next in mode", "l_c of each pad alone, over its length", "load share",
                  "weakening / borne", "drag", "drag x length"], rows)
@@ -291,24 +291,24 @@ def study_transfer(study):
 # --- height, gap, share, grooves ------------------------------------------------------------------
 
 def shape_table(study, points, key, title):
-    rows = [[stress(p.P), p.n, p.mesh[key], p.low_end(), p.average(), p.falls, p.period, p.mu, p.first_pad,
+    rows = [[stress(p.P), p.n, p.mesh[key], p.low_end(), p.average(), p.drops, p.period, p.mu, p.first_pad,
              p.branches(), p.l_c] for p in sorted(points, key=lambda p: (p.P, p.n, p.mesh[key]))]
-    study.table(f"Varied: {key} ({title})", ["P", "n", key, "mu to trust", "mean of falls", "falls", "period",
-                                             "mu_M", "first whole pad", "falls (pads that slide)", "l_c/L"], rows)
+    study.table(f"Varied: {key} ({title})", ["P", "n", key, "mu_hold", "mean of drops", "drops", "period",
+                                             "mu_M", "first whole pad", "drops (pads that slide)", "l_c/L"], rows)
 
 
 def study_heights_b(study, heights, plain):
-    """mu to trust over that of the plain block, set B."""
+    """mu_hold over that of the plain block, set B."""
     content, color = [], 0
     for P in (SET_B[0], SET_B[2]):
-        whole = of_pressure(plain, P)[0].trusted
+        whole = of_pressure(plain, P)[0].hold
         for n in (2, 4):
             here = sorted((p for p in of_pressure(heights, P) if p.n == n), key=lambda p: p.mesh["pad_height"])
             color += 1
-            content.append({"label": f"~{{P}} = {stress(P)}, {n} pads", "y": [p.trusted / whole for p in here],
+            content.append({"label": f"~{{P}} = {stress(P)}, {n} pads", "y": [p.hold / whole for p in here],
                             "x": [p.mesh["pad_height"] / p.mesh["length"] for p in here], "color": color,
                             "marker": "circle" if n == 2 else "square", "line": "thin", "filled": P < 1e-4})
-    study.plot("shape-b", title="mu to trust over that of the block without gaps, set B", height=0.7,
+    study.plot("shape-b", title="mu_hold over that of the block without gaps, set B", height=0.7,
                x={"label": "height of pads / ~{L}", "range": [0, 0.16]},
                y={"label": f"{MU} / {MU} without gaps", "range": [0.7, 1.05]},
                series=content + [level(1, [0, 0.155], 0)])
@@ -323,27 +323,27 @@ def study_shapes(study, points, plain):
     for p in sorted(points["grooves"], key=lambda p: (p.P, p.mesh["grooves"], p.mesh["width"],
                                                       p.mesh["depth"])):
         whole = of_pressure(plain, p.P)[0]
-        rows.append([stress(p.P), int(p.mesh["grooves"]), p.mesh["width"], p.mesh["depth"], p.trusted,
-                     f"{100 * (p.trusted / whole.trusted - 1):+.1f} %", p.mu, p.first_pad, p.period,
+        rows.append([stress(p.P), int(p.mesh["grooves"]), p.mesh["width"], p.mesh["depth"], p.hold,
+                     f"{100 * (p.hold / whole.hold - 1):+.1f} %", p.mu, p.first_pad, p.period,
                      p.branches(), p.l_c])
     study.table("Shallow grooves; change against the block without", [
-        "P", "grooves", "width", "depth", "mu to trust", "change", "mu_M", "first whole pad", "period",
-        "falls (pads that slide)", "l_c/L"], rows)
+        "P", "grooves", "width", "depth", "mu_hold", "change", "mu_M", "first whole pad", "period",
+        "drops (pads that slide)", "l_c/L"], rows)
     content, color = [], 0
     for P in (0.003, 0.006):
-        whole = of_pressure(plain, P)[0].trusted
+        whole = of_pressure(plain, P)[0].hold
         for label, of, key, keep in (
                 [(f"{n} pads", points["height"], "pad_height", lambda p, n=n: p.n == n) for n in (4, 8)] +
                 [(f"{g} grooves", points["grooves"], "depth", lambda p, g=g: near(p.mesh["width"], 0.05) and
                   p.mesh["grooves"] == g) for g in (7,)]):
-            here = sorted((p for p in of_pressure(of, P) if keep(p) and p.trusted),
+            here = sorted((p for p in of_pressure(of, P) if keep(p) and p.hold),
                           key=lambda p: p.mesh[key])
             color = color % 7 + 1
             content.append({"label": f"~{{P}} = {stress(P)}, {label}", "x": [p.mesh[key] for p in here],
-                            "y": [p.trusted / whole for p in here], "color": color, "line": "thin",
+                            "y": [p.hold / whole for p in here], "color": color, "line": "thin",
                             "marker": "circle" if "pads" in label else "square",
                             "filled": P < 0.005})
-    study.plot("shape", title="mu to trust over that of the block without gaps", height=0.85,
+    study.plot("shape", title="mu_hold over that of the block without gaps", height=0.85,
                x={"label": "height of pads, depth of grooves / ~{L}_{0}", "range": [0, 0.16]},
                y={"label": f"{MU} / {MU} without gaps", "range": [0.5, 1.1]},
                series=content + [level(1, [0, 0.155], 0)])
@@ -386,8 +386,8 @@ def study_check(study, points, name):
     def bound(p, error):
         return "" if p.period or error is None else f" ± {error:.4f}"
 
-    looks = (("mu to trust", lambda p: (p.trusted, bound(p, p.trusted_error))),
-             ("mean of falls", lambda p: (p.mean, bound(p, p.mean_error))),
+    looks = (("mu_hold", lambda p: (p.hold, bound(p, p.hold_error))),
+             ("mean of drops", lambda p: (p.mean, bound(p, p.mean_error))),
              ("mu_M", lambda p: (p.mu, "")))
     cases = [c for c in CASES if any(case_of(p) == c for p in points)]
     changed = {(p.P, p.n) for p in points if case_of(p) != "as computed"}

@@ -63,24 +63,6 @@ static void write_theory(JsonWriter *json, const Model1dSummary *summary)
     json_end(json);
 }
 
-// As results.peaks of run.json.
-static void write_peaks(JsonWriter *json, const Model1dSimulation *simulation)
-{
-    double length = simulation->model.length;
-    json_begin_list(json, "peaks");
-    for (int32_t k = 0; k < simulation->peaks.count; k++) {
-        const Peak *peak = &simulation->peaks.list[k];
-        json_begin_object(json, NULL);
-        json_number(json, "U", peak->U);
-        json_number(json, "mu", peak->mu);
-        json_number(json, "l_sc_over_L", peak->front_uncertified / length);
-        json_number(json, "l_c_over_L", peak->front / length);
-        json_boolean(json, "counts", peak->counts);
-        json_end(json);
-    }
-    json_end(json);
-}
-
 // first_*: the first peak, which starts from u_0; the others are means over the periodic regime.
 static void write_simulation(JsonWriter *json, const Model1dSimulation *simulation,
                              const Model1dSummary *summary)
@@ -101,7 +83,8 @@ static void write_simulation(JsonWriter *json, const Model1dSimulation *simulati
     json_number(json, "complementarity_error", summary->contact_error);
     json_integer(json, "accepted", summary->accepted);
     json_integer(json, "rejected", summary->rejected);
-    write_peaks(json, simulation);
+    Answers answers = answers_of(&simulation->drops);
+    answers_write_peaks(&answers, &simulation->drops, simulation->model.length, json);
     json_end(json);
 }
 

@@ -184,22 +184,24 @@ cleanup:
 static void summarise_steps(Model1dSimulation *simulation, Model1dSummary *summary)
 {
     const StepCounters *steps = &simulation->control.counters;
-    PeaksSummary peaks = peaks_summarise(&simulation->peaks);
+    const Drops *drops = &simulation->drops;
+    Answers answers = answers_of(drops);
     double length = simulation->model.length;
     summary->simulated = true;
-    if (simulation->peaks.count > 0) {
-        const Peak *first = &simulation->peaks.list[0];
-        summary->first_mu = first->mu;
-        summary->first_l_sc = first->front_uncertified / length;
-        summary->first_l_c = first->front / length;
+    for (int32_t k = drops->count - 1; k >= 0; k--) {
+        if (!drops->list[k].bulk) continue;
+        Drop peak = drops_as(drops, DROP_BULK, k);
+        summary->first_mu = peak.mu;
+        summary->first_l_sc = peak.front_uncertified / length;
+        summary->first_l_c = peak.front / length;
     }
-    summary->mu_M = peaks.mu_M;
-    summary->mu_M_spread = peaks.spread;
-    summary->l_sc_seen = peaks.subcritical_length / length;
-    summary->l_c_seen = peaks.critical_length / length;
-    summary->period = peaks.period;
-    summary->peaks = simulation->peaks.count;
-    summary->peaks_counted = peaks.counted;
+    summary->mu_M = answers.mu_M.value;
+    summary->mu_M_spread = answers.mu_M_spread;
+    summary->l_sc_seen = answers.subcritical_length / length;
+    summary->l_c_seen = answers.critical_length / length;
+    summary->period = answers.period;
+    summary->peaks = answers.peaks;
+    summary->peaks_counted = answers.peaks_counted;
     summary->bounded = simulation->events.kinds[EVENT_BOUNDED];
     summary->leading = simulation->events.kinds[EVENT_LEADING];
     summary->quasi_static_error = simulation->quasi_static_error;
@@ -213,7 +215,7 @@ static void summarise_steps(Model1dSimulation *simulation, Model1dSummary *summa
 static void simulation_destroy(Model1dSimulation *simulation)
 {
     history_destroy(&simulation->history);
-    peaks_destroy(&simulation->peaks);
+    drops_destroy(&simulation->drops);
     events_destroy(&simulation->events);
     step_control_destroy(&simulation->control);
     chain_destroy(&simulation->chain);

@@ -98,7 +98,7 @@ typedef struct Model1dSimulation {
     StepControl control;
     ObservationScales scales;
     Events events;
-    Peaks peaks;
+    Drops drops;
     History history;
     double t_end;   // time
     Model1dPoint *points;   // [point_count] theory; the simulation adds what it sees

@@ -5,7 +5,6 @@
 // pressure to slip).
 #include "study/line/model1d.h"
 
-#include "record/recorder.h"
 #include "model/step_rule.h"
 #include "run/summary.h"
 
@@ -60,7 +59,7 @@ static bool open_simulation(Model1dSimulation *simulation, Error *err)
     chain_rest(model, &simulation->chain, &simulation->control.now);
     step_control_restart(&simulation->control);
     TRY(events_create(&simulation->chain.interface, model->velocity, &simulation->events, err));
-    TRY(peaks_create(&simulation->events, scene->time.periodic_tolerance, &simulation->peaks, err));
+    TRY(drops_create(&simulation->events, scene->time.periodic_tolerance, &simulation->drops, err));
     if (simulation->options->folder) TRY(open_history(simulation, err));
 cleanup:
     return error_is_clean(err);
@@ -111,7 +110,7 @@ static bool record_step(Model1dSimulation *simulation, Error *err)
 {
     Observation seen = observe(&simulation->control, &simulation->scales);
     TRY(events_record(&simulation->events, &seen, err));
-    TRY(peaks_record(&simulation->peaks, &seen, err));
+    TRY(drops_record(&simulation->drops, &seen, err));
     if (simulation->history.file) TRY(history_record(&simulation->history, &seen, err));
     compare_step(simulation, &seen);
     report_step(simulation, &seen);
@@ -133,7 +132,7 @@ static bool is_finished(Model1dSimulation *simulation)
     if (remaining <= 1e-9 * simulation->t_end) return true;
     if (!step_control_fits(&simulation->control, remaining)) return true;
     return simulation->scene->time.until_periodic && simulation->events.crossed &&
-           peaks_summarise(&simulation->peaks).period > 0;
+           answers_are_known(&simulation->drops);
 }
 
 // Steps to the scene's end, or to the periodic regime where that is asked for.
@@ -151,10 +150,9 @@ bool model1d_simulate(Model1dSimulation *simulation, Error *err)
                  simulation->last.t);
     } while (!is_finished(simulation));
     events_close(&simulation->events, &simulation->last);
-    PeaksSummary peaks = peaks_summarise(&simulation->peaks);
+    Answers answers = answers_of(&simulation->drops);
     if (simulation->history.file)
-        TRY(history_finish(&simulation->history, &simulation->peaks, &simulation->events, &peaks,
-                           err));
+        TRY(history_finish(&simulation->history, &simulation->drops, &answers, err));
 cleanup:
     if (!error_is_clean(err)) error_context(err, "in the 1D model");
     return error_is_clean(err);

@@ -60,11 +60,10 @@ cleanup:
     return true;
 }
 
-// Whole slidings, or falls of the force where these are more: many pads seldom slide all at once.
+// Load drops, bulk sliding or not: many pads seldom slide all at once.
 static int32_t count_slidings(const Simulation *simulation)
 {
-    int32_t whole = simulation->events.kinds[EVENT_LEADING], falls = simulation->falls.count;
-    return whole > falls ? whole : falls;
+    return drops_count(&simulation->drops, DROP_LOAD);
 }
 
 // Time stepping until the block has come to rest after the wanted number of slidings.
@@ -77,7 +76,7 @@ static bool run_slidings(StabilityPath *path, Error *err)
         if (stop_wanted(path, err)) goto cleanup;
         if (finished)
             FAIL(err, ERROR_INPUT,
-                 "%s: only %d of %d slidings, or falls of the force by 5 %%, ended before the "
+                 "%s: only %d of %d slidings, or drops of the load by 5 %%, ended before the "
                  "scene's end at U = %g: give a later one (--set time.until.U=%g), or start the "
                  "path earlier (--from start, fewer --slidings)",
                  simulation->scene.path, count_slidings(simulation), path->options->slidings,

@@ -35,7 +35,7 @@ static void record_label(const StudyRecord *record, char label[LABEL_SIZE])
     } known[] = {
         {"results.mu_M", "~{\u03bc}_{M}"},
         {"results.mu_max", "largest ~{\u03bc}"},
-        {"results.mu_trusted", "~{\u03bc} to trust"},
+        {"results.mu_hold", "~{\u03bc}_{hold}"},
         {"results.peaks.0.mu", "first peak of ~{\u03bc}"},
         {"results.l_c_over_L", "~{l}_{c} / ~{L}"},
         {"results.l_sc_over_L", "~{l}_{sc} / ~{L}"},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A study's points in the order of one result. A gain is value / baseline - 1. Two points whose
-// bounds of mu_M (of mu_trusted, ranked by that) overlap are not told apart by these runs: such a
+// bounds of mu_M (of mu_hold, ranked by that) overlap are not told apart by these runs: such a
 // point is marked as good as the best.
 #include "study/sweep/rank.h"
 
@@ -103,10 +103,10 @@ static bool row_notes(const Sweep *sweep, const RankRow *row, char note[NOTE_SIZ
     if (status != POINT_DONE) add_note(note, point_status_name(status));
     if (status == POINT_DONE && isnan(row->value)) add_note(note, "no value");
     if (row->period == 0) add_note(note, "not periodic");
-    if (report && strcmp(ranked_by(&sweep->study)->path, "results.mu_trusted") == 0 &&
-        json_find_number(report, "results.falls.enough", &enough) && enough == 0)
-        add_note(note, "too few falls");
-    if (row->period > 1) add_note(note, "falls by turns");
+    if (report && strcmp(ranked_by(&sweep->study)->path, "results.mu_hold") == 0 &&
+        json_find_number(report, "results.drops.enough", &enough) && enough == 0)
+        add_note(note, "too few drops");
+    if (row->period > 1) add_note(note, "by turns");
     if (row->as_good) add_note(note, "as good as the first");
     if (report && json_find_text(report, "warnings.0", warning, RUN_WARNING_SIZE))
         add_note(note, "warned");

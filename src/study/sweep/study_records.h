@@ -6,11 +6,12 @@
 // X(name in `record`, path in run.json, recorded where the study does not say, meaning)
 #define STUDY_RECORDS(X)                                                                           \
     X("mu_M", "results.mu_M", true, "macroscopic static friction coefficient")                     \
+    X("mu_M_error", "results.mu_M_error", true, "its standard error")                              \
     X("spread", "results.mu_M_spread", true, "largest minus smallest of the peaks in mu_M")        \
     X("period", "results.period", true, "peaks repeat after so many slidings; 0: not")             \
-    X("low", "results.mu_peaks_low", true, "lowest peak, the first left out")                      \
-    X("high", "results.mu_peaks_high", true, "highest peak, the first left out")                   \
-    X("peaks", "results.mu_M_peaks", true, "peaks in mu_M")                                        \
+    X("low", "results.mu_M_low", true, "lowest of the peaks in mu_M")                              \
+    X("high", "results.mu_M_high", true, "highest of them")                                        \
+    X("peaks", "results.mu_M_peaks", true, "how many they are")                                    \
     X("l_c", "results.l_c_over_L", true, "critical length over L, from the dynamics")              \
     X("l_sc", "results.l_sc_over_L", true, "front over L where the certificate is lost")           \
     X("steps", "steps.accepted", true, "steps accepted")                                           \
@@ -22,14 +23,13 @@
     X("moment_error", "errors.moment", true, "balance of moments, relative")                       \
     X("reduction_error", "errors.reduction", true, "reduced bulk against the full one")            \
     X("mu_max", "results.mu_max", true, "largest mu of the whole run")                             \
-    X("mu_trusted", "results.mu_trusted", true, "low end of the falls of the force")               \
-    X("mu_trusted_error", "results.mu_trusted_error", false, "its standard error")                 \
-    X("mu_falls", "results.falls.mean", false, "mean of the falls of the force")                   \
-    X("mu_falls_error", "results.falls.mean_error", false, "standard error of that mean")          \
-    X("falls", "results.falls.counted", false, "falls in mu_trusted")                              \
-    X("falls_period", "results.falls.period", false, "falls repeat after so many; 0: not")         \
-    X("falls_enough", "results.falls.enough", false, "1: they repeat, or mean known to 2 %")       \
-    X("mu_falls_high", "results.falls.mu_high", false, "highest of them")                          \
+    X("mu_hold", "results.mu_hold", true, "holding coefficient")                                   \
+    X("mu_hold_error", "results.mu_hold_error", false, "its standard error")                       \
+    X("mu_drops", "results.drops.mean", false, "mean of the load drops")                           \
+    X("mu_drops_error", "results.drops.mean_error", false, "standard error of that mean")          \
+    X("drops", "results.drops.counted", false, "load drops in mu_hold")                            \
+    X("drops_period", "results.drops.period", false, "they repeat after so many; 0: not")          \
+    X("drops_enough", "results.drops.enough", false, "1: they repeat, or mean known to 2 %")       \
     X("mu_first_pad", "results.mu_first_pad", false, "lowest mu at which a whole pad slides")      \
     X("first_mu", "results.peaks.0.mu", false, "first peak, from the start state")                 \
     X("contact_nodes", "model.contact_nodes", false, "nodes on the interface")                     \

@@ -86,40 +86,25 @@ static void clear_bounds(Bounds *bounds, int32_t point)
     bounds->low[point] = bounds->high[point] = bounds->period[point] = NAN;
 }
 
-// mu_M: the range of the peaks that count where they repeat, else of all but the first.
-static void note_peaks(Bounds *bounds, int32_t point, const char *report)
+// Two standard errors to either side of `result`, whose error stands beside it.
+static void note_bounds(Bounds *bounds, int32_t point, const char *report, const char *result,
+                        const char *period)
 {
-    double mu = NAN, spread = NAN;
-    json_find_number(report, "results.period", &bounds->period[point]);
-    json_find_number(report, "results.mu_M", &mu);
-    json_find_number(report, "results.mu_M_spread", &spread);
-    if (bounds->period[point] > 0) {   // two peaks at least
-        bounds->low[point] = mu - spread / 2;
-        bounds->high[point] = mu + spread / 2;
-        return;
-    }
-    json_find_number(report, "results.mu_peaks_low", &bounds->low[point]);
-    json_find_number(report, "results.mu_peaks_high", &bounds->high[point]);
-    if (bounds->low[point] == bounds->high[point])   // one peak bounds nothing
-        bounds->low[point] = bounds->high[point] = NAN;
-}
-
-// mu_trusted: two standard errors to either side.
-static void note_falls(Bounds *bounds, int32_t point, const char *report)
-{
+    char path[STUDY_NAME_SIZE];
     double mu = NAN, error = NAN;
-    json_find_number(report, "results.falls.period", &bounds->period[point]);
-    json_find_number(report, "results.mu_trusted", &mu);
-    json_find_number(report, "results.mu_trusted_error", &error);
+    snprintf(path, sizeof path, "%s_error", result);
+    json_find_number(report, period, &bounds->period[point]);
+    json_find_number(report, result, &mu);
+    json_find_number(report, path, &error);
     bounds->low[point] = mu - 2 * error;
     bounds->high[point] = mu + 2 * error;
 }
 
 const Bounds *table_bounds(const SweepTable *table, const StudyRecord *record, bool *bounded)
 {
-    bool trusted = strcmp(record->path, "results.mu_trusted") == 0;
-    *bounded = trusted || strcmp(record->path, "results.mu_M") == 0;
-    return trusted ? &table->mu_trusted : &table->mu_M;
+    bool holds = strcmp(record->path, "results.mu_hold") == 0;
+    *bounded = holds || strcmp(record->path, "results.mu_M") == 0;
+    return holds ? &table->mu_hold : &table->mu_M;
 }
 
 // A failed point keeps its keys and its message, and has no results.
@@ -136,10 +121,11 @@ static bool write_row(TableWriter *writer, int32_t point, Scene *scene, Error *e
     // What a failed point came to before it failed is no result.
     write_records(writer, point, at->status == POINT_DONE ? report : NULL);
     clear_bounds(&writer->table->mu_M, point);
-    clear_bounds(&writer->table->mu_trusted, point);
+    clear_bounds(&writer->table->mu_hold, point);
     if (at->status == POINT_DONE && report) {
-        note_peaks(&writer->table->mu_M, point, report);
-        note_falls(&writer->table->mu_trusted, point, report);
+        note_bounds(&writer->table->mu_M, point, report, "results.mu_M", "results.period");
+        note_bounds(&writer->table->mu_hold, point, report, "results.mu_hold",
+                    "results.drops.period");
     }
     csv_text(writer->csv, point_status_name(at->status));
     *writer->cell = 0;
@@ -246,7 +232,7 @@ static bool make_room(const Study *study, SweepTable *table, Error *err)
     TRY((table->records = NEW_ARRAY(double, count * study->record_count, err)));
     TRY((table->status = NEW_ARRAY(double, count, err)));
     TRY(make_bounds(count, &table->mu_M, err));
-    TRY(make_bounds(count, &table->mu_trusted, err));
+    TRY(make_bounds(count, &table->mu_hold, err));
     TRY((table->words = NEW_ARRAY(WordList, study->column_count, err)));
 cleanup:
     return error_is_clean(err);
@@ -283,7 +269,7 @@ void table_destroy(SweepTable *table)
     memory_free(table->records);
     memory_free(table->status);
     destroy_bounds(&table->mu_M);
-    destroy_bounds(&table->mu_trusted);
+    destroy_bounds(&table->mu_hold);
     memory_free(table->words);
     *table = (SweepTable){0};
 }

@@ -24,14 +24,13 @@ typedef struct SweepTable {
     double *keys;   // [column_count][point_count]; owned, like all below
     double *records;   // [record_count][point_count]
     double *status;   // [point_count] a PointStatus
-    Bounds mu_M;   // of the peaks that count where they repeat, else of all but the first
-    Bounds mu_trusted;
+    Bounds mu_M, mu_hold;
     WordList *words;   // [column_count]
 } SweepTable;
 
 bool table_write(const Sweep *sweep, SweepTable *table, Error *err);
-// Whether the column `record` repeats, and within what bounds it lies: those of mu_trusted for
-// mu_trusted, those of mu_M for all others, of which *bounded says that low and high are not its own.
+// Whether the column `record` repeats, and within what bounds it lies: those of mu_hold for
+// mu_hold, those of mu_M for all others, of which *bounded says that low and high are not its own.
 const Bounds *table_bounds(const SweepTable *table, const StudyRecord *record, bool *bounded);
 void table_destroy(SweepTable *table);   // zeroed is fine
 

@@ -168,14 +168,18 @@ static void test_written_and_read_back(void **state)
                            .reach = 5,
                            .peak_slip_rate = 6,
                            .front_speed = 7},
-                          {.kind = EVENT_QUASI_STATIC, .U_start = 11, .front_speed = NAN}};
-    Peak peak_list[] = {{.U = 0.1, .mu = 0.2},
-                        {.U = 0.3, .mu = 0.4, .counts = true},
-                        {.U = 0.5, .mu = 0.6, .counts = true}};
-    Events events = {.list = event_list, .count = 2};
-    Peaks peaks = {.list = peak_list, .count = 3};
-    PeaksSummary summary = {.mu_M = 0.5, .critical_length = NAN};
-    assert_true(history_finish(&history, &peaks, &events, &summary, &err));
+                          {.kind = EVENT_QUASI_STATIC, .U_start = 11, .front_speed = NAN},
+                          {0},
+                          {0}};
+    // Peaks are the bulk slidings alone: 0.5 was reached before the load drop that is none.
+    Drop drop_list[] = {{.U = 0.1, .mu = 0.2, .bulk = true, .load = true},
+                        {.U = 0.3, .mu = 0.4, .bulk = true, .load = true},
+                        {.U = 0.5, .mu = 0.6, .load = true},
+                        {.U = 0.7, .mu = 0.5, .bulk = true, .load = true}};
+    Events events = {.list = event_list, .count = 4};
+    Drops drops = {.events = &events, .list = drop_list, .count = 4};
+    Answers answers = {.first = 1, .mu_M.value = 0.5, .critical_length = NAN};
+    assert_true(history_finish(&history, &drops, &answers, &err));
     history_destroy(&history);
     assert_int_equal(memory_counters().live, live);
     assert_true(place_has(place, "history.h5") && !place_has(place, "history.h5.part"));
@@ -186,14 +190,14 @@ static void test_written_and_read_back(void **state)
     check_table(file, PEAKS_U, 3, (double[]){0.1, 0.3, 0.5});
     check_table(file, PEAKS_MU, 3, (double[]){0.2, 0.4, 0.6});
     check_table(file, PEAKS_COUNTS, 3, (double[]){0, 1, 1});
-    check_table(file, EVENTS_KIND, 2, (double[]){2, 0});
-    check_table(file, EVENTS_U_START, 2, (double[]){1, 11});
-    check_table(file, EVENTS_U_STOP, 2, (double[]){2, 0});
-    check_table(file, EVENTS_T_START, 2, (double[]){3, 0});
-    check_table(file, EVENTS_T_STOP, 2, (double[]){4, 0});
-    check_table(file, EVENTS_REACH, 2, (double[]){5, 0});
-    check_table(file, EVENTS_PEAK_RATE, 2, (double[]){6, 0});
-    check_table(file, EVENTS_FRONT_SPEED, 2, (double[]){7, NAN});
+    check_table(file, EVENTS_KIND, 4, (double[]){2, 0, 0, 0});
+    check_table(file, EVENTS_U_START, 4, (double[]){1, 11, 0, 0});
+    check_table(file, EVENTS_U_STOP, 4, (double[]){2, 0, 0, 0});
+    check_table(file, EVENTS_T_START, 4, (double[]){3, 0, 0, 0});
+    check_table(file, EVENTS_T_STOP, 4, (double[]){4, 0, 0, 0});
+    check_table(file, EVENTS_REACH, 4, (double[]){5, 0, 0, 0});
+    check_table(file, EVENTS_PEAK_RATE, 4, (double[]){6, 0, 0, 0});
+    check_table(file, EVENTS_FRONT_SPEED, 4, (double[]){7, NAN, 0, 0});
     double *pads = NULL;
     int32_t count = 0;
     assert_true(result_file_read_nodes(file, NODES_PAD, &pads, &count, &err));
@@ -248,8 +252,8 @@ static void test_memory_faults(void **state)
     int64_t live = memory_counters().live;
     bool done = false;
     Events events = {0};
-    Peaks peaks = {0};
-    PeaksSummary summary = {.mu_M = NAN, .critical_length = NAN};
+    Drops drops = {.events = &events};
+    Answers answers = {.mu_M.value = NAN, .critical_length = NAN};
     for (int32_t k = 0; !done; k++) {
         Error err = {0};
         ResultHead head = head_of("faults");
@@ -257,7 +261,7 @@ static void test_memory_faults(void **state)
         memory_fail_after(k);
         done = history_create(place, &head, &hand.interface, &LAW, &history, &err) &&
                history_record(&history, &hand.seen, &err) &&
-               history_finish(&history, &peaks, &events, &summary, &err);
+               history_finish(&history, &drops, &answers, &err);
         memory_fail_after(-1);
         assert_int_equal(err.code, done ? ERROR_NONE : ERROR_MEMORY);
         history_destroy(&history);

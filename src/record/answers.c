@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Slow passage through the instability makes the time of a burst depend on how small the
+// disturbance was that it grew from, so at some loads the block slides a burst earlier or later:
+// peaks then lie on branches some per cent apart, with periods of 2 and more, or without any.
+#include "record/answers.h"
+
+#include <math.h>
+#include <stddef.h>
+
+enum { DROPS_ENOUGH = 30 };
+static const double MEAN_ERROR = 0.02;
+
+// The regime, and from which drop of the list on it lasts.
+static SeriesRegime find_regime(const Drops *drops, int32_t *first)
+{
+    int32_t count = drops_series(drops, DROP_LOAD, 0);
+    SeriesRegime regime = series_regime(drops->series, count, drops->tolerance);
+    int32_t before = count - regime.count;
+    for (*first = 0; *first < drops->count; ++*first)
+        if (drops->list[*first].load && before-- == 0) break;
+    return regime;
+}
+
+static bool is_enough(const SeriesRegime *regime, const Estimate *mean)
+{
+    return regime->period > 0 ||
+           (regime->count >= DROPS_ENOUGH && mean->error <= MEAN_ERROR * mean->value);
+}
+
+// The lowest of the series and the range of its branch.
+static Estimate lowest_branch(const Drops *drops, int32_t count)
+{
+    SeriesBranch branch, lowest = {.low = INFINITY};
+    series_sort(drops->series, count);
+    for (int32_t k = 0; k < count;) {
+        k = series_branch(drops->series, count, k, drops->tolerance, &branch);
+        if (branch.low < lowest.low) lowest = branch;
+    }
+    return (Estimate){lowest.low, (lowest.high - lowest.low) / 2};
+}
+
+static void answer_drops(const Drops *drops, Answers *answers)
+{
+    int32_t count = drops_series(drops, DROP_LOAD, answers->first);
+    int32_t period = answers->regime.period;
+    answers->mu_drops = series_mean(drops->series, count, period > 0 ? period : 1);
+    answers->enough = is_enough(&answers->regime, &answers->mu_drops);
+    answers->mu_hold = period > 0 ? lowest_branch(drops, count)
+                                  : series_lowest_decile(drops->series, count);
+}
+
+static void answer_peaks(const Drops *drops, Answers *answers)
+{
+    int32_t count = drops_series(drops, DROP_BULK, answers->first);
+    const SeriesRegime *regime = &answers->regime;
+    answers->peaks = drops_count(drops, DROP_BULK);
+    answers->peaks_counted = count;
+    if (regime->period > 0) answers->period = count / (regime->count / regime->period);
+    answers->mu_M = series_mean(drops->series, count, answers->period > 0 ? answers->period : 1);
+    for (int32_t k = 0; k < count; k++) {
+        answers->mu_M_low = fmin(answers->mu_M_low, drops->series[k].value);
+        answers->mu_M_high = fmax(answers->mu_M_high, drops->series[k].value);
+    }
+    if (count > 1) answers->mu_M_spread = answers->mu_M_high - answers->mu_M_low;
+}
+
+// Means over the peaks that count; l_sc where it was seen at all.
+static void answer_lengths(const Drops *drops, Answers *answers)
+{
+    double critical = 0, subcritical = 0;
+    int32_t count = 0, seen = 0;
+    for (int32_t k = answers->first; k < drops->count; k++) {
+        if (!drops->list[k].bulk) continue;
+        Drop peak = drops_as(drops, DROP_BULK, k);
+        critical += peak.front;
+        count++;
+        if (isnan(peak.front_uncertified)) continue;
+        subcritical += peak.front_uncertified;
+        seen++;
+    }
+    if (count > 0) answers->critical_length = critical / count;
+    if (seen > 0) answers->subcritical_length = subcritical / seen;
+}
+
+Answers answers_of(const Drops *drops)
+{
+    Answers answers = {.mu_M_low = NAN,
+                       .mu_M_high = NAN,
+                       .mu_M_spread = NAN,
+                       .mu_max = drops->mu_max,
+                       .critical_length = NAN,
+                       .subcritical_length = NAN};
+    answers.regime = find_regime(drops, &answers.first);
+    answer_drops(drops, &answers);
+    answer_peaks(drops, &answers);
+    answer_lengths(drops, &answers);
+    return answers;
+}
+
+bool answers_are_known(const Drops *drops)
+{
+    return answers_of(drops).enough;
+}
+
+// --- run.json -----------------------------------------------------------------------------------
+
+// Of the drops of one kind that count; by the number of pads that slid, then the lowest first.
+static void write_branches(const Drops *drops, DropKind kind, int32_t first, double tolerance,
+                           JsonWriter *json)
+{
+    int32_t count = drops_series(drops, kind, first);
+    series_sort(drops->series, count);
+    json_begin_list(json, "branches");
+    for (int32_t k = 0; k < count;) {
+        SeriesBranch branch;
+        k = series_branch(drops->series, count, k, tolerance, &branch);
+        json_begin_object(json, NULL);
+        json_number(json, "mu", branch.mean);
+        json_number(json, "low", branch.low);
+        json_number(json, "high", branch.high);
+        json_integer(json, "pads", branch.kind);
+        json_integer(json, "count", branch.count);
+        json_end(json);
+    }
+    json_end(json);
+}
+
+// l_sc and l_c as the dynamics saw them, and from the growth rates (l_c_growth_over_L).
+void answers_write_peaks(const Answers *answers, const Drops *drops, double length,
+                         JsonWriter *json)
+{
+    json_begin_list(json, "peaks");
+    for (int32_t k = 0; k < drops->count; k++) {
+        if (!drops->list[k].bulk) continue;
+        Drop peak = drops_as(drops, DROP_BULK, k);
+        json_begin_object(json, NULL);
+        json_number(json, "U", peak.U);
+        json_number(json, "mu", peak.mu);
+        json_boolean(json, "counts", k >= answers->first);
+        json_number(json, "l_sc_over_L", peak.front_uncertified / length);
+        json_number(json, "l_c_over_L", peak.front / length);
+        json_number(json, "l_c_growth_over_L", peak.front_growth / length);
+        json_end(json);
+    }
+    json_end(json);
+}
+
+static void write_list(const Drops *drops, DropKind kind, const char *key, JsonWriter *json)
+{
+    json_begin_list(json, key);
+    for (int32_t k = 0; k < drops->count; k++) {
+        if (!drop_is(&drops->list[k], kind)) continue;
+        Drop drop = drops_as(drops, kind, k);
+        json_begin_object(json, NULL);
+        json_number(json, "U", drop.U);
+        json_number(json, "mu", drop.mu);
+        json_number(json, "mu_after", drop.mu_after);
+        json_integer(json, "pads", drop.pads);
+        json_end(json);
+    }
+    json_end(json);
+}
+
+// Drops that do not repeat scatter: their branches are the numbers of pads that slid.
+static void write_drops(const Answers *answers, const Drops *drops, JsonWriter *json)
+{
+    json_begin_object(json, "drops");
+    json_number(json, "least_drop", LEAST_DROP);
+    json_integer(json, "period", answers->regime.period);
+    json_integer(json, "counted", answers->regime.count);
+    json_boolean(json, "enough", answers->enough);
+    json_number(json, "mean", answers->mu_drops.value);
+    json_number(json, "mean_error", answers->mu_drops.error);
+    write_branches(drops, DROP_LOAD, answers->first,
+                   answers->regime.period > 0 ? drops->tolerance : (double)INFINITY, json);
+    write_list(drops, DROP_LOAD, "list", json);
+    json_end(json);
+}
+
+// Of the later half of the pad slidings: what the start left is gone by then.
+static double lowest_pad_sliding(const Drops *drops)
+{
+    int32_t count = drops_series(drops, DROP_PADS, 0);
+    double low = NAN;
+    for (int32_t k = count / 2; k < count; k++)
+        low = fmin(low, drops->series[k].value);   // fmin of NaN and a number is the number
+    return low;
+}
+
+void answers_write_json(const Answers *answers, const Drops *drops, double length, JsonWriter *json)
+{
+    json_number(json, "mu_M", answers->mu_M.value);
+    json_number(json, "mu_M_error", answers->mu_M.error);
+    json_number(json, "mu_M_spread", answers->mu_M_spread);
+    json_number(json, "mu_M_low", answers->mu_M_low);
+    json_number(json, "mu_M_high", answers->mu_M_high);
+    json_integer(json, "mu_M_peaks", answers->peaks_counted);
+    json_boolean(json, "periodic", answers->period > 0);
+    json_integer(json, "period", answers->period);
+    write_branches(drops, DROP_BULK, answers->first, drops->tolerance, json);
+    json_number(json, "mu_hold", answers->mu_hold.value);
+    json_number(json, "mu_hold_error", answers->mu_hold.error);
+    json_number(json, "mu_max", answers->mu_max);
+    json_number(json, "l_sc_over_L", answers->subcritical_length / length);
+    json_number(json, "l_c_over_L", answers->critical_length / length);
+    answers_write_peaks(answers, drops, length, json);
+    write_drops(answers, drops, json);
+    json_number(json, "mu_first_pad", lowest_pad_sliding(drops));
+    write_list(drops, DROP_PADS, "pad_slidings", json);
+}

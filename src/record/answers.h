@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a run answers about the load ratio mu = F_T / F_N, defined here and nowhere else. The load
+// drops (record/drops) come to repeat with a period, or they do not (record/series): those of this
+// regime count, the start's do not.
+//   mu_M      macroscopic static friction coefficient: mean of the peaks before bulk sliding. In a
+//             period it is that of whole rounds
+//   mu_hold   holding coefficient, what the contact holds for sure: the lowest load drop that
+//             repeats; where none does the lowest decile (one in ten comes earlier), as the lowest
+//             would sink with every drop waited for
+//   mu_max    the largest mu of all steps
+// Errors are what the length of the run leaves open, not those of mesh and steps.
+#ifndef AMONTONS_RECORD_ANSWERS_H
+#define AMONTONS_RECORD_ANSWERS_H
+
+#include "io/json_writer.h"
+#include "record/drops.h"
+
+typedef struct Answers {
+    SeriesRegime regime;   // of the load drops
+    int32_t first;   // number in drops->list of the first drop that counts
+    bool enough;   // load drops repeat, or 30 and more of them have a mean known to 2 %
+    Estimate mu_M;   // error: one standard error
+    double mu_M_low, mu_M_high;   // smallest and largest peak that counts; NaN: none
+    double mu_M_spread;   // their difference; NaN: fewer than two
+    int32_t peaks, peaks_counted;   // bulk slidings; those that count
+    int32_t period;   // bulk slidings in a round; 0: load drops do not repeat, or none is one
+    Estimate mu_hold;   // error: half the range of the lowest branch, or one standard error
+    Estimate mu_drops;   // mean of the load drops
+    double mu_max;
+    double critical_length;   // mean l_c of the peaks that count, length; NaN: none
+    double subcritical_length;   // mean l_sc of those that have one
+} Answers;
+
+Answers answers_of(const Drops *drops);
+bool answers_are_known(const Drops *drops);   // more drops would tell nothing new: `enough`
+
+// Into results: answers, peaks, drops, pad_slidings; peaks alone. length: L.
+void answers_write_json(const Answers *answers, const Drops *drops, double length,
+                        JsonWriter *json);
+void answers_write_peaks(const Answers *answers, const Drops *drops, double length,
+                         JsonWriter *json);
+
+#endif

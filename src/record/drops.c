@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// How far mu falls in an event is its drawdown: from the largest mu, that of the step before
+// included, down to the smallest after it. A bulk sliding is listed when it crosses the interface,
+// also where the run ends before it does; other drops when their event has ended.
+#include "record/drops.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+
+// Relative. On up to 12 pads, single pads that slide lower mu by at most 2.5 % in parameter set A
+// and 1 % in set B; what makes the whole block give way begins at 8 % and 4.5 %.
+const double LEAST_DROP = 0.05;
+
+enum { FIRST_ROOM = 16 };
+
+static const Drop NOTHING_SEEN = {
+    .mu = -INFINITY, .mu_after = INFINITY, .front_uncertified = NAN, .front_growth = NAN};
+
+bool drops_create(const Events *events, double tolerance, Drops *drops, Error *err)
+{
+    *drops = (Drops){.events = events,
+                     .tolerance = tolerance,
+                     .room = FIRST_ROOM,
+                     .rising = NOTHING_SEEN,
+                     .top = -INFINITY,
+                     .mu_max = -INFINITY};
+    drops->list = NEW_ARRAY(Drop, FIRST_ROOM, err);
+    drops->series = NEW_ARRAY(SeriesItem, FIRST_ROOM, err);
+    return error_is_clean(err);
+}
+
+void drops_destroy(Drops *drops)
+{
+    memory_free(drops->list);
+    memory_free(drops->series);
+    *drops = (Drops){0};
+}
+
+// --- recording ----------------------------------------------------------------------------------
+
+// `rising` joins the list, and what follows starts anew. ERROR_MEMORY leaves the list as it was.
+static bool push_drop(Drops *drops, Error *err)
+{
+    int32_t room = drops->room;
+    SeriesItem *series =
+        memory_grow(drops->series, drops->count, &room, sizeof *drops->series, err);
+    if (!series) return false;
+    drops->series = series;
+    Drop *list = memory_grow(drops->list, drops->count, &drops->room, sizeof *drops->list, err);
+    if (!list) return false;
+    drops->list = list;
+    list[drops->count++] = drops->rising;
+    drops->rising = NOTHING_SEEN;
+    return true;
+}
+
+// In the event under way. A block that the rod pulls (mu below 0) holds nothing that could drop.
+static bool has_fallen(const Drops *drops)
+{
+    return drops->top > 0 && drops->fall >= LEAST_DROP * drops->top;
+}
+
+static void rise(Drop *rising, const Observation *seen)
+{
+    if (seen->mu <= rising->mu) return;
+    rising->mu = seen->mu;
+    rising->U = seen->U;
+}
+
+// The largest mu is that before the force falls: what it does after that, while the event goes on,
+// says nothing of what the contact holds.
+static void follow_rise(Drops *drops, const Observation *seen)
+{
+    Drop *rising = &drops->rising;
+    if (!has_fallen(drops)) rise(rising, seen);
+    if (!seen->certified && isnan(rising->front_uncertified))
+        rising->front_uncertified = seen->front;
+    if (seen->grows && isnan(rising->front_growth)) rising->front_growth = seen->front;
+}
+
+static void follow_fall(Drops *drops, const Observation *seen)
+{
+    drops->top = fmax(drops->top, seen->mu);
+    drops->fall = fmax(drops->fall, drops->top - seen->mu);
+    drops->rising.mu_after = fmin(drops->rising.mu_after, seen->mu);
+}
+
+// In a step without an event, and when one has ended: the next may begin in the very next step.
+static void forget_fall(Drops *drops, const Observation *seen)
+{
+    drops->top = seen->mu;
+    drops->fall = 0;
+    drops->rising.mu_after = INFINITY;
+    rise(&drops->rising, seen);
+}
+
+static int32_t count_slid(const Events *events, const Interface *interface)
+{
+    int32_t slid = 0;
+    for (int32_t p = 0; p < interface->pad_count; p++)
+        slid += events_pad_slid(events, interface, p);
+    return slid;
+}
+
+// The event of this step makes a drop, of these kinds.
+static bool add_drop(Drops *drops, const Observation *seen, bool bulk, Error *err)
+{
+    Drop *rising = &drops->rising;
+    rising->event = drops->events->count - 1;
+    rising->front = drops->events->list[rising->event].front_start;
+    rising->pads = count_slid(drops->events, seen->interface);
+    rising->bulk = bulk;
+    rising->load = bulk || has_fallen(drops);
+    return !(rising->load || rising->pads > 0) || push_drop(drops, err);
+}
+
+// While the whole block slides nothing rises: mu then says nothing of static friction.
+bool drops_record(void *self, const Observation *seen, Error *err)
+{
+    Drops *drops = self;
+    const Events *events = drops->events;
+    bool in_event = events->rapid >= 0 || events->ended;   // the last of the list
+    bool sliding = in_event && events->list[events->count - 1].kind == EVENT_LEADING;
+    drops->mu_max = fmax(drops->mu_max, seen->mu);
+    if (in_event) follow_fall(drops, seen);
+    if (events->crossed) {
+        if (seen->grows && isnan(drops->rising.front_growth))
+            drops->rising.front_growth = seen->front;
+        TRY(add_drop(drops, seen, true, err));
+    } else if (sliding) {
+        Drop *drop = &drops->list[drops->count - 1];
+        drop->mu_after = fmin(drop->mu_after, seen->mu);
+    } else {
+        follow_rise(drops, seen);
+        if (events->ended) TRY(add_drop(drops, seen, false, err));
+    }
+    if (!in_event || events->ended) forget_fall(drops, seen);
+cleanup:
+    return error_is_clean(err);
+}
+
+// --- reading ------------------------------------------------------------------------------------
+
+bool drop_is(const Drop *drop, DropKind kind)
+{
+    switch (kind) {
+    case DROP_BULK:
+        return drop->bulk;
+    case DROP_LOAD:
+        return drop->load;
+    default:
+        return drop->pads > 0;
+    }
+}
+
+int32_t drops_count(const Drops *drops, DropKind kind)
+{
+    int32_t count = 0;
+    for (int32_t k = 0; k < drops->count; k++) count += drop_is(&drops->list[k], kind);
+    return count;
+}
+
+Drop drops_as(const Drops *drops, DropKind kind, int32_t k)
+{
+    Drop drop = drops->list[k];
+    for (int32_t j = k - 1; j >= 0 && !drop_is(&drops->list[j], kind); j--) {
+        const Drop *before = &drops->list[j];
+        if (before->mu >= drop.mu) {
+            drop.mu = before->mu;
+            drop.U = before->U;
+        }
+        if (!isnan(before->front_uncertified)) drop.front_uncertified = before->front_uncertified;
+        if (!isnan(before->front_growth)) drop.front_growth = before->front_growth;
+    }
+    return drop;
+}
+
+int32_t drops_series(const Drops *drops, DropKind kind, int32_t first)
+{
+    int32_t count = 0;
+    for (int32_t k = first; k < drops->count; k++) {
+        if (!drop_is(&drops->list[k], kind)) continue;
+        Drop drop = drops_as(drops, kind, k);
+        drops->series[count++] = (SeriesItem){drop.mu, drop.pads};
+    }
+    return count;
+}

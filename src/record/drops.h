@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The list of drops. A drop is a rapid event in which mu falls by LEAST_DROP of itself or more, or
+// in which a pad or the whole block slides. Everything that a run is asked about its load is read
+// off this one list, as three kinds of drops:
+//   bulk slidings   every contact node has slipped; the largest mu before each is a peak
+//   load drops      what a load cell sees: a bulk sliding, or mu falls by LEAST_DROP or more. A
+//                   block on pads may have them without ever sliding as a whole
+//   pad slidings    some pads slid over all their length, also where their neighbours took over
+//                   the load and mu hardly fell
+// Fed after record/events; read by record/answers.
+#ifndef AMONTONS_RECORD_DROPS_H
+#define AMONTONS_RECORD_DROPS_H
+
+#include "record/events.h"
+#include "record/series.h"
+
+typedef enum DropKind { DROP_BULK, DROP_LOAD, DROP_PADS } DropKind;
+
+typedef struct Drop {
+    double U, mu;   // the largest mu since the drop before, and where it was; length, 1
+    double mu_after;   // the smallest mu of the event
+    int32_t event;   // its number in the list of events
+    int32_t pads;   // that slid over all their length in it
+    bool bulk, load;   // of these kinds; every bulk sliding is a load drop
+    double front;   // l when the event began: for a bulk sliding l_c from the dynamics, length
+    // l when the certificate was first lost (l_sc) and when real growth was first seen (l_c from
+    // the rates) since the drop before, length; NaN: not seen.
+    double front_uncertified, front_growth;
+} Drop;
+
+typedef struct Drops {
+    const Events *events;   // not owned
+    double tolerance;   // drops agree within this, relative
+    int32_t count, room;
+    Drop *list;   // [count] in order of time; owned
+    SeriesItem *series;   // [room] work; owned
+    Drop rising;   // what the next drop holds so far
+    double top;   // the largest mu of the event under way, or of the step before it
+    double fall;   // the largest way down from it
+    double mu_max;   // of all steps
+} Drops;
+
+extern const double LEAST_DROP;
+
+bool drops_create(const Events *events, double tolerance, Drops *drops, Error *err);
+void drops_destroy(Drops *drops);
+bool drops_record(void *self, const Observation *seen, Error *err);   // a Recorder
+
+bool drop_is(const Drop *drop, DropKind kind);
+int32_t drops_count(const Drops *drops, DropKind kind);
+// Drop k of the list as one of this kind: what it holds since the drop before, it holds since the
+// one of the same kind before.
+Drop drops_as(const Drops *drops, DropKind kind, int32_t k);
+// mu of the drops of one kind from number `first` of the list on, into drops->series, their kind
+// the number of pads that slid. Returns how many they are.
+int32_t drops_series(const Drops *drops, DropKind kind, int32_t first);
+
+#endif

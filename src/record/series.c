@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The rule of repetition. A series has period p when its last 2 p + 1 items agree, each with the
+// last one at its place in the round (two whole rounds and the item that begins the third, so that
+// a slow drift does not pass), and when those are a third of the series or more. The first item is
+// the start's and never counts. If two items agree by chance with probability q, this many do with
+// q^(p + 1): period 1 is the likeliest mistake, q^2. Three rounds of every period, q^(2p), would
+// hardly be safer in sum (q = 0.1: 0.010 instead of 0.011 for each item) and would cost p - 1 more
+// items, a cycle of stick and slip each. In a long series a few items agree by chance sooner or
+// later: hence the third.
+//
+// Errors by batch means: sqrt(N) blocks of sqrt(N) successive rounds each. As N grows blocks get
+// longer than any memory of the series and more numerous, so the spread of their means, over the
+// root of their number, tends to the standard error of the mean whatever the correlation
+// (Flegal & Jones, Ann. Stat. 38, 2010). With few blocks it is itself uncertain; it is never taken
+// smaller than that of independent rounds. Quantiles are interpolated between order statistics;
+// the error of a quantile is that of the share of items below it, read off the same curve.
+#include "record/series.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { ROUNDS = 2, REPEATING_PART = 3 };
+enum { START_PART = 4 };   // without a period, the first of so many parts is the start's
+static const double LOWEST = 0.1;
+
+// --- repetition ---------------------------------------------------------------------------------
+
+static bool agree(const SeriesItem *item, const SeriesItem *later, double tolerance)
+{
+    return item->kind == later->kind &&
+           fabs(item->value - later->value) <= tolerance * fabs(later->value);
+}
+
+// The last items that agree with the last one at their place in a round; at least `period`.
+static int32_t count_agreeing(const SeriesItem *items, int32_t count, int32_t period,
+                              double tolerance)
+{
+    int32_t last = count - 1, agreeing = period;
+    for (int32_t k = last - period; k >= 1; k--) {
+        if (!agree(&items[k], &items[last - (last - k) % period], tolerance)) break;
+        agreeing++;
+    }
+    return agreeing;
+}
+
+SeriesRegime series_regime(const SeriesItem *items, int32_t count, double tolerance)
+{
+    for (int32_t period = 1; period <= SERIES_PERIOD_MAX; period++) {
+        int32_t agreeing = count_agreeing(items, count, period, tolerance);
+        if (agreeing > ROUNDS * period && REPEATING_PART * agreeing >= count)
+            return (SeriesRegime){.period = period, .count = agreeing - agreeing % period};
+    }
+    int32_t start = count / START_PART;
+    if (start == 0 && count > 1) start = 1;
+    return (SeriesRegime){.count = count - start};
+}
+
+// --- mean and decile ----------------------------------------------------------------------------
+
+typedef struct Sample {
+    const SeriesItem *items;
+    int32_t count;
+    double threshold;   // NaN: of the values themselves; else of 1 where a value is at most this
+} Sample;
+
+static double value(const Sample *sample, int32_t k)
+{
+    double x = sample->items[k].value;
+    return isnan(sample->threshold) ? x : (x <= sample->threshold);
+}
+
+// The mean of `blocks` means of `length` successive values each, the last ones of the sample, and
+// its standard error as if those means were independent (NaN for one block).
+static Estimate block_mean(const Sample *sample, int32_t blocks, int32_t length)
+{
+    double mean = 0, square = 0;
+    for (int32_t b = 0; b < blocks; b++) {
+        double sum = 0;
+        for (int32_t k = sample->count - (b + 1) * length; k < sample->count - b * length; k++)
+            sum += value(sample, k);
+        double step = sum / length - mean;
+        mean += step / (b + 1);
+        square += step * (sum / length - mean);
+    }
+    return (Estimate){mean, blocks > 1 ? sqrt(square / (blocks - 1) / blocks) : (double)NAN};
+}
+
+static Estimate mean_of(const Sample *sample, int32_t round)
+{
+    int32_t rounds = sample->count / round, blocks = (int32_t)sqrt(rounds);
+    Estimate mean = block_mean(sample, rounds, round);
+    if (blocks > 1)
+        mean.error = fmax(mean.error, block_mean(sample, blocks, rounds / blocks * round).error);
+    return mean;
+}
+
+Estimate series_mean(const SeriesItem *items, int32_t count, int32_t round)
+{
+    if (count < 1) return (Estimate){NAN, NAN};
+    return mean_of(&(Sample){items, count, NAN}, round);
+}
+
+// The value with `rank` values before it in ascending order. Counts instead of sorting: no memory.
+static double order_statistic(const Sample *sample, int32_t rank)
+{
+    for (int32_t k = 0; k < sample->count; k++) {
+        int32_t less = 0, equal = 0;
+        double x = value(sample, k);
+        for (int32_t j = 0; j < sample->count; j++) {
+            less += value(sample, j) < x;
+            equal += value(sample, j) == x;
+        }
+        if (less <= rank && rank < less + equal) return x;
+    }
+    return NAN;
+}
+
+static double quantile(const Sample *sample, double share)
+{
+    double place = fmin(fmax(share, 0), 1) * (sample->count - 1);
+    int32_t below = (int32_t)place;
+    double part = place - below, low = order_statistic(sample, below);
+    return part > 0 ? low + part * (order_statistic(sample, below + 1) - low) : low;
+}
+
+// The error is half the range that holds the decile with 68 % confidence.
+Estimate series_lowest_decile(const SeriesItem *items, int32_t count)
+{
+    Sample sample = {items, count, NAN};
+    Estimate decile = {NAN, NAN};
+    if (count < 1) return decile;
+    decile.value = quantile(&sample, LOWEST);
+    if (count < 2) return decile;
+    double error = mean_of(&(Sample){items, count, decile.value}, 1).error;
+    decile.error = (quantile(&sample, LOWEST + error) - quantile(&sample, LOWEST - error)) / 2;
+    return decile;
+}
+
+// --- branches -----------------------------------------------------------------------------------
+
+static int compare(const void *left, const void *right)
+{
+    const SeriesItem *a = left, *b = right;
+    if (a->kind != b->kind) return a->kind < b->kind ? -1 : 1;
+    return (a->value > b->value) - (a->value < b->value);
+}
+
+void series_sort(SeriesItem *items, int32_t count)
+{
+    qsort(items, (size_t)count, sizeof *items, compare);
+}
+
+// Single linkage: a branch goes on as long as the next value is within the tolerance of its
+// highest. An infinite tolerance makes one branch of each kind.
+int32_t series_branch(const SeriesItem *sorted, int32_t count, int32_t from, double tolerance,
+                      SeriesBranch *branch)
+{
+    const SeriesItem *first = &sorted[from];
+    double sum = 0;
+    int32_t k = from;
+    *branch = (SeriesBranch){.low = first->value, .high = first->value, .kind = first->kind};
+    for (; k < count && sorted[k].kind == first->kind; k++) {
+        double reach = branch->high + tolerance * fabs(branch->high);
+        if (sorted[k].value > reach) break;
+        branch->high = sorted[k].value;
+        sum += sorted[k].value;
+    }
+    branch->count = k - from;
+    branch->mean = sum / branch->count;
+    return k;
+}

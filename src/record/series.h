@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A series of numbers that comes to repeat itself with some period, or that stays random: which of
+// its items belong to the regime that it has settled to, and what is known of their mean, of their
+// lowest decile and of the values that they return to. Asked by record/answers of drops of mu.
+#ifndef AMONTONS_RECORD_SERIES_H
+#define AMONTONS_RECORD_SERIES_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct SeriesItem {
+    double value;
+    int32_t kind;   // items of different kinds never agree
+} SeriesItem;
+
+typedef struct SeriesRegime {
+    int32_t period;   // items in a round; 0: they do not repeat
+    int32_t count;   // the last items: whole rounds, or without a period all but the start's
+} SeriesRegime;
+
+typedef struct Estimate {
+    double value;   // NaN: no item
+    double error;   // one standard error; NaN: it takes two items, or two rounds of a period
+} Estimate;
+
+// Items that agree; those of one kind whose values lie closer together than a tolerance.
+typedef struct SeriesBranch {
+    double low, mean, high;
+    int32_t kind, count;
+} SeriesBranch;
+
+enum { SERIES_PERIOD_MAX = 8 };
+
+// Two items agree within `tolerance`, relative to the later one.
+SeriesRegime series_regime(const SeriesItem *items, int32_t count, double tolerance);
+
+// Of `count` items in the order in which they came, which are whole rounds of `round` items each;
+// 1: they do not repeat.
+Estimate series_mean(const SeriesItem *items, int32_t count, int32_t round);
+Estimate series_lowest_decile(const SeriesItem *items, int32_t count);
+
+// By kind, then by value. The items from `from` on that make a branch, and the index of the next
+// one's first.
+void series_sort(SeriesItem *items, int32_t count);
+int32_t series_branch(const SeriesItem *sorted, int32_t count, int32_t from, double tolerance,
+                      SeriesBranch *branch);
+
+#endif

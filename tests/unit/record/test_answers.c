@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What is answered from made-up drops, and from a real block whose peaks alternate between two
+// values.
+#include "record/answers.h"
+
+#include "amontons.h"
+#include "drops_by_hand.h"
+
+static void test_nothing(void **state)
+{
+    (void)state;
+    HandDrops hand;
+    hand_drops_begin(&hand);
+    see(&hand, 0.2, SLOW);
+    drop(&hand, 0.3, 0.299, PART);   // a precursor
+    Answers found = answers_of(&hand.drops);
+    assert_true(isnan(found.mu_M.value) && isnan(found.mu_M_spread) && isnan(found.mu_hold.value));
+    assert_true(isnan(found.critical_length) && isnan(found.mu_M_low));
+    assert_true(found.period == 0 && found.peaks == 0 && !found.enough);
+    assert_near("largest", found.mu_max, 0.3, 0);
+    hand_drops_end(&hand);
+}
+
+// The start's drop never counts beside others, even when it agrees. Three that do make a period.
+static void test_settling(void **state)
+{
+    (void)state;
+    const double mu[] = {0.3, 0.302, 0.301, 0.3};
+    const int32_t counted[] = {1, 1, 2, 3};
+    HandDrops hand;
+    hand_drops_begin(&hand);
+    for (int32_t k = 0; k < 4; k++) {
+        hand.run.hand.seen.certified = k < 2;
+        drop(&hand, mu[k], 0.1, ACROSS);
+        hand.run.hand.seen.certified = true;
+        Answers found = answers_of(&hand.drops);
+        assert_int_equal(found.peaks, k + 1);
+        assert_int_equal(found.peaks_counted, counted[k]);
+        assert_int_equal(found.period, k == 3 ? 1 : 0);
+        assert_int_equal(found.enough, k == 3);
+        assert_int_equal(isnan(found.mu_M_spread), k < 2);
+    }
+    Answers found = answers_of(&hand.drops);
+    assert_int_equal(found.first, 1);
+    assert_near("mu_M", found.mu_M.value, 0.301, 1e-15);
+    assert_near("its error", found.mu_M.error, 0.001 / sqrt(3), 1e-15);
+    assert_near("spread", found.mu_M_spread, 0.002, 1e-15);
+    assert_near("holds", found.mu_hold.value, 0.3, 0);
+    assert_near("its error", found.mu_hold.error, 0.001, 1e-15);
+    assert_near("l_c", found.critical_length, 0.25, 0);
+    assert_near("l_sc", found.subcritical_length, 0, 0);
+    hand_drops_end(&hand);
+}
+
+// By turns 7 pads, say, and the whole block: one period rules both answers. mu_M is the mean of the
+// bulk slidings alone, which then repeat after one; the contact holds what the lower drops say.
+static void test_pads_by_turns(void **state)
+{
+    (void)state;
+    HandDrops hand;
+    hand_drops_begin(&hand);
+    drop(&hand, 0.5, 0.1, ACROSS);
+    for (int32_t k = 0; k < 5; k++) {
+        assert_false(answers_are_known(&hand.drops));
+        drop(&hand, k % 2 ? 0.3 + 0.001 * k : 0.25, 0.1, k % 2 ? ACROSS : LEFT);
+    }
+    assert_true(answers_are_known(&hand.drops));
+    Answers found = answers_of(&hand.drops);
+    assert_true(found.regime.period == 2 && found.regime.count == 4);
+    assert_true(found.period == 1 && found.peaks == 3 && found.peaks_counted == 2);
+    assert_near("mu_M", found.mu_M.value, 0.302, 1e-15);
+    assert_near("holds", found.mu_hold.value, 0.25, 0);
+    assert_near("mean", found.mu_drops.value, (0.25 + 0.302) / 2, 1e-15);
+    hand_drops_end(&hand);
+}
+
+// A period in which the block never slides as a whole: the start's peak is not mu_M.
+static void test_parts_only(void **state)
+{
+    (void)state;
+    HandDrops hand;
+    hand_drops_begin(&hand);
+    drop(&hand, 0.5, 0.1, ACROSS);
+    for (int32_t k = 0; k < 3; k++) drop(&hand, 0.3, 0.1, LEFT);
+    Answers found = answers_of(&hand.drops);
+    assert_true(found.enough && found.peaks == 1 && found.peaks_counted == 0);
+    assert_true(found.period == 0 && isnan(found.mu_M.value) && isnan(found.mu_M.error));
+    assert_near("holds", found.mu_hold.value, 0.3, 0);
+    hand_drops_end(&hand);
+}
+
+// No period: all but the first quarter count, and 30 of them are enough once their mean is known to
+// 2 %. mu_M is the mean of the largest mu before each bulk sliding among them, also where only
+// parts slid when it was reached.
+static void test_without_period(void **state)
+{
+    (void)state;
+    HandDrops hand;
+    hand_drops_begin(&hand);
+    for (int32_t k = 0; k < 10; k++) drop(&hand, 0.1, 0.05, LEFT);
+    double sum = 0, largest = 0;
+    for (int32_t k = 0; k < 30; k++) {
+        double mu = 0.3 + 0.01 * ((7 * k * k) % 20);
+        drop(&hand, mu, 0.1, k % 3 ? LEFT : ACROSS);
+        largest = fmax(largest, mu);
+        if (k % 3) continue;
+        sum += largest;
+        largest = 0;
+    }
+    Answers found = answers_of(&hand.drops);
+    assert_true(found.regime.period == 0 && found.regime.count == 30 && found.peaks_counted == 10);
+    assert_near("mu_M", found.mu_M.value, sum / 10, 1e-12);
+    // By numpy: mean, std(ddof=1), quantile(0.1) of these 30, and five blocks of six.
+    assert_near("of all", found.mu_drops.value, 0.375, 1e-9);
+    assert_near("its error", found.mu_drops.error, 0.00818956442781, 1e-9);
+    assert_near("holds", found.mu_hold.value, 0.327, 1e-9);
+    assert_near("its error", found.mu_hold.error, 0.015, 1e-9);
+    assert_false(found.enough);   // 30 of them, but the mean is known to 2.2 % only
+    for (int32_t k = 30; k < 80; k++)
+        drop(&hand, 0.3 + 0.01 * ((7 * k * k) % 20), 0.1, k % 3 ? LEFT : ACROSS);
+    assert_true(answers_are_known(&hand.drops));
+    hand_drops_end(&hand);
+}
+
+// L = 2, set A, at P L = 0.006: slidings by turns at 0.266 and 0.271. A run that stops because its
+// drops repeat says after how many, and mu_M is the mean of whole rounds.
+static void test_block_of_period_two(void **state)
+{
+    (void)state;
+    static const char *const overrides[] = {
+        "mesh.set={length: 2, height: 1, nx: 40, nz: 20}",
+        "rod.height=0.5",
+        "rod.width=0.1",
+        "time.until={U: 0.2, periodic: true}",
+        "output={history: false, fields: none, figures: []}",
+    };
+    Error err = {0};
+    char path[600];
+    Scene *scene = NULL;
+    RunOptions options = {.folder = NULL};
+    RunSummary summary;
+    snprintf(path, sizeof path, "%s/validation/paper/fig1.yaml", getenv("AMONTONS_SOURCE"));
+    if (!amontons_scene_read(path, overrides, 5, &scene, &err) ||
+        !amontons_run(scene, &options, &summary, &err))
+        fail_msg("%s", err.message);
+    assert_int_equal(summary.period, 2);
+    assert_int_equal(summary.drop_period, 2);
+    assert_int_equal(summary.peaks_counted, 4);
+    assert_true(summary.mu_M > summary.mu_hold &&
+                summary.mu_M < summary.mu_hold + summary.mu_M_spread);
+    assert_true(summary.mu_M_error < 0.1 * summary.mu_M_spread);   // rounds agree, branches differ
+    amontons_scene_destroy(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_nothing),        cmocka_unit_test(test_settling),
+        cmocka_unit_test(test_pads_by_turns),  cmocka_unit_test(test_parts_only),
+        cmocka_unit_test(test_without_period), cmocka_unit_test(test_block_of_period_two),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

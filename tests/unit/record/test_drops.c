@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Made-up force curves: which events are drops, of which kinds, and what each drop holds.
+#include "record/drops.h"
+
+#include "base/memory.h"
+#include "drops_by_hand.h"
+
+// Which drops of mu are load drops depends on their size relative to mu alone, whoever slips and at
+// whatever load.
+static void test_least_drop(void **state)
+{
+    (void)state;
+    const double near = 0.01;
+    for (double mu = 0.01; mu < 2; mu *= 7) {
+        HandDrops hand;
+        hand_drops_begin(&hand);
+        drop(&hand, mu, mu * (1 - (1 - near) * LEAST_DROP), PART);
+        assert_int_equal(hand.drops.count, 0);
+        drop(&hand, mu, mu * (1 - (1 + near) * LEAST_DROP), PART);
+        assert_int_equal(hand.drops.count, 1);
+        assert_true(drop_is(&hand.drops.list[0], DROP_LOAD));
+        assert_false(drop_is(&hand.drops.list[0], DROP_PADS));
+        assert_false(drop_is(&hand.drops.list[0], DROP_BULK));
+        hand_drops_end(&hand);
+    }
+}
+
+// Where pads or the whole block slide it is a drop even if mu hardly falls; a bulk sliding is a
+// load drop then, too.
+static void test_kinds(void **state)
+{
+    (void)state;
+    HandDrops hand;
+    hand_drops_begin(&hand);
+    drop(&hand, 0.3, 0.299, LEFT);
+    drop(&hand, 0.3, 0.299, ACROSS);
+    drop(&hand, 0.3, 0.1, LEFT);
+    drop(&hand, 0.3, 0.1, PART);
+    drop(&hand, 0.3, 0.299, PART);
+    assert_int_equal(hand.drops.count, 4);
+    assert_int_equal(drops_count(&hand.drops, DROP_BULK), 1);
+    assert_int_equal(drops_count(&hand.drops, DROP_LOAD), 3);
+    assert_int_equal(drops_count(&hand.drops, DROP_PADS), 3);
+    const int32_t pads[] = {1, 2, 1, 0};
+    for (int32_t k = 0; k < 4; k++) {
+        const Drop *found = &hand.drops.list[k];
+        assert_int_equal(found->pads, pads[k]);
+        assert_int_equal(hand.run.events.list[found->event].kind,
+                         k == 1 ? EVENT_LEADING : EVENT_BOUNDED);
+    }
+    assert_true(hand.drops.list[1].bulk && hand.drops.list[1].load);
+    assert_near("largest", hand.drops.mu_max, 0.3, 0);
+    hand_drops_end(&hand);
+}
+
+// A drop of one kind holds the largest mu, and the first fronts, since the last one of its kind.
+static void test_since_the_last_of_its_kind(void **state)
+{
+    (void)state;
+    HandDrops hand;
+    hand_drops_begin(&hand);
+    drop(&hand, 0.5, 0.1, ACROSS);   // t = 0 to 4
+    hand.run.hand.seen.certified = false;
+    drop(&hand, 0.4, 0.399, LEFT);
+    hand.run.hand.seen.certified = true;
+    hand.run.hand.seen.grows = true;
+    drop(&hand, 0.3, 0.1, PART);
+    drop(&hand, 0.35, 0.1, ACROSS);   // t = 15 to 19
+    Drop peak = drops_as(&hand.drops, DROP_BULK, 3), load = drops_as(&hand.drops, DROP_LOAD, 3);
+    Drop of_pads = drops_as(&hand.drops, DROP_PADS, 3);
+    assert_near("since the bulk sliding", peak.mu, 0.4, 0);
+    assert_near("where", peak.U, 0.6, 1e-15);
+    assert_near("l_sc", peak.front_uncertified, 0, 0);   // at rest
+    assert_near("l_c from the rates", peak.front_growth, 0, 0);
+    assert_near("l_c", peak.front, 0.25, 0);
+    assert_near("since the load drop", load.mu, 0.35, 0);
+    assert_true(isnan(load.front_uncertified));
+    assert_near("since a pad slid", of_pads.mu, 0.399, 0);
+    assert_near("list", hand.drops.list[3].mu, 0.35, 0);
+    // Two bulk slidings, three load drops, three of pads.
+    assert_int_equal(drops_series(&hand.drops, DROP_BULK, 0), 2);
+    assert_near("series", hand.drops.series[1].value, 0.4, 0);
+    assert_int_equal(hand.drops.series[1].kind, 2);
+    assert_int_equal(drops_series(&hand.drops, DROP_LOAD, 0), 3);
+    assert_near("series", hand.drops.series[1].value, 0.4, 0);
+    assert_int_equal(drops_series(&hand.drops, DROP_PADS, 2), 1);
+    hand_drops_end(&hand);
+}
+
+// What sinks slowly does not drop. Within an event mu may rise before it falls, and rise again
+// after: the top before the fall counts. A drop that is not a bulk sliding is known when its event
+// has ended.
+static void test_within_an_event(void **state)
+{
+    (void)state;
+    HandDrops hand;
+    hand_drops_begin(&hand);
+    see(&hand, 0.3, REST);
+    see(&hand, 0.1, REST);
+    see(&hand, 0.2, LEFT);
+    see(&hand, 0.31, LEFT);
+    see(&hand, 0.2, LEFT);
+    see(&hand, 0.4, LEFT);
+    assert_int_equal(hand.drops.count, 0);
+    see(&hand, 0.39, REST);
+    assert_int_equal(hand.drops.count, 1);
+    assert_near("top", hand.drops.list[0].mu, 0.31, 0);
+    assert_near("after", hand.drops.list[0].mu_after, 0.2, 0);
+    hand_drops_end(&hand);
+}
+
+// A bulk sliding is known when it has crossed the interface; whatever mu does then is no peak.
+static void test_bulk_sliding(void **state)
+{
+    (void)state;
+    HandDrops hand;
+    hand_drops_begin(&hand);
+    see(&hand, 0.2, REST);
+    hand.run.hand.seen.certified = false;
+    see(&hand, 0.4, SLOW);   // t = 1
+    see(&hand, 0.39, PART);
+    assert_int_equal(hand.drops.count, 0);
+    hand.run.hand.seen.grows = true;
+    see(&hand, 0.385, ACROSS);
+    assert_int_equal(hand.drops.count, 1);
+    const Drop *peak = &hand.drops.list[0];
+    assert_near("mu", peak->mu, 0.4, 0);
+    assert_near("U", peak->U, 0.1, 1e-15);
+    assert_near("l_c", peak->front, 0.25, 0);
+    assert_near("l_sc", peak->front_uncertified, 0.25, 0);
+    assert_near("l_c from the rates", peak->front_growth, 1, 0);   // seen while it crossed
+    see(&hand, 0.8, ACROSS);
+    see(&hand, 0.1, ACROSS);
+    hand.run.hand.seen.grows = false;
+    hand.run.hand.seen.certified = true;
+    see(&hand, 0.15, REST);
+    assert_int_equal(hand.drops.count, 1);
+    assert_near("mu", peak->mu, 0.4, 0);
+    assert_near("after", peak->mu_after, 0.1, 0);
+    assert_near("largest", hand.drops.mu_max, 0.8, 0);
+    drop(&hand, 0.3, 0.1, ACROSS);
+    assert_near("next", hand.drops.list[1].mu, 0.3, 0);
+    assert_true(isnan(hand.drops.list[1].front_uncertified));
+    hand_drops_end(&hand);
+}
+
+// An event that begins in the step after another has ended falls from where that one ended.
+static void test_one_event_after_the_other(void **state)
+{
+    (void)state;
+    HandDrops hand;
+    hand_drops_begin(&hand);
+    drop(&hand, 0.5, 0.3, PART);   // ends at 0.3
+    see(&hand, 0.2, PART);
+    see(&hand, 0.2, REST);
+    assert_int_equal(hand.drops.count, 2);
+    assert_near("mu", hand.drops.list[1].mu, 0.3, 0);
+    assert_near("after", hand.drops.list[1].mu_after, 0.2, 0);
+    see(&hand, 0.199, PART);   // not from 0.5: no drop
+    see(&hand, 0.199, REST);
+    assert_int_equal(hand.drops.count, 2);
+    hand_drops_end(&hand);
+}
+
+// A rod that pulls, or none.
+static void test_no_load(void **state)
+{
+    (void)state;
+    HandDrops hand;
+    hand_drops_begin(&hand);
+    drop(&hand, 0, 0, PART);
+    drop(&hand, -0.1, -0.3, PART);
+    assert_int_equal(hand.drops.count, 0);
+    hand_drops_end(&hand);
+}
+
+static void test_memory_faults(void **state)
+{
+    (void)state;
+    Error err = {0};
+    HandDrops hand;
+    hand_drops_begin(&hand);
+    int64_t live = memory_counters().live;
+    for (int32_t k = 0; k < 2; k++) {
+        Drops drops;
+        memory_fail_after(k);
+        assert_false(drops_create(&hand.run.events, 1e-2, &drops, &err));
+        memory_fail_after(-1);
+        assert_int_equal(err.code, ERROR_MEMORY);
+        error_clear(&err);
+        drops_destroy(&drops);
+        assert_int_equal(memory_counters().live, live);
+    }
+    while (hand.drops.count < hand.drops.room) drop(&hand, 0.3, 0.1, ACROSS);
+    int32_t full = hand.drops.count;
+    for (int32_t k = 0; k < 2; k++) {   // the next drop needs room, twice
+        see(&hand, 0.3, REST);
+        const Observation *seen = hand_seen(&hand.run.hand, hand.run.time++, ACROSS);
+        assert_true(events_record(&hand.run.events, seen, &err));
+        memory_fail_after(k);
+        assert_false(drops_record(&hand.drops, seen, &err));
+        memory_fail_after(-1);
+        assert_int_equal(err.code, ERROR_MEMORY);
+        error_clear(&err);
+        assert_int_equal(hand.drops.count, full);
+        see(&hand, 0.1, REST);
+    }
+    for (int32_t k = 0; k < 100; k++) drop(&hand, 0.3 + 1e-3 * k, 0.1, ACROSS);
+    assert_int_equal(hand.drops.count, full + 100);
+    for (int32_t k = 0; k < 100; k++)
+        assert_near("mu", hand.drops.list[full + k].mu, 0.3 + 1e-3 * k, 0);
+    hand_drops_end(&hand);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_least_drop),
+        cmocka_unit_test(test_kinds),
+        cmocka_unit_test(test_since_the_last_of_its_kind),
+        cmocka_unit_test(test_within_an_event),
+        cmocka_unit_test(test_bulk_sliding),
+        cmocka_unit_test(test_one_event_after_the_other),
+        cmocka_unit_test(test_no_load),
+        cmocka_unit_test(test_memory_faults),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

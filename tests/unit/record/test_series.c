@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Series of letters, whose periods are told by eye; of random ones, which repeat by chance as often
+// as combinatorics says; and of numbers whose mean, decile and errors are known: an arithmetic
+// ladder, a constant, and an autoregressive series of first order, whose mean has
+// sqrt((1 + a) / (1 - a)) times the error of independent items.
+#include "record/series.h"
+
+#include "near.h"
+#include "random_numbers.h"
+
+enum { LONG = 4096 };
+
+static SeriesItem items[LONG];
+
+// --- repetition ---------------------------------------------------------------------------------
+
+// Values are a letter's place in the alphabet, in hundreds: neighbours differ by 1 to 50 per cent.
+static void expect(const char *letters, int32_t period, int32_t counted)
+{
+    int32_t count = (int32_t)strlen(letters);
+    for (int32_t k = 0; k < count; k++) items[k] = (SeriesItem){.value = 100 * (letters[k] - '`')};
+    SeriesRegime found = series_regime(items, count, 1e-3);
+    if (found.period != period || found.count != counted)
+        fail_msg("%s: period %d of %d items", letters, found.period, found.count);
+}
+
+static void test_periods(void **state)
+{
+    (void)state;
+    expect("xaaa", 1, 3);
+    expect("aaa", 0, 2);   // the first item is the start's in any case
+    expect("aaaa", 1, 3);
+    expect("xabaaa", 1, 3);
+    expect("xabab", 0, 4);
+    expect("xababa", 2, 4);   // two whole rounds; the item that begins the third completes none
+    expect("xbababa", 2, 6);
+    expect("xccababa", 2, 4);
+    expect("xabcabca", 3, 6);
+    expect("xaabaaba", 3, 6);
+    expect("xabcdefghabcdefgha", 8, 16);
+    expect("xabcdefghiabcdefghia", 0, 15);   // nine is more than is looked for
+}
+
+// What repeats must be a third of the series; without a period the first quarter is the start's.
+static void test_share(void **state)
+{
+    (void)state;
+    expect("abcdefaaa", 1, 3);
+    expect("abcdefgaaa", 0, 8);
+    expect("abcdefgaaaa", 1, 4);
+    expect("", 0, 0);
+    expect("a", 0, 1);
+    expect("ab", 0, 1);
+    expect("abcdefgh", 0, 6);
+}
+
+// Items of different kinds do not agree, whatever their values.
+static void test_kinds(void **state)
+{
+    (void)state;
+    for (int32_t k = 0; k < 8; k++) items[k] = (SeriesItem){.value = 1, .kind = k % 2};
+    assert_int_equal(series_regime(items, 8, 1e-2).period, 2);
+    for (int32_t k = 0; k < 8; k++) items[k].kind = 0;
+    assert_int_equal(series_regime(items, 8, 1e-2).period, 1);
+}
+
+// Every item is judged by the last one at its place: a drift ends the regime, even where each step
+// of it is small.
+static void test_drift(void **state)
+{
+    (void)state;
+    for (int32_t period = 1; period <= 2; period++) {
+        for (int32_t k = 0; k < 12; k++)
+            items[k].value = (1 + 0.004 * (k / period)) * (k % period ? 1.2 : 1);
+        SeriesRegime found = series_regime(items, 12, 0.01);
+        assert_int_equal(found.period, period == 1 ? 0 : 2);   // 3 of 12, 6 of 12
+    }
+    for (int32_t k = 0; k < 9; k++) items[k].value = 1 + 0.004 * k;
+    SeriesRegime found = series_regime(items, 9, 0.01);
+    assert_true(found.period == 1 && found.count == 3);   // 0.8 % off, 1.2 % is too much
+}
+
+// With n equally likely values two items agree with q = 1/n: three in a row with q^2, and of five,
+// those at odd and those at even places (but not all of them) with q^3 - q^4.
+static void test_chance(void **state)
+{
+    (void)state;
+    const int32_t trials = 40000;
+    Random random = {5};
+    for (int32_t n = 2; n <= 4; n++) {
+        double q = 1.0 / n, once = q * q, twice = q * q * q * (1 - q);
+        int32_t found_once = 0, found_twice = 0;
+        for (int32_t trial = 0; trial < trials; trial++) {
+            for (int32_t k = 0; k < 6; k++) items[k].value = 1 + (int)random_between(&random, 0, n);
+            found_once += series_regime(items, 4, 1e-3).period > 0;
+            found_twice += series_regime(items, 6, 1e-3).period == 2;
+        }
+        assert_near("one value", found_once / (double)trials, once, 4 * sqrt(once / trials));
+        assert_near("two by turns", found_twice / (double)trials, twice, 4 * sqrt(twice / trials));
+    }
+}
+
+// --- mean and decile ----------------------------------------------------------------------------
+
+static void set_values(const double *values, int32_t count)
+{
+    for (int32_t k = 0; k < count; k++) items[k] = (SeriesItem){.value = values[k]};
+}
+
+// 0, 1, ..., 10 in any order: quantiles are linear in between.
+static void test_ladder(void **state)
+{
+    (void)state;
+    set_values((double[]){7, 0, 10, 3, 5, 1, 9, 2, 8, 4, 6}, 11);
+    Estimate mean = series_mean(items, 11, 1), decile = series_lowest_decile(items, 11);
+    assert_near("mean", mean.value, 5, 1e-14);
+    assert_near("decile", decile.value, 1, 1e-14);
+    // sqrt(11) over sqrt(11); the blocks of three behind the first two, 6, 4 and 6, say less.
+    assert_near("error", mean.error, 1, 1e-14);
+    assert_near("between the lowest two", series_lowest_decile(items, 4).value, 0.9, 1e-14);
+}
+
+static void test_few(void **state)
+{
+    (void)state;
+    set_values((double[]){2, 2, 2, 2, 2}, 5);
+    assert_true(isnan(series_mean(items, 0, 1).value));
+    assert_true(isnan(series_lowest_decile(items, 0).value));
+    Estimate mean = series_mean(items, 1, 1), decile = series_lowest_decile(items, 1);
+    assert_true(mean.value == 2 && decile.value == 2 && isnan(mean.error) && isnan(decile.error));
+    mean = series_mean(items, 5, 1);
+    decile = series_lowest_decile(items, 5);
+    assert_true(mean.error == 0 && decile.error == 0);
+}
+
+// 1, 2 and 1.2, 2.2: two rounds whose means are 1.5 and 1.7. What differs within a round is no
+// error of the mean.
+static void test_rounds(void **state)
+{
+    (void)state;
+    set_values((double[]){1, 2, 1.2, 2.2}, 4);
+    Estimate mean = series_mean(items, 4, 2);
+    assert_near("mean", mean.value, 1.6, 1e-15);
+    assert_near("error", mean.error, 0.1, 1e-15);   // 0.1 sqrt(2) over sqrt(2)
+}
+
+// 4096 independent draws: mean 1/2, decile 1/10, errors sqrt(1/12/N) and sqrt(0.09/N).
+static void test_independent(void **state)
+{
+    (void)state;
+    Random random = {7};
+    for (int32_t k = 0; k < LONG; k++) items[k].value = random_between(&random, 0, 1);
+    Estimate mean = series_mean(items, LONG, 1), decile = series_lowest_decile(items, LONG);
+    double error = sqrt(1. / 12 / LONG), error_decile = sqrt(0.09 / LONG);
+    assert_near("mean", mean.value, 0.5, 3 * error);
+    assert_near("its error", mean.error / error, 1, 0.3);   // 64 blocks tell it to 9 %
+    assert_near("decile", decile.value, 0.1, 3 * error_decile);
+    assert_near("its error", decile.error / error_decile, 1, 0.3);
+}
+
+// x_k+1 = a x_k + noise, a = 0.8: three times the error that independent items would have; with
+// rounds of 4 of them as well.
+static void test_correlated(void **state)
+{
+    (void)state;
+    double x = 0;
+    Random random = {11};
+    for (int32_t k = 0; k < LONG; k++) {
+        x = 0.8 * x + random_between(&random, 0, 1) - 0.5;
+        items[k].value = x;
+    }
+    double error = 3 * sqrt(1. / 12 / (1 - 0.64) / LONG);
+    for (int32_t round = 1; round <= 4; round += 3) {
+        Estimate mean = series_mean(items, LONG, round);
+        assert_near("its error", mean.error / error, 1, 0.3);
+        assert_near("mean", mean.value, 0, 3 * error);
+    }
+}
+
+// --- branches -----------------------------------------------------------------------------------
+
+static void expect_branch(int32_t *from, int32_t kind, int32_t count, double low, double high)
+{
+    SeriesBranch branch;
+    *from = series_branch(items, 7, *from, 0.01, &branch);
+    assert_true(branch.kind == kind && branch.count == count);
+    assert_near("low", branch.low, low, 0);
+    assert_near("high", branch.high, high, 0);
+    assert_true(branch.mean >= low - 1e-15 && branch.mean <= high + 1e-15);   // rounded
+}
+
+// A branch goes on as long as the next value is near its highest, and holds one kind.
+static void test_branches(void **state)
+{
+    (void)state;
+    const SeriesItem given[] = {{1.018, 0}, {3, 0},    {1.009, 0}, {2, 1},
+                                {1, 0},     {3.01, 1}, {3.02, 1}};
+    memcpy(items, given, sizeof given);
+    series_sort(items, 7);
+    int32_t k = 0;
+    expect_branch(&k, 0, 3, 1, 1.018);
+    expect_branch(&k, 0, 1, 3, 3);
+    expect_branch(&k, 1, 1, 2, 2);
+    expect_branch(&k, 1, 2, 3.01, 3.02);
+    assert_int_equal(k, 7);
+    SeriesBranch every;
+    assert_int_equal(series_branch(items, 7, 0, INFINITY, &every), 4);
+    assert_near("mean", every.mean, (1 + 1.009 + 1.018 + 3) / 4, 1e-15);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_periods),     cmocka_unit_test(test_share),
+        cmocka_unit_test(test_kinds),       cmocka_unit_test(test_drift),
+        cmocka_unit_test(test_chance),      cmocka_unit_test(test_ladder),
+        cmocka_unit_test(test_few),         cmocka_unit_test(test_rounds),
+        cmocka_unit_test(test_independent), cmocka_unit_test(test_correlated),
+        cmocka_unit_test(test_branches),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
