@@ -223,11 +223,15 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Every edge of a named curve must be an edge of an element, with the same mid-side node.
+// Every edge of a named curve must be an edge of an element, with the same mid-side node, and be
+// listed once: a load acts as often as its edge is listed.
 static bool check_curves(const Mesh *mesh, Error *err)
 {
     MeshEdges table = {0};
+    int32_t *listed = NULL;   // by edge of the table: the last group that lists it, + 1
     TRY(mesh_edges_build(mesh, &table, err));
+    listed = NEW_ARRAY(int32_t, table.first[mesh->node_count], err);
+    if (!listed) goto cleanup;
     for (int32_t g = 0; g < mesh->group_count; g++) {
         const MeshGroup *group = &mesh->groups[g];
         for (int32_t k = 0; k < group->edge_count; k++) {
@@ -242,10 +246,74 @@ static bool check_curves(const Mesh *mesh, Error *err)
                     mesh->path, group->name, (long long)mesh->node_number[nodes[0]],
                     (long long)mesh->node_number[nodes[1]], mesh->position[2 * nodes[0]],
                     mesh->position[2 * nodes[0] + 1]);
+            int32_t *last = &listed[edge - table.edges];
+            if (*last == g + 1)
+                FAIL(err, ERROR_INPUT,
+                     "%s: group '%s' has its edge from node %lld to %lld at (%g, %g) twice: a load "
+                     "on it would act twice (a curve named twice, or once more reversed, in the "
+                     "physical group?)",
+                     mesh->path, group->name, (long long)mesh->node_number[nodes[0]],
+                     (long long)mesh->node_number[nodes[1]], mesh->position[2 * nodes[0]],
+                     mesh->position[2 * nodes[0] + 1]);
+            *last = g + 1;
         }
     }
 cleanup:
+    memory_free(listed);
     mesh_edges_destroy(&table);
+    return error_is_clean(err);
+}
+
+// The first node of i's part; halves the way for the next who asks.
+static int32_t part_of(int32_t *parent, int32_t i)
+{
+    while (parent[i] != i) {
+        parent[i] = parent[parent[i]];
+        i = parent[i];
+    }
+    return i;
+}
+
+// The box of the part that `root` stands for, in `text`.
+static void describe_part(const Mesh *mesh, int32_t *parent, int32_t root, char text[160])
+{
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    int32_t nodes = 0;
+    for (int32_t i = 0; i < mesh->node_count; i++) {
+        if (part_of(parent, i) != root) continue;
+        nodes++;
+        for (int32_t d = 0; d < 2; d++) {
+            low[d] = fmin(low[d], mesh->position[2 * i + d]);
+            high[d] = fmax(high[d], mesh->position[2 * i + d]);
+        }
+    }
+    snprintf(text, 160, "%d nodes in x = %g ... %g, z = %g ... %g", nodes, low[0], high[0], low[1],
+             high[1]);
+}
+
+// One block: all elements hang together by their nodes. Parts that only touch share none.
+static bool check_one_part(const Mesh *mesh, Error *err)
+{
+    int32_t *parent = NEW_ARRAY(int32_t, mesh->node_count, err);
+    if (!parent) goto cleanup;
+    for (int32_t i = 0; i < mesh->node_count; i++) parent[i] = i;
+    for (int32_t e = 0; e < mesh->element_count; e++)
+        for (int32_t k = mesh->first_node[e] + 1; k < mesh->first_node[e + 1]; k++) {
+            int32_t one = part_of(parent, mesh->element_nodes[k - 1]);
+            parent[part_of(parent, mesh->element_nodes[k])] = one;
+        }
+    for (int32_t i = 1; i < mesh->node_count; i++) {
+        if (part_of(parent, i) == part_of(parent, 0)) continue;
+        char first[160], second[160];
+        describe_part(mesh, parent, part_of(parent, 0), first);
+        describe_part(mesh, parent, part_of(parent, i), second);
+        FAIL(err, ERROR_INPUT,
+             "%s: the mesh has parts that share no node, and a scene is one block: %s, and %s (let "
+             "them share points and lines in the .geo, or say `Coherence;`, `Coherence Mesh;`)",
+             mesh->path, first, second);
+    }
+cleanup:
+    memory_free(parent);
     return error_is_clean(err);
 }
 
@@ -262,6 +330,7 @@ bool mesh_build(MeshFile *file, const char *path, Mesh *mesh, Error *err)
     TRY(check_repeats(mesh, err));
     TRY(check_orientation(mesh, err));
     TRY(check_curves(mesh, err));
+    TRY(check_one_part(mesh, err));
     for (int32_t g = 0; g < mesh->group_count; g++)
         mesh_sort_nodes(mesh, mesh->groups[g].nodes, mesh->groups[g].node_count);
 cleanup:

@@ -13,7 +13,8 @@ enum { MESH_PATH_SIZE = 1024 };
 
 // A checked mesh: every element counter-clockwise, with a positive Jacobian determinant at its
 // nodes and quadrature points; every node on an element; no node twice in one element; no edge on
-// more than two elements; every edge of a curve group is an edge of an element.
+// more than two elements; every edge of a curve group is an edge of an element, listed
+// once; all elements in one part.
 typedef struct Mesh {
     char path[MESH_PATH_SIZE];   // of the file, for messages
     int32_t node_count;
@@ -57,7 +58,8 @@ typedef struct MeshContact {
 // them. A mesh that is clockwise throughout (its surface was reversed in gmsh) is turned round.
 // Errors (ERROR_INPUT) name `path` and where: an element with non-positive area, one that repeats a
 // node, a clockwise element among others, a node on no element, an edge of three elements, elements
-// of different order side by side, a curve group that does not follow the elements.
+// of different order side by side, a curve group that does not follow the elements or lists an
+// edge twice, parts that share no node.
 bool mesh_build(MeshFile *file, const char *path, Mesh *mesh, Error *err);
 void mesh_destroy(Mesh *mesh);
 

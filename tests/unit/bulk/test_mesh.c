@@ -349,10 +349,39 @@ static void test_block_grading(void **state)
     }
 }
 
+// The same edge again, the other way round: a load on it would act twice.
+static void test_edge_listed_twice(void **state)
+{
+    (void)state;
+    static const int32_t twice[][2] = {{1, 2}, {0, 1}, {2, 1}};
+    MeshFile file = hand_mesh(6, PLACES, ELEMENT_Q4, 2, SQUARES);
+    hand_curve(&file, "top", 3, twice);
+    build_badly(&file, "group 'top'", "twice", "(2, 0)");
+    file = hand_mesh(6, PLACES, ELEMENT_Q4, 2, SQUARES);   // in two groups it is no mistake
+    hand_curve(&file, "bottom", 2, BOTTOM);
+    hand_curve(&file, "contact", 2, BOTTOM);
+    Error err = {0};
+    Mesh mesh;
+    assert_true(mesh_build(&file, "some/block.msh", &mesh, &err));
+    mesh_destroy(&mesh);
+}
+
+// Two squares side by side with nodes of their own where they touch.
+static void test_two_parts(void **state)
+{
+    (void)state;
+    static const double places[][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1},
+                                       {1, 0}, {3, 0}, {3, 1}, {1, 1}};
+    static const int32_t squares[] = {0, 1, 2, 3, 4, 5, 6, 7};
+    MeshFile file = hand_mesh(8, places, ELEMENT_Q4, 2, squares);
+    build_badly(&file, "share no node", "4 nodes in x = 0 ... 1", "4 nodes in x = 1 ... 3");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_build),          cmocka_unit_test(test_curve_order),
+        cmocka_unit_test(test_build),          cmocka_unit_test(test_edge_listed_twice),
+        cmocka_unit_test(test_two_parts),      cmocka_unit_test(test_curve_order),
         cmocka_unit_test(test_orphan),         cmocka_unit_test(test_repeated_node),
         cmocka_unit_test(test_area),           cmocka_unit_test(test_orientation),
         cmocka_unit_test(test_reversed_kinds), cmocka_unit_test(test_edges),
