@@ -10,12 +10,9 @@
 #define AMONTONS_IO_ARRAY_FILE_H
 
 #include "base/error.h"
-
-#include <stdint.h>
+#include "io/array_types.h"
 
 typedef struct ArrayFile ArrayFile;
-
-typedef enum ArrayType { ARRAY_FLOAT64, ARRAY_FLOAT32, ARRAY_UINT8, ARRAY_INT32 } ArrayType;
 
 ArrayFile *array_file_create(const char *path, Error *err);
 // Opens `path` for reading; where only `path`.part stands, that. Errors name the file.
@@ -26,15 +23,7 @@ bool array_file_close(ArrayFile *file, Error *err);
 // Closes without a final name: what was appended stays in `path`.part. NULL is fine.
 void array_file_abandon(ArrayFile *file);
 
-// A series of rows of `width` values (1: a scalar series), extendable, empty. `name` may hold
-// slashes ("interface/slip_rate"); `unit` and `description` are stored as attributes.
-typedef struct ArraySeries {
-    const char *name;
-    ArrayType type;   // as stored
-    int32_t width;
-    const char *unit;
-    const char *description;
-} ArraySeries;
+// An empty series.
 bool array_file_add_series(ArrayFile *file, const ArraySeries *series, Error *err);
 
 // Appends `rows` rows of doubles, [rows * width], converted to the stored type (integers: the

@@ -5,7 +5,8 @@
 #ifndef AMONTONS_IO_ARRAY_FILE_MODULE_H
 #define AMONTONS_IO_ARRAY_FILE_MODULE_H
 
-#include "io/array_file.h"
+#include "base/error.h"
+#include "io/array_types.h"
 
 typedef struct Hdf5File Hdf5File;   // the module's own; an ArrayFile owns one
 

@@ -11,7 +11,7 @@
 #define AMONTONS_IO_ARRAY_SERIES_H
 
 #include "io/array_disk.h"
-#include "io/array_file.h"
+#include "io/array_types.h"
 
 typedef struct SeriesWriter {
     char *name;   // owned

@@ -4,7 +4,8 @@
 #ifndef AMONTONS_IO_FIELD_FILE_MODULE_H
 #define AMONTONS_IO_FIELD_FILE_MODULE_H
 
-#include "io/field_file.h"
+#include "base/error.h"
+#include "io/field_grid.h"
 
 typedef enum FieldFormat { FIELD_VTU, FIELD_VTP } FieldFormat;
 

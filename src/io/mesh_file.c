@@ -1,24 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What can be told of a mesh file before gmsh sees it is told here: gmsh opens a missing file as an
-// empty model, takes junk for a script, and reads a file cut off inside its last number.
 #include "io/mesh_file.h"
 
 #include "base/memory.h"
-#include "base/module.h"
 #include "base/text.h"
-#include "io/geo_parameters.h"
-#include "io/mesh_raw.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
-// CHUNK_SIZE: bytes read at once when looking for the end mark. HEAD_LINES: how far down the head
-// is looked for (comments may precede it). LIST_SIZE: of the list of groups in a message; what is
-// longer is cut.
-enum { CHUNK_SIZE = 1 << 16, HEAD_LINES = 200, LIST_SIZE = 1200 };
+enum { LIST_SIZE = 1200 };   // of the list of groups in a message; what is longer is cut
 
 int32_t element_node_count(ElementKind kind)
 {
@@ -62,115 +52,6 @@ void mesh_file_destroy(MeshFile *mesh)
     memory_free(mesh->element_nodes);
     memory_free(mesh->groups);
     *mesh = (MeshFile){0};
-}
-
-// --- before gmsh --------------------------------------------------------------------------------
-
-// By the name alone: gmsh, too, goes by the ending.
-static bool ends_with(const char *path, const char *ending)
-{
-    size_t length = strlen(path), wanted = strlen(ending);
-    return length >= wanted && strcmp(path + length - wanted, ending) == 0;
-}
-
-// What the system says of the path, before anybody opens it.
-static bool check_file(const char *path, Error *err)
-{
-    struct stat status;
-    if (stat(path, &status) != 0)
-        FAIL(err, ERROR_INPUT, "%s: cannot be read: %s", path, strerror(errno));
-    if (!S_ISREG(status.st_mode)) FAIL(err, ERROR_INPUT, "%s: is not a file", path);
-    if (status.st_size == 0) FAIL(err, ERROR_INPUT, "%s: is empty", path);
-cleanup:
-    return error_is_clean(err);
-}
-
-// Finds $MeshFormat among the first lines and the version on the line after it.
-static bool read_version(FILE *file, const char *path, double *version, Error *err)
-{
-    char line[256];
-    for (int32_t k = 0; k < HEAD_LINES && fgets(line, sizeof line, file); k++) {
-        if (strncmp(line, "$MeshFormat", strlen("$MeshFormat")) != 0) continue;
-        if (!fgets(line, sizeof line, file) || (*version = strtod(line, NULL)) <= 0)
-            FAIL(err, ERROR_INPUT, "%s: is truncated: no version after $MeshFormat", path);
-        goto cleanup;
-    }
-    FAIL(err, ERROR_INPUT, "%s: is not a gmsh mesh: it has no $MeshFormat (format 4.1 or 2.2)",
-         path);
-cleanup:
-    return error_is_clean(err);
-}
-
-// True when `mark` occurs from the file's present position on.
-static bool file_holds(FILE *file, const char *mark, char *chunk)
-{
-    size_t width = strlen(mark), kept = 0, got = 0;
-    while ((got = fread(chunk + kept, 1, CHUNK_SIZE - kept, file)) > 0) {
-        size_t filled = kept + got;
-        if (memmem(chunk, filled, mark, width)) return true;
-        kept = filled < width - 1 ? filled : width - 1;
-        memmove(chunk, chunk + filled - kept, kept);
-    }
-    return false;
-}
-
-// A .msh must have its head, and the mark that ends the elements: without that mark it was cut off,
-// possibly inside its last number, which gmsh would take as it stands.
-static bool check_msh(const char *path, double *version, Error *err)
-{
-    char *chunk = NULL;
-    FILE *file = fopen(path, "rb");
-    if (!file) FAIL(err, ERROR_INPUT, "%s: cannot be read: %s", path, strerror(errno));
-    TRY(read_version(file, path, version, err));
-    if (!(chunk = NEW_ARRAY(char, CHUNK_SIZE, err))) goto cleanup;
-    if (!file_holds(file, "$EndElements", chunk))
-        FAIL(err, ERROR_INPUT, "%s: is truncated, or was never meshed: it has no $EndElements",
-             path);
-cleanup:
-    memory_free(chunk);
-    if (file) fclose(file);
-    return error_is_clean(err);
-}
-
-// Every parameter given must be one the script takes: gmsh would pass over the others in silence.
-static bool check_geo(const char *path, const MeshParameter *parameters, int32_t count, Error *err)
-{
-    GeoParameters known = {0};
-    TRY(geo_parameters_read(path, &known, err));
-    TRY(geo_parameters_check(&known, path, parameters, count, err));
-cleanup:
-    geo_parameters_destroy(&known);
-    return error_is_clean(err);
-}
-
-bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t parameter_count,
-                    MeshFile *mesh, Error *err)
-{
-    MeshRaw raw = {0};
-    MeshRawRequest request = {.path = path,
-                              .generate = ends_with(path, ".geo"),
-                              .parameters = parameters,
-                              .parameter_count = parameter_count};
-    double version = 0;
-    *mesh = (MeshFile){0};
-    if (!request.generate && !ends_with(path, ".msh"))
-        FAIL(err, ERROR_INPUT, "%s: a mesh is a .msh or a .geo file", path);
-    TRY(check_file(path, err));
-    if (request.generate)
-        TRY(check_geo(path, parameters, parameter_count, err));
-    else
-        TRY(check_msh(path, &version, err));
-    if (!request.generate && parameter_count > 0)
-        FAIL(err, ERROR_INPUT, "%s: parameters ('%s') need a .geo; a .msh is meshed already", path,
-             parameters[0].name);
-    MeshRawReader read = (MeshRawReader)module_function("gmsh", "amontons_gmsh_read", err);
-    if (!read) goto cleanup;
-    TRY(read(&request, &raw, err));
-    raw.version = version;
-    TRY(mesh_raw_convert(&raw, path, mesh, err));
-cleanup:
-    mesh_raw_destroy(&raw);
-    return error_is_clean(err);
 }
 
 // --- groups -------------------------------------------------------------------------------------

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Lists of elements picked from a raw mesh: those of the body, or those of one group. Called by
-// io/mesh_raw only.
+// io/mesh_convert only.
 #ifndef AMONTONS_IO_RAW_ELEMENTS_H
 #define AMONTONS_IO_RAW_ELEMENTS_H
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The inside of a YamlDocument, shared by yaml_document.c (access, errors), yaml_build.c (nodes)
+// The inside of a YamlDocument, shared by yaml_tree.c (access, errors), yaml_build.c (nodes)
 // and yaml_parse.c (bytes and libfyaml); nobody else includes it.
 #ifndef AMONTONS_IO_YAML_TREE_H
 #define AMONTONS_IO_YAML_TREE_H

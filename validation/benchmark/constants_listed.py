@@ -168,7 +168,7 @@ NOT_A_CHOICE = {
     "stepping/tableau.c": {"VALUES_MAX": "stages and v_n"},
     "stepping/tableau.h": {"TABLEAU_STAGES_MAX": "of SDIRK3"},
     "bulk/element.h": {"ELEMENT_DOFS_MAX": "two for each node"},
-    "bulk/mesh.c": {"AREA_TOLERANCE": ROUNDING, "order": "the element"},
+    "bulk/mesh_build.c": {"AREA_TOLERANCE": ROUNDING, "order": "the element"},
     "bulk/mesh.h": {"MESH_PATH_SIZE": SIZE},
     "bulk/mesh_contact.c": {"PLACE_TOLERANCE": ROUNDING},
     "bulk/reduced_bulk.h": {"REDUCTION_LEVELS_MAX": SIZE},

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A tree in two arrays: nodes, linked by first child and next sibling, and their texts. Positions
 // are bytes; lines and columns are counted only when an error wants them.
-#include "io/yaml_document.h"
+#include "io/yaml_tree.h"
 
 #include "base/memory.h"
-#include "io/yaml_tree.h"
 
 #include <stdarg.h>
 #include <stdio.h>
