@@ -199,7 +199,7 @@ INTRO = """# The paper's figures, recomputed
 
 Otsuki and Matsukawa, Sci. Rep. 3, 1586 (2013). Everything here was computed by `./amontons reproduce`; meshes have {mesh} by
 {mesh} cells unless another number is named. mu_M of a run is the mean of its peaks in whole rounds of the periodic regime;
-where no period up to 8 was found, of all peaks but the start's third. Where no sliding was fast (no peak), mu_M stands
+where no period up to 8 was found, of all peaks but the start's. Where no sliding was fast (no peak), mu_M stands
 for the steady F_T/F_N of slow sliding.
 
 ## Figures 2a and 2b: mu_M against pressure
