@@ -14,28 +14,25 @@
 static void print_estimate(const char *name, double value, double error)
 {
     printf("  %-15s %.4f", name, value);
-    if (!isnan(error)) printf(" +- %.4f", error);
+    if (!isnan(error)) printf(" +- %.1g", error);
 }
 
 // The macroscopic static friction coefficient, from how many peaks, and whether they repeat.
 static void print_mu_M(const RunSummary *summary)
 {
-    if (summary->peaks == 0) {
-        printf("  mu_M            none: the block as a whole did not slide in this run\n");
-        return;
-    }
     if (isnan(summary->mu_M)) {
-        printf("  mu_M            none: after the start only parts of the block slid\n");
+        printf("  mu_M            none: %s\n",
+               summary->peaks > 0 ? "after the start only parts of the block slid"
+                                  : "the block as a whole did not slide in this run");
         return;
     }
     print_estimate("mu_M", summary->mu_M, summary->mu_M_error);
-    printf(", static friction: mean of the last %d of %d peaks before the whole\n"
-           "                  block slides",
+    printf(": static friction, mean of %d of the %d peaks before the whole block slid\n",
            summary->peaks_counted, summary->peaks);
-    if (!isnan(summary->mu_M_spread)) printf("; they differ by %.4f", summary->mu_M_spread);
+    if (isnan(summary->mu_M_spread)) return;
+    printf("                  they differ by at most %.4f", summary->mu_M_spread);
     if (summary->period > 1) printf(" and repeat after %d slidings", summary->period);
-    if (summary->peaks > 2 && summary->period == 0) printf("; not periodic yet");
-    printf("\n");
+    printf("%s\n", summary->period > 0 ? "" : "; not periodic yet");
 }
 
 // The holding coefficient: parts of a block that slide on their own make the load drop below mu_M.
@@ -46,20 +43,17 @@ static void print_mu_hold(const RunSummary *summary)
         return;
     }
     print_estimate("mu_hold", summary->mu_hold, summary->mu_hold_error);
-    if (summary->drop_period > 0)
-        printf(", what the contact holds: the lowest of %d drops of the load\n"
-               "                  that repeat after %d\n",
-               summary->drops, summary->drop_period);
-    else if (summary->drops_enough)
-        printf(", what the contact holds: one in ten drops of the load comes earlier\n"
-               "                  (%d drops, which do not repeat)\n",
-               summary->drops);
-    else
-        printf(" so far, what the contact holds: one in ten of %d drops of the load\n"
-               "                  comes earlier. That is too few to say: give a later time.until, "
-               "until they repeat or\n"
-               "                  30 of them have a mean known to 2 %%\n",
-               summary->drops);
+    printf("%s: what the contact holds, %s of %d drops of the load\n",
+           summary->drops_enough ? "" : " so far",
+           summary->drop_period > 0 ? "the lowest" : "the lowest tenth", summary->drops);
+    if (summary->drop_period > 1)
+        printf("                  which repeat after %d\n", summary->drop_period);
+    else if (summary->drop_period == 0 && summary->drops_enough)
+        printf("                  which do not repeat\n");
+    else if (!summary->drops_enough)
+        printf("                  too few to say: give a later time.until, until they repeat, or "
+               "until 30 have\n"
+               "                  a mean known to 2 %%\n");
 }
 
 static void print_answers(const RunSummary *summary)
