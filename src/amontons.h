@@ -45,8 +45,7 @@ typedef struct RunCounters {
     int64_t accepted;   // steps
     int64_t rejected;   // steps undone by error control or by the certificate
     int64_t rejected_uncertified;   // of these: a large step that led to an uncertified state
-    int64_t
-        stepped_over_oscillations;   // accepted steps over oscillations of slow slip that stay small
+    int64_t stepped_over_oscillations;   // accepted steps over those of slow slip that stay small
     int64_t unsolved_retries;   // steps undone because the contact problem was not solved
     int64_t factorisations, solves;   // sparse; a solve is forward plus backward
     int64_t contact_solves, contact_iterations;   // contact problems, two a step; over all

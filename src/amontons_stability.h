@@ -22,8 +22,8 @@ typedef struct StabilityPoint {
 // l_c_rod are 1 where the front crosses the block before.
 enum { STABILITY_PADS_MAX = 64 };
 
-// Resistance of a contact curve (pad) to slip in the state where slip runs away at the scene's V; l, drag and
-// stiffness of the pad alone, everything else held.
+// Resistance of a contact curve (pad) to slip in the state where slip runs away at the scene's V;
+// l, drag and stiffness of the pad alone, everything else held.
 typedef struct StabilityPad {
     char name[64];
     double length;   // sum of its nodes' weights

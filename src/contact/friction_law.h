@@ -63,8 +63,8 @@ double friction_branch(const FrictionLaw *law, bool beyond, double speed, double
 // Still weakening at this speed: a faster slip meets less friction.
 bool friction_weakens(const FrictionLaw *law, double speed);
 
-// From about this speed on next to nothing weakens any more (linear law: nothing), velocity; 0 where
-// nothing weakens.
+// From about this speed on next to nothing weakens any more (linear law: nothing), velocity; 0
+// where nothing weakens.
 double friction_spent_speed(const FrictionLaw *law);
 
 // phi = max(0, 1 - |v|/v_c), the density of real contacts that hold (the paper's Figure 1d); from

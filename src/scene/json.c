@@ -103,8 +103,8 @@ static bool is_absent(const SceneKey *key, const Scene *scene, bool given)
     return (part_of_fields && !scene->output.fields) || (!key->standard && !given);
 }
 
-// Goes through the keys with a stack of the maps that are open: those the next key does not share are
-// closed, those it has more are opened.
+// Goes through the keys with a stack of the maps that are open: those the next key does not share
+// are closed, those it has more are opened.
 void scene_write_json(const Scene *scene, JsonWriter *json, const char *name)
 {
     int32_t count = 0, depth = 0;

@@ -100,7 +100,7 @@ typedef struct Scene {
         double tolerance;   // of a step, relative; 0: by accuracy
         double step_max, step_min;   // 0: chosen from the block's size and speeds
         double wave_step;   // longest step while not certified, in L / c_L
-        double watch;   // how long oscillations are followed before they are stepped over, in L / c_L
+        double watch;   // how long oscillations are followed before being stepped over, L / c_L
         bool certificate;   // limit the step by the certificate (off only to study it)
         double energy_tolerance;   // of the ledger, relative to the work done
         double periodic_tolerance;   // peaks agree within this, relative

@@ -11,12 +11,12 @@
 
 #include <math.h>
 
-// Rungs double: where s lies half way between two of them in log s, s m + k/s at the nearest is this
-// times its least, (sqrt 2 + 1/sqrt 2)/2.
+// Rungs double: where s lies half way between two of them in log s, s m + k/s at the nearest is
+// this times its least, (sqrt 2 + 1/sqrt 2)/2.
 static const double BETWEEN_RUNGS = 1.0606601717798212;
 
-// A load that changes by less than this part in a power of the iteration has settled: enough to tell
-// it from 1. So many powers at most.
+// A load that changes by less than this part in a power of the iteration has settled: enough to
+// tell it from 1. So many powers at most.
 static const double SETTLED = 1e-6;
 enum { POWERS_MAX = 200 };
 

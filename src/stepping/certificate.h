@@ -55,8 +55,8 @@ bool certificate_holds(Certificate *certificate, const State *state);
 // det J > 0: no single real rate of growth lies above 1/(gamma dt), dt that of `rung`.
 bool certificate_step_resolves(Certificate *certificate, const State *state, ContactMatrix *rung);
 
-// A disturbance that oscillates grows by less than `growth` > 1 in half a period. Asked on all rungs
-// that are built.
+// A disturbance that oscillates grows by less than `growth` > 1 in half a period. Asked on all
+// rungs that are built.
 bool certificate_oscillates_less(Certificate *certificate, const State *state, Ladder *ladder,
                                  double growth);
 

@@ -40,8 +40,8 @@ struct Growth {
     double *mode_re, *mode_im, *real_mode, *candidate;   // [interface_count]
 };
 
-// From the slowest oscillation of the block, a quarter wave over its length, to about c over the distance
-// of two nodes: length/contact_count.
+// From the slowest oscillation of the block, a quarter wave over its length, to about c over the
+// distance of two nodes: length/contact_count.
 GrowthDef growth_def(double length, double speed, int32_t contact_count)
 {
     return (GrowthDef){.slowest = speed / (4 * length),

@@ -14,7 +14,7 @@
 //                 ch. 8). Each product costs one solve with s M + C + K/s, which the border
 //                 (bulk/interface_operator) factors once for all states. Re lambda > 0 first: l_sc;
 //                 lambda real and > 0 first: l_c.
-//   growth_scan   real growth without the coupling: the largest load over s (stepping/weakening_load)
+//   growth_scan   real growth without the coupling: the largest load over s (weakening_load)
 //                 with P_t alone in the rows of slipping tangents.
 //
 // Called by study/stability/stability.

@@ -5,9 +5,9 @@
 
 #include <math.h>
 
-// Of v_c: an oscillation that gets so fast is not small. With 0.3 the second peak of a rod at v_c/34
-// came out 1 % too high (nu = 0, 16 cells); oscillations of rods at v_c/300 and below stay under
-// 0.05.
+// Of v_c: an oscillation that gets so fast is not small. With 0.3 the second peak of a rod at
+// v_c/34 came out 1 % too high (nu = 0, 16 cells); oscillations of rods at v_c/300 and below stay
+// under 0.05.
 static const double SMALL_RATE = 0.1;
 // Weakening may exceed what was seen by this part: pressure creeps up as the rod moves on.
 static const double SAME_WEAKENING = 1.02;

@@ -2,8 +2,8 @@
 // Between l_sc and l_c slow slip oscillates: a disturbance grows until slip stops for a moment, so
 // that the slip rate stays within a few times the rod's velocity, ends, and begins again, while the
 // rod hardly moves. The slower the rod, the more of these oscillations it meets, all alike. They
-// are resolved for a while at each set of slipping nodes; once they were seen to stay small they are
-// stepped over, until slip does something that was not seen before.
+// are resolved for a while at each set of slipping nodes; once they were seen to stay small they
+// are stepped over, until slip does something that was not seen before.
 //
 // Recorded for each node is the largest weakening -mu'(|v|) r_n that it had while it moved. A state
 // is covered when it moves only nodes that were seen to move, none with more weakening than was

@@ -13,17 +13,17 @@
 // A longer step is tried only when its error is expected to be this fraction of the tolerance.
 static const double SAFETY = 0.5;
 
-// Numerics may use up this part of what the ledger of a run may miss: a step that would take more is
-// taken shorter, as long as waves are resolved. (What hits something loses the energy of the nodes
-// that hit, however short the step; still shorter ones only drive the force of the blow up.)
+// Numerics may use up this part of what the ledger of a run may miss: a step that would take more
+// is taken shorter, as long as waves are resolved. (What hits something loses the energy of the
+// nodes that hit, however short the step; still shorter ones only drive the force of the blow up.)
 static const double LEDGER_SHARE = 0.5;
 
 // Rungs down from a long step into a state that is not certified, at most as far as waves are
 // resolved: where slip first goes too far is closed in on by eighths.
 enum { UNCERTIFIED_DROP = 3 };
 
-// Part of v_c that oscillations may reach to be stepped over unseen. 0.01 keeps a rod at v_c/30, as in
-// the paper, out of it: with 0.03 the second peak of Figure 1's block moved by up to 1 %.
+// Part of v_c that oscillations may reach to be stepped over unseen. 0.01 keeps a rod at v_c/30, as
+// in the paper, out of it: with 0.03 the second peak of Figure 1's block moved by up to 1 %.
 static const double SMALL_OSCILLATION = 0.01;
 
 // The ladder begins at step_max doubled as often as relaxing may need; which rung a run may take at
@@ -131,8 +131,8 @@ static bool oscillations_stay_small(StepControl *control, const State *state)
            certificate_oscillates_less(&control->certificate, state, &control->ladder, growth);
 }
 
-// May `state` be left or reached by a step that does not resolve waves? What oscillates on is small,
-// as certified or as seen so far, and nothing grows without oscillating.
+// May `state` be left or reached by a step that does not resolve waves? What oscillates on is
+// small, as certified or as seen so far, and nothing grows without oscillating.
 static bool may_skip_waves(StepControl *control, const State *state)
 {
     return control->oscillations.duration > 0 &&

@@ -11,8 +11,8 @@
 //
 // Drag is what a geometry has of viscosity against slip: eta1/2 over H for a layer of height H that
 // shears, about eta over the length for a short pad on a large block. Weakening over drag,
-// (mu_S - mu_K) p / (v_c drag), decides where slip begins to oscillate; elasticity and inertia together
-// resist more, so a pad runs away by itself only where load > 1.
+// (mu_S - mu_K) p / (v_c drag), decides where slip begins to oscillate; elasticity and inertia
+// together resist more, so a pad runs away by itself only where load > 1.
 #include "study/stability/stability.h"
 
 #include "base/dense.h"

@@ -6,9 +6,9 @@
 //     [ lambda M + C + K/lambda ] v = W v   on J, all other contact nodes held,
 //
 // plus what the pressure changes that slip brings along do to friction (stepping/growth solves it).
-// As l grows a pair of rates crosses the imaginary axis (l_sc: disturbances oscillate and grow), meets
-// on the real axis (l_c: they run away), and the block slides. Between node positions the crossing
-// is interpolated in l, since the front itself can only stand at nodes.
+// As l grows a pair of rates crosses the imaginary axis (l_sc: disturbances oscillate and grow),
+// meets on the real axis (l_c: they run away), and the block slides. Between node positions the
+// crossing is interpolated in l, since the front itself can only stand at nodes.
 #include "study/stability/stability.h"
 
 #include "base/clock.h"
@@ -142,8 +142,8 @@ static int32_t count_slipping(const State *state)
 }
 
 // Half a period's growth against v_c/V: pi Re/Im - ln(v_c/V). From 0 on a disturbance of the rod's
-// size comes to v_c, where friction no longer weakens, before its oscillation turns it back: slip then
-// runs away although the pair is still complex.
+// size comes to v_c, where friction no longer weakens, before its oscillation turns it back: slip
+// then runs away although the pair is still complex.
 static double half_period(const StabilityPath *path, int32_t k)
 {
     const StabilityPoint *point = &path->points[k];

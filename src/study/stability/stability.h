@@ -33,8 +33,8 @@ typedef struct StabilityPath {
     double seconds_growth;
 } StabilityPath;
 
-// The resistance of each pad in path->runaway, and how much it takes part in the mode of point at_rod
-// (pad_growth.c). ERROR_COMPUTE: a small eigenproblem was not solved.
+// The resistance of each pad in path->runaway, and how much it takes part in the mode of point
+// at_rod (pad_growth.c). ERROR_COMPUTE: a small eigenproblem was not solved.
 bool stability_measure_pads(StabilityPath *path, StabilitySummary *summary, Error *err);
 
 // stability.json and stability.h5 in the options' folder.

@@ -73,8 +73,8 @@ static void check_table(const char *page, const char *name, TableWriter writer)
     if (file) {
         fputs(right, file);
         fclose(file);
-        printf("the table \"%s\" of docs/%s.md is out of date; a right page is %s here\n", name, page,
-               path);
+        printf("the table \"%s\" of docs/%s.md is out of date; a right page is %s here\n", name,
+               page, path);
     }
     free(right);
     free(table);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How much an oscillation grows in half a period, against all eigenvalues of the block with its slip set:
-// lambda^2 M + lambda (C - W) + K on what moves, written out and handed to LAPACK.
+// How much an oscillation grows in half a period, against all eigenvalues of the block with its
+// slip set: lambda^2 M + lambda (C - W) + K on what moves, written out and handed to LAPACK.
 #include "stepping/certificate.h"
 
 #include "certificate_rig.h"

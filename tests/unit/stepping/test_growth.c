@@ -347,7 +347,8 @@ static Complex column_equation(Complex s, double shear, double eta, double densi
     return modulus * q / ctanh(q * height) - s * weakening;
 }
 
-// The foot slips under ever more weakening: it rests, oscillates, and runs away, at the exact rates.
+// The foot slips under ever more weakening: it rests, oscillates, and runs away, at the exact
+// rates.
 static void test_shear_column(void **unused)
 {
     (void)unused;

@@ -78,8 +78,8 @@ static void test_duration(void **state)
     fixture_destroy(&fixture);
 }
 
-// Weakening goes with pressure on the linear law's slope. What weakens a fifth more than was seen is
-// not covered, and slow growth, of a hundredth at a time, is noticed.
+// Weakening goes with pressure on the linear law's slope. What weakens a fifth more than was seen
+// is not covered, and slow growth, of a hundredth at a time, is noticed.
 static void test_weakening(void **state)
 {
     (void)state;
@@ -101,8 +101,8 @@ static void test_weakening(void **state)
     fixture_destroy(&fixture);
 }
 
-// Near v_c nothing is covered, all is forgotten, and what slows down from there does not count until
-// it was certified.
+// Near v_c nothing is covered, all is forgotten, and what slows down from there does not count
+// until it was certified.
 static void test_running(void **state)
 {
     (void)state;

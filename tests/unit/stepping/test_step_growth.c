@@ -166,9 +166,9 @@ static int64_t slow_rod(double velocity, double watch, double *height, int64_t *
     return accepted;
 }
 
-// Where slip oscillates, a slower rod meets more oscillations. Those that stay small are stepped over: the
-// cost stays, the friction is that of the run that follows each of them, and so is a run in which
-// the rod outruns its oscillations.
+// Where slip oscillates, a slower rod meets more oscillations. Those that stay small are stepped
+// over: the cost stays, the friction is that of the run that follows each of them, and so is a run
+// in which the rod outruns its oscillations.
 static void test_slow_rod(void **state)
 {
     (void)state;

@@ -38,8 +38,8 @@ static double complex exact_way(double complex lambda, double drive, double dt)
     return (1 + d) * (cexp(lambda * dt) - 1) / lambda - d * (dt + lambda * dt * dt / 2);
 }
 
-// Damped, oscillating, and driven by a force that grows in time: the estimate tends to the error, and
-// the error falls as dt^(order + 1).
+// Damped, oscillating, and driven by a force that grows in time: the estimate tends to the error,
+// and the error falls as dt^(order + 1).
 static void test_estimate_is_the_local_error(void **state)
 {
     (void)state;
