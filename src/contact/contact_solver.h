@@ -2,12 +2,12 @@
 // Active-set Newton for the contact problem of one stage (Alart and Curnier, Comp. Meth. Appl.
 // Mech. Eng. 92, 1991, in its status form). For given statuses the unknowns are the slipping
 // tangents, both components of open nodes and the rod nodes that are soft or have let go; all else
-// is held. One Newton step on those (contact/contact_equations), then every status is checked against
-// its own conditions and changed where it violates them. Open nodes are condensed out
+// is held. One Newton step on those (contact/contact_equations), then every status is checked
+// against its own conditions and changed where it violates them. Open nodes are condensed out
 // (contact/contact_matrix). The linear system is dense and unsymmetric; its factors are kept with
 // the matrix and used again (by the next iteration, stage or step) while statuses stay and they
-// still gain a digit a step. When statuses cycle, only the worst one is changed at a time; when that
-// does not settle either, or the residual no longer falls, a path to a solution is followed
+// still gain a digit a step. When statuses cycle, only the worst one is changed at a time; when
+// that does not settle either, or the residual no longer falls, a path to a solution is followed
 // (contact/contact_path): there is one, as S is positive definite and mu bounded and continuous.
 // Where even that is not found, or the caller prefers a shorter step to a path, the problem counts
 // as unsolved and the caller must take a shorter step. Called by stepping/sdirk.
