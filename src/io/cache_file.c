@@ -5,6 +5,7 @@
 
 #include "base/hash.h"
 #include "base/memory.h"
+#include "io/folder.h"
 #include "io/part_file.h"
 
 #include <fcntl.h>
@@ -39,13 +40,8 @@ bool cache_file_path(const char *key, const char *ending, char path[CACHE_PATH_S
     else if (home && home[0])
         length = snprintf(folder, sizeof folder, "%s/.cache/amontons", home);
     if (length <= 0 || length >= (int)sizeof folder) return false;
-    for (char *slash = folder + 1; *slash; slash++) {
-        if (*slash != '/') continue;
-        *slash = 0;
-        mkdir(folder, 0777);   // a failure shows when the file is opened
-        *slash = '/';
-    }
-    mkdir(folder, 0777);
+    Error unseen = {0};   // a failure shows when the file is opened
+    folder_make(folder, &unseen);
     snprintf(path, CACHE_PATH_SIZE, "%s/%s.%s", folder, key, ending);
     return true;
 }

@@ -7,12 +7,11 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "io/folder.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 enum { PATH_SIZE = 1200, FIRST_ROOM = 64, NAME_SIZE = 32, LINE_ARRAYS = 6 };
 
@@ -97,8 +96,7 @@ bool fields_create(const FieldsDef *def, const char *folder, const Mesh *mesh,
     fields->names = memory_array(2 * FIRST_ROOM, NAME_SIZE, err);
     if (!fields->entries || !fields->names) goto cleanup;
     snprintf(path, sizeof path, "%s/fields", folder);
-    if (mkdir(path, 0777) != 0 && errno != EEXIST)
-        FAIL(err, ERROR_FILE, "cannot make the folder %s: %s", path, strerror(errno));
+    TRY(folder_make(path, err));
 cleanup:
     return error_is_clean(err);
 }

@@ -5,6 +5,7 @@
 // run that is killed from here on leaves no report of the one before.
 #include "run/result_folder.h"
 
+#include "io/folder.h"
 #include "render/render.h"
 
 #include <ctype.h>
@@ -30,25 +31,15 @@ enum { OWN_FILE_COUNT = sizeof OWN_FILES / sizeof OWN_FILES[0] };
 #define FIGURE_FILE(id, name, words) name ".png",
 static const char *const FIGURES[] = {RENDER_FIGURES(FIGURE_FILE)};
 
-// Like `mkdir -p`, but a file in its place or a folder that cannot be written to is told at once.
+// A file in its place or a folder that cannot be written to is told at once.
 static bool make_folder(const char *folder, Error *err)
 {
-    char path[PATH_MAX];
-    if (snprintf(path, sizeof path, "%s", folder) >= (int)sizeof path)
-        FAIL(err, ERROR_INPUT, "the path of the result folder is too long");
-    for (char *slash = path + 1; *slash; slash++) {
-        if (*slash != '/') continue;
-        *slash = 0;
-        mkdir(path, 0777);   // a failure shows when the last one is made
-        *slash = '/';
-    }
-    if (mkdir(path, 0777) != 0 && errno != EEXIST)
-        FAIL(err, ERROR_FILE, "cannot make the result folder %s: %s", folder, strerror(errno));
     struct stat what;
-    if (stat(path, &what) != 0 || !S_ISDIR(what.st_mode))
+    TRY(folder_make(folder, err));
+    if (stat(folder, &what) != 0 || !S_ISDIR(what.st_mode))
         FAIL(err, ERROR_FILE, "%s is a file, not a folder: choose another result folder (-o)",
              folder);
-    if (access(path, W_OK | X_OK) != 0)
+    if (access(folder, W_OK | X_OK) != 0)
         FAIL(err, ERROR_FILE, "cannot write into %s: %s", folder, strerror(errno));
 cleanup:
     return error_is_clean(err);

@@ -5,15 +5,14 @@
 #include "study/sweep/figures.h"
 
 #include "base/memory.h"
+#include "io/folder.h"
 #include "io/json_writer.h"
 #include "scene/keys.h"
 #include "study/sweep/study_point.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 enum { LABEL_SIZE = 90, NAME_SIZE = 60, ROWS_MAX = 60, CURVES_MAX = 15, COLORS = 7 };
 
@@ -96,8 +95,7 @@ static bool begin_figure(Figure *figure, Error *err)
 {
     char path[POINT_PATH_SIZE];
     snprintf(path, sizeof path, "%s/figures", figure->sweep->folder);
-    if (mkdir(path, 0777) != 0 && errno != EEXIST)
-        FAIL(err, ERROR_FILE, "cannot make the folder %s: %s", path, strerror(errno));
+    TRY(folder_make(path, err));
     TRY((figure->scene = NEW_ARRAY(Scene, 1, err)));
     TRY(study_point_scene(&figure->sweep->study, 0, figure->scene, err));
     figure_path(figure, "json", path);

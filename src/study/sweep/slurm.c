@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "io/folder.h"
 #include "io/text_file.h"
 #include "study/sweep/element.h"
 #include "study/sweep/slurm_jobs.h"
@@ -14,7 +15,6 @@
 #include <fcntl.h>
 #include <math.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 static const double LOOK_PAUSE = 2;   // s between two looks at the queue
@@ -222,8 +222,7 @@ static bool mark_running(const SlurmRun *run, Error *err)
 {
     char path[POINT_PATH_SIZE];
     slurm_path(&run->jobs, "", path, sizeof path);
-    if (mkdir(path, 0777) != 0 && errno != EEXIST)
-        FAIL(err, ERROR_FILE, "cannot make the folder %s: %s", path, strerror(errno));
+    TRY(folder_make(path, err));
     slurm_path(&run->jobs, "running", path, sizeof path);
     int file = open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
     if (file < 0) FAIL(err, ERROR_FILE, "cannot write %s: %s", path, strerror(errno));

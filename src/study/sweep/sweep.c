@@ -4,6 +4,7 @@
 #include "base/clock.h"
 #include "base/dense.h"
 #include "base/memory.h"
+#include "io/folder.h"
 #include "study/sweep/figures.h"
 #include "study/sweep/pool.h"
 #include "study/sweep/slurm.h"
@@ -15,7 +16,6 @@
 #include <fcntl.h>
 #include <string.h>
 #include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 // folder and folder/points, with all that leads there.
@@ -23,16 +23,7 @@ static bool make_folders(const char *path, Error *err)
 {
     char folder[POINT_PATH_SIZE];
     snprintf(folder, sizeof folder, "%s/points", path);
-    for (char *slash = folder + 1; *slash; slash++) {
-        if (*slash != '/') continue;
-        *slash = 0;
-        mkdir(folder, 0777);   // a failure shows when the last one is made
-        *slash = '/';
-    }
-    if (mkdir(folder, 0777) != 0 && errno != EEXIST)
-        FAIL(err, ERROR_FILE, "cannot make the folder %s: %s", folder, strerror(errno));
-cleanup:
-    return error_is_clean(err);
+    return folder_make(folder, err);
 }
 
 // The lock goes with the process, however that ends.

@@ -172,7 +172,7 @@ static void test_impossible_folders(void **state)
     snprintf(folder, sizeof folder, "%s/file", place);
     expect_error(folder, true, ERROR_FILE, "is a file, not a folder");
     snprintf(folder, sizeof folder, "%s/file/below", place);
-    expect_error(folder, true, ERROR_FILE, "cannot make the result folder");
+    expect_error(folder, true, ERROR_FILE, "cannot make the folder");
     char endless[9000];
     memset(endless, 'x', sizeof endless);
     endless[sizeof endless - 1] = 0;
