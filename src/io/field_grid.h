@@ -8,7 +8,7 @@
 
 // One array over points or cells. Values are not copied and not owned.
 typedef struct FieldArray {
-    const char *name;   // "displacement"; units go into the README's table, not the name
+    const char *name;   // "displacement"; units go into docs/results.md, not the name
     int32_t components;   // 1, or 3 for vectors (ParaView wants three)
     bool single_precision;   // stored as Float32 (default: Float64)
     const double *values;   // [count * components]

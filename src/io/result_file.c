@@ -2,7 +2,7 @@
 // The tables of the header, expanded once into arrays of rows; everything else loops over those.
 //
 // A name, a unit or a shape stands in io/result_tables.h and nowhere else: the writer, the readers
-// and the README's table are loops over the same rows. Which array has which index is the enum made
+// and the table of docs/results.md are loops over the same rows. Which array has which index is the enum made
 // from the same table.
 #include "io/result_file.h"
 
@@ -237,7 +237,7 @@ bool result_file_text(ArrayFile *file, const char *name, char *value, int32_t si
     return array_file_get_text(file, name, value, size, err);
 }
 
-// --- the README's table -------------------------------------------------------------------------
+// --- the table of docs/results.md ---------------------------------------------------------------
 
 // As numpy calls it, for those who read with h5py.
 static const char *type_name(ArrayType type)
@@ -277,7 +277,7 @@ static void describe_rows(FILE *out, const ResultRow *rows, int32_t count, const
     }
 }
 
-// Written to README.md by hand once a table changes; a test compares them.
+// Copied to docs/results.md once a table changes; a test compares them.
 void result_file_describe(FILE *out)
 {
     fputs("| array | shape | type | unit | what it holds |\n|---|---|---|---|---|\n", out);

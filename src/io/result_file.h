@@ -20,7 +20,7 @@ const char *result_table_name(ResultTable table);
 const char *result_number_name(ResultNumber number);
 ResultColumns result_series_columns(ResultSeries series);
 bool result_series_is_per_node(ResultSeries series);
-void result_file_describe(FILE *out);   // all of the above as Markdown, for the README
+void result_file_describe(FILE *out);   // all of the above as Markdown, for docs/results.md
 
 // Writing: creates RESULT/history.h5(.part) with every series of the table, empty, and the fixed
 // arrays. `nodes[k]`: [contact_count] for each ResultNodes; nodes[NODES_PAD] says how many pads.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A recorder: at the times that the scene asks for the bulk is recovered, u = V q (DESIGN 4.3), its
+// A recorder: at the times that the scene asks for the bulk is recovered, u = V q (bulk/reduced_bulk), its
 // stresses found and written as .vtu, the interface as .vtp. What does not change in a run (points,
 // cells) is laid out once, in the 64-bit integers and three coordinates that VTK wants; z of the
 // model is VTK's y. VTK itself stays in its module: io/field_file.
@@ -166,7 +166,7 @@ static bool write_bulk(Fields *fields, const Observation *seen, const char *name
     return fields_write_bulk(fields, &state, path, err);
 }
 
-// The names and their order are those of README's table. line_values: [LINE_ARRAYS][contact_count].
+// Names and order are those of docs/results.md. line_values: [LINE_ARRAYS][contact_count].
 static bool write_line(Fields *fields, const Observation *seen, const char *name, Error *err)
 {
     const Interface *interface = seen->interface;

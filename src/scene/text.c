@@ -131,7 +131,7 @@ void scene_key_value(const SceneKey *key, const Scene *scene, char *words, int32
     }
 }
 
-// The README's table of keys; a test compares the two.
+// The table of keys in docs/scenes.md; a test compares the two.
 void scene_write_reference(FILE *out)
 {
     int32_t count = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// dt_k = dt_max 2^-k (DESIGN 4.2). A rung is the matrix A_k = M/(gamma dt_k) + C + gamma dt_k K
+// dt_k = dt_max 2^-k. A rung is the matrix A_k = M/(gamma dt_k) + C + gamma dt_k K
 // condensed on the interface: it does not depend on the state, is made when a step first asks for
 // it, and is kept to the end of the run, so that a change of step costs nothing after that. gamma
 // is that of the scheme that steps on it (stepping/tableau).
