@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// Equations and source stand in the header; what a row has beside S and r is found in one place,
+// row_of, from the status of its node.
 #include "contact/contact_equations.h"
 
 #include "base/dense.h"

@@ -342,7 +342,7 @@ static bool advance(Trace *trace, Bound *reached)
         bool placed = place_point(trace, tau_kept, distance);
         double least = placed ? worst_condition(trace, reached) : -INFINITY;
         if (fabs(least) <= NEAR) return true;
-        if (least > 0 && !isfinite(high_value)) {   // the arc bent away: on from here
+        if (least > 0 && !isfinite(high_value)) {   // the path bends away: on from here
             reached->node = NOWHERE;
             return true;
         }
@@ -361,7 +361,7 @@ static bool advance(Trace *trace, Bound *reached)
     return false;
 }
 
-// The first rod node that breaks its condition; -1: none.
+// The first rod node that violates its condition; -1: none.
 static int32_t broken_rod(const Trace *trace)
 {
     const Interface *interface = trace->system.problem->interface;

@@ -60,7 +60,7 @@ typedef struct Solve {
     bool reused;   // the last step was one with the factors of an earlier matrix
     int32_t changes, anchored;   // status sets met; the one that solver->anchor holds
     double least;   // residual so far with these statuses, over the scale of force
-    int32_t stalled;   // steps of Newton's own in a row that did not halve it
+    int32_t stalled;   // Newton steps in a row, not of a chord, that did not halve it
     double before;   // residual of the step before, where its matrix was reused
     int32_t started;   // node set slipping alone, by the last change; -1: none
 } Solve;
@@ -105,8 +105,7 @@ static void list_free(Solve *solve)
     solve->equations.free_count = count;
 }
 
-// Copies the statuses of nodes and rod [contact_count + rod_count]; false from the other one: they
-// differ.
+// Statuses of nodes and of the rod as one list [contact_count + rod_count], to compare with later.
 static void copy_statuses(const Solve *solve, uint8_t *copy)
 {
     size_t contacts = (size_t)interface_of(solve)->contact_count;
@@ -312,7 +311,7 @@ static void clean_solution(const Solve *solve)
     }
 }
 
-// --- the order of things -----------------------------------------------------------------------
+// --- one solve ----------------------------------------------------------------------------------
 
 // Only the worst status is changed from here on.
 static void change_one(Solve *solve)
@@ -331,8 +330,8 @@ static bool may_go_on(Solve *solve)
     return solve->iterations++ < solve->limit;
 }
 
-// After statuses have changed. A set met before means that they go round in a cycle (Brent, BIT 20,
-// 1980: compared with one set kept, which is renewed at powers of two).
+// After statuses have changed. A set met before tells of a cycle (Brent, BIT 20, 1980: compared with
+// one set that is kept, and renewed at powers of two).
 static void note_statuses(Solve *solve)
 {
     solve->least = INFINITY;
@@ -343,8 +342,8 @@ static void note_statuses(Solve *solve)
     copy_statuses(solve, solve->solver->anchor);
 }
 
-// Newton's own steps no longer bring the equations of these statuses nearer: where friction weakens
-// they may have no solution (two that met and are gone).
+// Newton's own steps no longer reduce the residual of these statuses: where friction weakens they
+// may have no solution (two met in a fold and are gone).
 static bool has_stalled(Solve *solve, double residual)
 {
     enum { STALLED_MAX = 4 };
@@ -353,9 +352,10 @@ static bool has_stalled(Solve *solve, double residual)
     return solve->stalled >= STALLED_MAX;
 }
 
-// A node that is overloaded where it sticks, yet slips backwards by Newton's first step from there:
-// friction falls faster with its slip than the block resists, the others' statuses as they are.
-// Beyond the weakening lies what solves that. false: it is not so.
+// A node whose shear exceeds its threshold at rest, yet which slips against that shear after Newton's
+// first step: friction falls faster with its slip rate than S resists, so that slow slip is no
+// solution while the others' statuses stay. It starts again beyond the weakening. false: it is not
+// so.
 static bool starts_fast(Solve *solve)
 {
     const ContactProblem *problem = solve->equations.problem;
