@@ -4,7 +4,7 @@
 // are proportional to V), rapid slip at several V (bounded) or at several v_c (leading).
 //
 // At any time at most one rapid event and one slow one are under way. A rapid event has hysteresis:
-// it begins above RATE_START and ends below RATE_STOP. `slipped` marks the nodes that have let go
+// it begins above RATE_START and ends below RATE_STOP. `slipped` marks the nodes that have slipped
 // since it began; when all have, it is leading, and from then on the block slides.
 #include "record/events.h"
 

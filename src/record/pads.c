@@ -55,7 +55,7 @@ void pads_destroy(Pads *pads)
 }
 
 // A node counts from when it has stuck: the tail of a sliding is not the next cycle's slip.
-// An open node counts as one that has let go, as it holds nothing.
+// An open node counts as one that has slipped, as it carries nothing.
 static void mark_nodes(Pads *pads, const Observation *seen)
 {
     for (int32_t i = 0; i < pads->contact_count; i++) {
@@ -92,9 +92,9 @@ static PadStep look_at_pad(const Pads *pads, const Observation *seen, int32_t p)
     return step;
 }
 
-// now: loads where mu was largest so far, and the first U of what happens once. *let_go: one more
-// where the pad has just lost its last sticking node; those of one step share their order.
-static void follow_pad(Pads *pads, const Observation *seen, int32_t p, int32_t *let_go)
+// now: loads where mu was largest so far, and the first U of what happens once. *detaching: one
+// more where the pad has just lost its last sticking node; those of one step share their order.
+static void follow_pad(Pads *pads, const Observation *seen, int32_t p, int32_t *detaching)
 {
     Pad *pad = &pads->list[p];
     PadCycle *now = &pad->now;
@@ -108,7 +108,7 @@ static void follow_pad(Pads *pads, const Observation *seen, int32_t p, int32_t *
     if (step.slipped == pad->nodes && isnan(now->U_detached)) {
         now->U_detached = seen->U;
         now->order = pads->detached + 1;
-        ++*let_go;
+        ++*detaching;
     }
     if (!pad->rapid && step.fastest > pads->events->rate_start) {
         pad->rapid = true;
@@ -132,19 +132,19 @@ static void begin_cycle(Pads *pads)
 }
 
 // While the block slides as a whole nothing is followed but the step in which it crosses: what pads
-// do then says nothing of how they let go.
+// do then says nothing of how they detach.
 bool pads_record(void *self, const Observation *seen, Error *err)
 {
     Pads *pads = self;
     const Events *events = pads->events;
     bool sliding = events->rapid >= 0 && events->list[events->rapid].kind == EVENT_LEADING;
-    int32_t let_go = 0;
+    int32_t detaching = 0;
     for (int32_t p = 0; events->ended && p < pads->count; p++)
         pads->list[p].slidings += events_pad_slid(events, seen->interface, p);
     if (!sliding || events->crossed) {
         mark_nodes(pads, seen);
-        for (int32_t p = 0; p < pads->count; p++) follow_pad(pads, seen, p, &let_go);
-        pads->detached += let_go;
+        for (int32_t p = 0; p < pads->count; p++) follow_pad(pads, seen, p, &detaching);
+        pads->detached += detaching;
         pads->mu = fmax(pads->mu, seen->mu);
         pads->started = true;
     }

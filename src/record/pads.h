@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What each contact curve (pad) does between two slidings: what it carries when mu is largest, when
-// it first slips, when all of it has, in what order pads let go, and how much of a pad slips slowly
+// it first slips, when all of it has, in what order pads detach, and how much of a pad slips slowly
 // before its slip turns fast (events in which whole pads slid: record/drops). Fed after
 // record/events; written by run/report, a pad an object of results.pads. The course of loads and
 // slip over all steps is in history.h5 (pads/...).
@@ -15,7 +15,7 @@ typedef struct PadCycle {
     double normal_force, shear;   // where mu was largest, force/width
     double U_first_slip;   // when some of it slips, length
     double U_detached;   // when all of it has slipped since the sliding before, length
-    int32_t order;   // of that, from 1; pads that go in the same step share it
+    int32_t order;   // of that, from 1; pads that detach in the same step share it
     double U_rapid, t_rapid;   // when it slips rapidly for the last time before sliding
     double slow_length;   // how much of it slipped just before: l_c of the pad, length
 } PadCycle;
