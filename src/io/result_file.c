@@ -2,8 +2,8 @@
 // The tables of the header, expanded once into arrays of rows; everything else loops over those.
 //
 // A name, a unit or a shape stands in io/result_tables.h and nowhere else: the writer, the readers
-// and the table of docs/results.md are loops over the same rows. Which array has which index is the enum made
-// from the same table.
+// and the table of docs/results.md are loops over the same rows. Which array has which index is the
+// enum made from the same table.
 #include "io/result_file.h"
 
 #include "base/memory.h"

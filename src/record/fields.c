@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A recorder: at the times that the scene asks for the bulk is recovered, u = V q (bulk/reduced_bulk), its
-// stresses found and written as .vtu, the interface as .vtp. What does not change in a run (points,
-// cells) is laid out once, in the 64-bit integers and three coordinates that VTK wants; z of the
-// model is VTK's y. VTK itself stays in its module: io/field_file.
+// A recorder: at the times that the scene asks for the bulk is recovered, u = V q, its stresses
+// found and written as .vtu, the interface as .vtp. What does not change in a run (points, cells)
+// is laid out once, in the 64-bit integers and three coordinates that VTK wants; z of the model is
+// VTK's y. VTK itself stays in its module: io/field_file.
 #include "record/fields.h"
 
 #include "base/clock.h"
