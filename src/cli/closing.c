@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a user wants to know first stands first: the three answers, and what bounds each. Only files
-// that are there are named.
+// The three answers first, with what bounds each. Only files that exist are named.
 #include "cli/closing.h"
 
 #include <dirent.h>
@@ -86,8 +85,7 @@ static int is_picture(const struct dirent *entry)
     return dot && strcmp(dot, ".png") == 0;
 }
 
-// By what lies in the folder, not by what was asked for: a picture that could not be drawn is not
-// named.
+// Lists the folder, not what was asked for: a picture that could not be drawn is not named.
 static void print_pictures(const char *folder)
 {
     char figures[AMONTONS_PATH_SIZE + 16];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The last lines of `amontons run`: what was found, and where it lies.
+// The last lines of `amontons run`: answers and files.
 #ifndef AMONTONS_CLI_CLOSING_H
 #define AMONTONS_CLI_CLOSING_H
 

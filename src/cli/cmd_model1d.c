@@ -42,7 +42,7 @@ static int read_words(int argc, char **argv, Model1dWords *words)
     return scene_words_read(&text, own, argc, argv, &words->common);
 }
 
-// The words of --alpha and --points as `options`. The exit status.
+// The values of --alpha and --points as `options`. The exit status.
 static int check_words(const Model1dWords *words, Model1dOptions *options)
 {
     char *end = NULL;

@@ -22,7 +22,7 @@ static const CommandText text = {
         "end. Ctrl-C ends the run after the present step and keeps its results. Example:\n\n"
         "  amontons run validation/paper/fig1.yaml --set mesh.set.nx=40 -o coarse"};
 
-// Warnings come also where the run failed: they may say why. The exit status.
+// Warnings are printed also after a failure: they may explain it. The exit status.
 static int run_scene(const Scene *scene, const SceneWords *words, bool profile)
 {
     Error err = {0};

@@ -51,7 +51,7 @@ static int read_words(int argc, char **argv, StabilityWords *words)
     return scene_words_read(&text, own, argc, argv, &words->common);
 }
 
-// The words of --from and --slidings as `options`. The exit status.
+// The values of --from and --slidings as `options`. The exit status.
 static int check_words(const StabilityWords *words, StabilityOptions *options)
 {
     options->at_end = words->from && strcmp(words->from, "end") == 0;

@@ -109,14 +109,14 @@ static int run_element(const char *list)
     return amontons_sweep_element(list, (int32_t)element, &err) ? 0 : report_error(&err);
 }
 
-// What can be wrong with words alone; the study itself is the library's to judge. The exit status.
+// Checks the options; the library checks the study. The exit status.
 static int check_words(const SweepWords *words, SweepOptions *options)
 {
     if (words->folder && !*words->folder) return report_misuse("-o: the folder has no name");
     return words->jobs ? option_count("-j", words->jobs, 1, 1024, &options->jobs) : 0;
 }
 
-// A line a point; on a terminal a last line that says how far everything is.
+// A line a point; on a terminal a last line with the progress of the whole.
 static void show_point(const SweepView *view, void *context)
 {
     SweepDisplay *display = context;

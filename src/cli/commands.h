@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The commands of the program; main.c finds the one that is asked for. Each takes the words from
+// The commands of the program; main.c calls the one that is given. Each takes the words from
 // its own name on and returns the program's exit status: 0 done, 1 failed, 2 wrong input.
 #ifndef AMONTONS_CLI_COMMANDS_H
 #define AMONTONS_CLI_COMMANDS_H

@@ -86,7 +86,7 @@ static int help_on(const char *name)
 static int run_command(int argc, char **argv)
 {
     const char *word = argc > 1 ? argv[1] : NULL;
-    if (!word) return report_misuse("what shall be done? `amontons --help` lists the commands");
+    if (!word) return report_misuse("no command is given; `amontons --help` lists the commands");
     if (strcmp(word, "--version") == 0 || strcmp(word, "-V") == 0) {
         printf("amontons %s\n", AMONTONS_VERSION);
         return 0;
@@ -107,8 +107,8 @@ static void occupy_standard_streams(void)
         if (fcntl(stream, F_GETFD) < 0 && open("/dev/null", O_RDWR) < 0) _exit(1);
 }
 
-// A full disk or a closed pipe may show only when the last words are written: a command that went
-// well but could not say so has not gone well.
+// A full disk or a closed pipe may show only when the last output is written: a command whose
+// answer is lost has failed.
 int main(int argc, char **argv)
 {
     occupy_standard_streams();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The bar of the progress must be gone before the first line of the table is printed: both may go
+// The progress bar must be cleared before the first line of the table is printed: both may go
 // to one terminal.
 #include "cli/point_table.h"
 

@@ -9,7 +9,7 @@
 typedef struct PointTable {
     Progress progress;
     bool quiet;   // nothing is printed
-    bool begun;   // the head stands
+    bool begun;   // the head is printed
 } PointTable;
 
 PointTable point_table_begin(bool quiet);

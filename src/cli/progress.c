@@ -24,7 +24,7 @@ static double seconds_between(const struct timespec *from, const struct timespec
     return (double)(to->tv_sec - from->tv_sec) + 1e-9 * (double)(to->tv_nsec - from->tv_nsec);
 }
 
-// Asked each time: windows are resized while a run goes on.
+// Asked each time: windows may be resized during a run.
 static int32_t terminal_width(void)
 {
     struct winsize size = {0};

@@ -15,7 +15,7 @@ typedef struct Progress {
     struct timespec drawn;   // the bar, last
     bool running;   // a step was seen
     bool bar_stands;   // the cursor is in the line of the bar
-    int32_t tenths;   // lines: of the way already told
+    int32_t tenths;   // lines: tenths of the run already printed
 } Progress;
 
 Progress progress_begin(bool quiet);   // looks whether standard error is a terminal

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The 1D equation times alpha H, on nodes x_i with weights w_i, as the steppers know a block:
+// The 1D equation times alpha H, on nodes x_i with weights w_i, in the form of a block:
 //
 //     M u'' + C u' + K u = r,   u = (u_0, n_0, u_1, n_1, ..., U)
 //

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What `amontons model1d` leaves: numbers in model1d.json, curves in model1d.h5. The simulation's
-// steps stand in history.h5, as those of a block (record/history). Lengths are over L in the JSON
+// The files of `amontons model1d`: numbers in model1d.json, curves in model1d.h5. The simulation's
+// steps are in history.h5, as those of a block (record/history). Lengths are over L in the JSON
 // (keys end in _over_L), in the scene's units in the arrays. The JSON is written last.
 #include "study/line/model1d.h"
 
@@ -27,7 +27,7 @@ enum { PROFILE_POINTS = 201 };
     X(front_seen, "points/front_seen", "length", "simulated front at the same U; nan: slid")       \
     X(mu_seen, "points/mu_seen", "1", "simulated F_T/F_N at the same U; nan: slid")
 
-// The constants of equation 1 in the scene's units, for whoever wants to solve it otherwise.
+// The constants of equation 1 in the scene's units, to solve it by other means.
 static void write_model(JsonWriter *json, const Model1dSimulation *simulation)
 {
     const Model1d *model = &simulation->model;
@@ -165,7 +165,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// A file that failed half-way is abandoned: it never stands under its final name.
+// A file that could not be completed never gets its final name.
 bool model1d_write(const Model1dSimulation *simulation, const Model1dSummary *summary, Error *err)
 {
     char name[AMONTONS_PATH_SIZE + 32];

@@ -179,8 +179,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The first peak stands apart: it starts from u_0, as the theory does; later ones from what sliding
-// left.
+// The first peak is kept apart: it starts from u_0, as in theory; later ones from the stress that
+// sliding left.
 static void summarise_steps(Model1dSimulation *simulation, Model1dSummary *summary)
 {
     const StepCounters *steps = &simulation->control.counters;

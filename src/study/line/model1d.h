@@ -8,9 +8,9 @@
 // with E_1 = E/(1 - nu^2), E_2 = E/(2 (1 + nu)), eta_t = eta1 + eta2, eta_s = eta1/2. It is used by
 // amontons_model1d in two ways, which this header lists:
 //
-//   theory   model1d_theory: adiabatic slip and the paper's growth rates, mode by mode;
-//            model1d_modes: the same linear problem with its modes coupled
-//   steps    model1d_chain: the equation as a Block with one moving unknown a node, so that
+//   theory   theory.c: adiabatic slip and the paper's growth rates, mode by mode;
+//            modes.c: the same linear problem with its modes coupled
+//   steps    chain.c: the equation as a Block with one moving unknown a node, so that
 //            contact_solver, SDIRK2, certificate, events and peaks step it as they step a block
 #ifndef AMONTONS_STUDY_LINE_MODEL1D_H
 #define AMONTONS_STUDY_LINE_MODEL1D_H
@@ -33,7 +33,7 @@ typedef struct Model1d {
     FrictionLaw law;
 } Model1d;
 
-// --- theory (model1d_theory.c) ------------------------------------------------------------------
+// --- theory (theory.c) ---------------------------------------------------------------------------
 double model1d_pressure(const Model1d *model, double x);
 double model1d_range(const Model1d *model);   // kappa r: what is held at a point is felt so far
 double model1d_rest(const Model1d *model, double x);   // u_0: tau = mu_K p everywhere, U = 0
@@ -49,7 +49,7 @@ double model1d_l_sc(const Model1d *model, int32_t n);
 double model1d_l_c(const Model1d *model);
 double model1d_l_c_small(const Model1d *model);
 
-// --- theory with coupled modes (model1d_modes.c) ------------------------------------------------
+// --- theory with coupled modes (modes.c) ---------------------------------------------------------
 enum { MODEL1D_MODES = 16 };   // cosines: l_c moves by less than 1e-5 of itself with twice as many
 
 typedef struct Model1dRates {
@@ -70,7 +70,7 @@ typedef struct Model1dLosses {
 } Model1dLosses;
 bool model1d_losses(const Model1d *model, Model1dLosses *losses, Error *err);
 
-// --- steps (model1d_chain.c) --------------------------------------------------------------------
+// --- steps (chain.c) -----------------------------------------------------------------------------
 // Linear elements, everything but the axial terms lumped at the nodes: errors go with (L/n)^2.
 typedef struct Chain {
     Interface interface;   // contact nodes, one rod; owned, like all that follows
@@ -87,7 +87,7 @@ void chain_destroy(Chain *chain);
 // At rest in u_0, the rod at U = 0.
 void chain_rest(const Model1d *model, const Chain *chain, State *state);
 
-// --- simulation (model1d_steps.c) ---------------------------------------------------------------
+// --- simulation (steps.c) ------------------------------------------------------------------------
 enum { MODEL1D_POINTS = 40 };   // fronts of the table, up to l = L
 
 typedef struct Model1dSimulation {
@@ -111,7 +111,7 @@ typedef struct Model1dSimulation {
 
 bool model1d_simulate(Model1dSimulation *simulation, Error *err);
 
-// --- results (model1d_file.c) -------------------------------------------------------------------
+// --- results (file.c) ----------------------------------------------------------------------------
 // model1d.json and model1d.h5 in the options' folder.
 bool model1d_write(const Model1dSimulation *simulation, const Model1dSummary *summary, Error *err);
 

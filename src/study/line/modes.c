@@ -81,13 +81,13 @@ bool model1d_rates(const Model1d *model, double l, int32_t count, double *work, 
 // and K fall.
 typedef bool (*Lost)(const Model1d *model, const Model1dRates *rates);
 
-static bool swings(const Model1d *model, const Model1dRates *rates)
+static bool oscillation_grows(const Model1d *model, const Model1dRates *rates)
 {
     (void)model;
     return rates->rightmost.re > 0;
 }
 
-static bool slides(const Model1d *model, const Model1dRates *rates)
+static bool runs_away(const Model1d *model, const Model1dRates *rates)
 {
     (void)model;
     return rates->real > 0;
@@ -95,7 +95,7 @@ static bool slides(const Model1d *model, const Model1dRates *rates)
 
 // Growth from V to v_c within half a period, exp(pi Re/Im) > v_c/V (study/stability/stability,
 // half_period).
-static bool slides_at_speed(const Model1d *model, const Model1dRates *rates)
+static bool runs_away_at_speed(const Model1d *model, const Model1dRates *rates)
 {
     if (rates->real > 0) return true;
     if (!(rates->rightmost.re > 0) || !(model->velocity > 0)) return false;
@@ -142,9 +142,9 @@ bool model1d_losses(const Model1d *model, Model1dLosses *losses, Error *err)
     double *work = NEW_ARRAY(double, model1d_rates_work(MODEL1D_MODES), err);
     if (!work) goto cleanup;
     if (!(friction_slope(&model->law, 0) < 0)) goto cleanup;
-    TRY(find_first(model, swings, work, &losses->l_sc, err));
-    TRY(find_first(model, slides, work, &losses->l_c, err));
-    TRY(find_first(model, slides_at_speed, work, &losses->l_rod, err));
+    TRY(find_first(model, oscillation_grows, work, &losses->l_sc, err));
+    TRY(find_first(model, runs_away, work, &losses->l_c, err));
+    TRY(find_first(model, runs_away_at_speed, work, &losses->l_rod, err));
 cleanup:
     memory_free(work);
     return error_is_clean(err);

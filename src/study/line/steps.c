@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The 1D equation in time: from u_0, where tau = mu_K p everywhere and the rod stands at U = 0, as
+// The 1D equation in time: from u_0, where tau = mu_K p everywhere and the rod is at U = 0, as
 // the theory has it, to the scene's end. Steps, events and peaks are those of a block. SDIRK2 with
 // the certificate of stepping/certificate, whose S_C - W leaves nothing out here (no coupling of
 // pressure to slip).

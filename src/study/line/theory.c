@@ -114,26 +114,26 @@ GrowthRate model1d_omega(const Model1d *model, int32_t n, double l)
     return (GrowthRate){.re = -terms.stiffness / model->density / (half + sqrt(square))};
 }
 
-// What weakening is short of at l; falls with l. critical: a real rate is asked for.
-static double shortfall(const Model1d *model, int32_t n, bool critical, double l)
+// Resistance less weakening at l; decreases with l. critical: resistance to a real rate.
+static double resistance_left(const Model1d *model, int32_t n, bool critical, double l)
 {
     ModeTerms terms = mode_terms(model, n, l);
     double inertia = critical ? 2 * sqrt(model->density * terms.stiffness) : 0;
     return terms.damping + inertia - terms.weakening;
 }
 
-// Halving to rounding between a front where weakening falls short and one where it does not. The
-// theory knows no end of the line: l may come out beyond L.
+// Bisection to rounding between a front where resistance exceeds weakening and one where it does
+// not. The theory has no end of the line: l may be beyond L.
 static double find_loss(const Model1d *model, int32_t n, bool critical)
 {
     double low = model->length, high = model->length;
     if (!(friction_slope(&model->law, 0) < 0) || !(model->pressure > 0)) return NAN;
-    while (shortfall(model, n, critical, low) <= 0) low /= 2;
-    while (shortfall(model, n, critical, high) > 0) high *= 2;
+    while (resistance_left(model, n, critical, low) <= 0) low /= 2;
+    while (resistance_left(model, n, critical, high) > 0) high *= 2;
     while (high - low > 1e-15 * high) {
         double middle = 0.5 * (low + high);
         if (middle <= low || middle >= high) break;
-        *(shortfall(model, n, critical, middle) > 0 ? &low : &high) = middle;
+        *(resistance_left(model, n, critical, middle) > 0 ? &low : &high) = middle;
     }
     return 0.5 * (low + high);
 }

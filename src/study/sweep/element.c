@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// One point in a process that somebody else starts: an element of a Slurm array. What it needs
-// stands in a file that the sweep wrote, so that nothing has to pass through a shell:
+// An element of a Slurm array reads what it needs from a file that the sweep wrote, so that nothing
+// has to pass through a shell:
 //
 //     {"directory": ..., "study": ..., "folder": ..., "set_count": 1, "set": ["rod.kind=push"],
 //      "points": [3, 7], "hashes": ["97e1...", "62f1..."]}

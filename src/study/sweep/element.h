@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// One point in a process that somebody else starts: an element of a Slurm array. That process calls
+// One point computed by a process that Slurm starts, an element of an array. It calls
 // amontons_sweep_element (amontons.h).
 #ifndef AMONTONS_STUDY_SWEEP_ELEMENT_H
 #define AMONTONS_STUDY_SWEEP_ELEMENT_H

@@ -147,7 +147,7 @@ typedef struct Curve {
     const double *x, *y, *low, *high;
 } Curve;
 
-// Bars stand where `low` is given; `high` comes with it.
+// Error bars are drawn where `low` is given; `high` is given with it.
 static void write_curve(JsonWriter *json, const Curve *curve)
 {
     json_begin_object(json, NULL);
@@ -165,7 +165,7 @@ static void write_curve(JsonWriter *json, const Curve *curve)
 
 // --- the ranking --------------------------------------------------------------------------------
 
-// The values of the keys chosen, from the row that stands lowest on the page upwards.
+// The values of the keys chosen, from the lowest row of the figure upwards.
 static bool write_names(Figure *figure, const Ranking *ranking, int32_t shown, Error *err)
 {
     const Study *study = &figure->sweep->study;
@@ -364,7 +364,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// ERROR_INPUT: the axis has words, which have no place on it.
+// ERROR_INPUT: the values are words, which no axis can show.
 static bool check_axis(const Study *study, const SweepTable *table, StudyAxisData axis, Error *err)
 {
     if (!axis.is_record && table->words[axis.index].count > 0)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What stands on disk of a sweep's point, and under which name.
+// The files of a sweep's point, and their names.
 #include "study/sweep/point.h"
 
 #include "base/memory.h"
@@ -16,7 +16,7 @@
 
 enum { VALUE_SIZE = 8192, MESH_BYTES_MAX = 1 << 30, REPORT_BYTES_MAX = 1 << 28 };
 
-// The mesh counts by what it holds, not by where it lies.
+// The content of the mesh file decides, not its path.
 static bool hash_mesh_file(const char *path, Hash *hash, Error *err)
 {
     char *bytes = NULL;
@@ -29,7 +29,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Numbers count by their bits; the mesh by its content, wherever it lies; the title not at all.
+// Numbers by their bits, the mesh by its content; the title and the path of the mesh do not count.
 bool point_hash(const Scene *scene, PointMesh *mesh, char text[HASH_TEXT_SIZE], Error *err)
 {
     int32_t count = 0;

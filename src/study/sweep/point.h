@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A sweep, its points, and what of them stands on disk. An interrupted point is not finished.
+// A sweep, its points, and their files. An interrupted point is not finished.
 //
 //     DIR/points/<hash>/run.json   one finished point, under a hash of its full scene
 //     DIR/sweep.csv, DIR/sweep.h5  the table, a row a point in the study's order
@@ -9,7 +9,7 @@
 //     DIR/lock                     one sweep at a time
 //
 // A point is an ordinary run: with `output.history: true` in the study its folder holds all of a
-// result. It is finished when its run.json stands there.
+// result. It is finished when its run.json exists.
 #ifndef AMONTONS_STUDY_SWEEP_POINT_H
 #define AMONTONS_STUDY_SWEEP_POINT_H
 

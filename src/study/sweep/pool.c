@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Computes pending points, each in a child process: what breaks in one, down to a crash, stays
-// there. A pipe from each child brings the message of what could not be written to run.json, and
-// tells by its end that the child is gone.
+// Computes pending points, each in a child process, so that a crash costs one point only. A pipe
+// from each child carries the message that could not be written to run.json; when the pipe closes,
+// the child has ended.
 #include "study/sweep/pool.h"
 
 #include "base/clock.h"
@@ -112,8 +112,8 @@ static int reap(Worker *worker)
     return ending;
 }
 
-// Reads what the child says; its end of the pipe closed, the child is done.
-static bool hear_worker(Pool *pool, Worker *worker, Error *err)
+// Reads what the child wrote; when its end of the pipe is closed, the child has ended.
+static bool read_worker(Pool *pool, Worker *worker, Error *err)
 {
     char bytes[256];
     ssize_t count = read(worker->pipe, bytes, sizeof bytes);
@@ -142,8 +142,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Waits for news of any worker. *running: how many there are.
-static bool hear_workers(Pool *pool, int32_t *running, Error *err)
+// Waits for output or the end of any worker. *running: how many there are.
+static bool read_workers(Pool *pool, int32_t *running, Error *err)
 {
     *running = 0;
     for (int32_t k = 0; k < pool->size; k++) {
@@ -155,7 +155,7 @@ static bool hear_workers(Pool *pool, int32_t *running, Error *err)
     if (*running == 0) return true;
     if (poll(pool->polled, (nfds_t)pool->size, WAKE_MS) <= 0) return true;
     for (int32_t k = 0; k < pool->size; k++)
-        if (pool->polled[k].revents) TRY(hear_worker(pool, &pool->workers[k], err));
+        if (pool->polled[k].revents) TRY(read_worker(pool, &pool->workers[k], err));
 cleanup:
     return error_is_clean(err);
 }
@@ -175,7 +175,7 @@ static void end_workers(Pool *pool)
     }
 }
 
-// Poll, not signals, tells of children: a pipe closes when its child ends, however that ends.
+// Children are watched by poll, not by signals: a pipe closes however its child ends.
 bool pool_run(Sweep *sweep, Error *err)
 {
     int32_t cores = (int32_t)sysconf(_SC_NPROCESSORS_ONLN), running = 0;
@@ -187,7 +187,7 @@ bool pool_run(Sweep *sweep, Error *err)
     do {
         TRY(sweep_check_stop(sweep, err));
         TRY(fill_workers(&pool, err));
-        TRY(hear_workers(&pool, &running, err));
+        TRY(read_workers(&pool, &running, err));
     } while (running > 0);
 cleanup:
     if (pool.workers) end_workers(&pool);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A study's points in the order of one result. A gain is value / baseline - 1. Two points whose
-// bounds of mu_M (of mu_hold, ranked by that) overlap are not told apart by these runs: such a
+// bounds of mu_M (of mu_hold, ranked by that) overlap are not distinguished by these runs: such a
 // point is marked as good as the best.
 #include "study/sweep/rank.h"
 
@@ -22,7 +22,7 @@ static const StudyRecord *ranked_by(const Study *study)
     return &study->records[study->rank.record];
 }
 
-// Rows without a value stand last, equal ones in the study's order; falling values.
+// Descending; rows without a value come last, equal ones in the study's order.
 static int compare(const void *left, const void *right)
 {
     const RankRow *a = left, *b = right;
@@ -83,7 +83,7 @@ void ranking_destroy(Ranking *ranking)
     *ranking = (Ranking){0};
 }
 
-// --- what stands beside a value -----------------------------------------------------------------
+// --- notes --------------------------------------------------------------------------------------
 
 static void add_note(char note[NOTE_SIZE], const char *words)
 {
@@ -131,7 +131,7 @@ static void write_head(CsvWriter *csv, const Study *study)
     csv_end_row(csv);
 }
 
-// rank is left empty for a point without a value; its note says why.
+// The rank of a point without a value is empty; its note gives the reason.
 static bool write_row(CsvWriter *csv, const Sweep *sweep, const Ranking *ranking, int32_t k,
                       Error *err)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A point's result stands in its run.json, as with the pool; only an element that left none is
-// judged by what Slurm says of it (slurm_jobs).
+// A point's result is its run.json, as with the pool; only for an element that left none the state
+// that Slurm reports decides (slurm_jobs).
 #include "study/sweep/slurm.h"
 
 #include "base/clock.h"
@@ -26,7 +26,7 @@ typedef struct Element {
     int32_t point;
     bool taken;   // its result is counted
     bool listed, ended;   // by squeue, at the last look
-    char state[SLURM_WORD_SIZE], reason[SLURM_REASON_SIZE];   // as squeue says
+    char state[SLURM_WORD_SIZE], reason[SLURM_REASON_SIZE];   // as squeue lists them
     double gone_since;   // wall clock, s; 0: not gone
 } Element;
 
@@ -44,7 +44,7 @@ typedef struct SlurmRun {
     SlurmArray *arrays;   // [array_count]
 } SlurmRun;
 
-// As many arrays as MaxArraySize asks for; array k's elements are `count` from `first` on.
+// As many arrays as MaxArraySize requires; array k's elements are `count` from `first` on.
 static bool submit_all(SlurmRun *run, Error *err)
 {
     int32_t limit = slurm_array_limit(&run->jobs), *points = NULL;
@@ -125,8 +125,8 @@ static void last_words(const SlurmRun *run, const char *job, char *words, size_t
     memory_free(text);
 }
 
-// Element `k` is gone and left no run.json: its failure is taken. One cancelled before it began is
-// no longer listed.
+// Element `k` has ended without a run.json: its failure is recorded. One that was cancelled before
+// it began is no longer listed.
 static bool take_lost(SlurmRun *run, int32_t k, Error *err)
 {
     const Element *element = &run->elements[k];
@@ -155,7 +155,7 @@ static bool take_lost(SlurmRun *run, int32_t k, Error *err)
                            message, err);
 }
 
-// Takes the result of element `k`, which is gone, once its run.json can be seen or need not be
+// Takes the result of element `k`, which has ended, once its run.json can be seen or need not be
 // waited for.
 static bool take_element(SlurmRun *run, int32_t k, Error *err)
 {
@@ -217,7 +217,7 @@ static void end(SlurmRun *run)
     slurm_jobs_close(&run->jobs);
 }
 
-// The file `running` stands as long as jobs may be out.
+// The file `running` exists as long as jobs may be in the queue.
 static bool mark_running(const SlurmRun *run, Error *err)
 {
     char path[POINT_PATH_SIZE];
@@ -257,7 +257,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Whatever goes wrong, nothing of ours stays in the queue: the file `running` is removed only when
+// Also after an error no job of ours stays in the queue: the file `running` is removed only when
 // that is known, and otherwise tells the next sweep to look.
 bool slurm_run(Sweep *sweep, Error *err)
 {

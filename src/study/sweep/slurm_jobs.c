@@ -16,13 +16,13 @@
 
 enum {
     LINE_SIZE = 160,   // of squeue for an element
-    ANSWER_SIZE = 65536,   // of the other commands; `scontrol show config` says some 12 kB
-    ARRAY_STANDARD = 1000,   // elements of an array where Slurm does not say
+    ANSWER_SIZE = 65536,   // of the other commands; `scontrol show config` prints some 12 kB
+    ARRAY_STANDARD = 1000,   // elements of an array where Slurm gives no limit
     SILENCE_MAX = 60,   // a controller restarts
     ARGUMENTS_MAX = 100,
 };
 
-static const double CANCEL_LIMIT = 60;   // s that cancelled elements may take to be gone
+static const double CANCEL_LIMIT = 60;   // s that cancelled elements may take to leave the queue
 static const double CANCEL_PAUSE = 0.1;   // s between two looks whether they are
 
 bool slurm_jobs_open(const char *folder, int32_t count, SlurmJobs *jobs, Error *err)
@@ -53,7 +53,7 @@ void slurm_path(const SlurmJobs *jobs, const char *name, char *path, size_t size
     snprintf(path, size, "%s/slurm/%.40s", jobs->folder, name);
 }
 
-// Runs one of Slurm's commands; its words, without the last line end, in jobs->answer.
+// Runs one of Slurm's commands; its output, without the last line end, in jobs->answer.
 static bool ask(SlurmJobs *jobs, const char *const *words, int *status, Error *err)
 {
     if (!program_run(words, jobs->answer, jobs->answer_size, status, err))
@@ -129,7 +129,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The user's words may set anything but the array and its name, which stand behind them.
+// The user's words may set anything but the array and its name, which follow them.
 bool slurm_submit(SlurmJobs *jobs, const char *script, int32_t count, const SweepOptions *options,
                   char id[SLURM_WORD_SIZE], Error *err)
 {
@@ -156,7 +156,7 @@ bool slurm_submit(SlurmJobs *jobs, const char *script, int32_t count, const Swee
     TRY(ask(jobs, words, &status, err));
     if (status != 0)
         FAIL(err, ERROR_LIBRARY, "sbatch does not take the array: %.1500s", jobs->answer);
-    // "123" or "123;cluster", perhaps below a site's own words.
+    // "123" or "123;cluster", perhaps below lines that a site adds.
     const char *line = strrchr(jobs->answer, '\n');
     line = line ? line + 1 : jobs->answer;
     snprintf(id, SLURM_WORD_SIZE, "%.*s", (int)strcspn(line, "; "), line);
@@ -168,7 +168,7 @@ cleanup:
 // --- the queue ----------------------------------------------------------------------------------
 
 // Elements that ended minutes ago are no longer listed; nor is anything when Slurm does not answer,
-// which is why a failing squeue says nothing about them.
+// which is why nothing is concluded from a squeue that fails.
 bool slurm_list(SlurmJobs *jobs, bool *answered, Error *err)
 {
     char name[sizeof jobs->name + 10];
@@ -198,7 +198,7 @@ bool slurm_next_line(SlurmJobs *jobs, char **rest, SlurmLine *line)
     return false;
 }
 
-// All others are waiting or at work, also those this list does not know.
+// All other states are of waiting or running elements, also states that are not in this list.
 bool slurm_is_end(const char *state)
 {
     static const char *const ends[] = {"BOOT_FAIL", "CANCELLED", "COMPLETED",     "DEADLINE",

@@ -45,7 +45,7 @@ bool slurm_next_line(SlurmJobs *jobs, char **rest, SlurmLine *line);   // *rest:
 bool slurm_is_end(const char *state);   // of an element that is neither waiting nor running
 // The signal that ended `job` ("123_4"); 0: none, or not known. squeue does not tell it.
 int slurm_signal(SlurmJobs *jobs, const char *job);
-// Cancels all jobs of the folder and waits until they are gone: nobody writes into it then.
+// Cancels all jobs of the folder and waits until they have ended and write nothing any more.
 bool slurm_cancel(SlurmJobs *jobs, Error *err);
 void slurm_pause(double seconds);   // a signal ends it early
 

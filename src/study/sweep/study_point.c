@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The scene of one point of a study: settings are gathered in order, then the formulas are worked
-// out one by one, each over the scene as it stands after those before it.
+// out one by one, each over the scene that those before it have changed.
 #include "study/sweep/study_point.h"
 
 #include "base/memory.h"

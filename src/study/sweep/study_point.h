@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The scenes that a study stands for.
+// The scenes of a study, one for each point.
 #ifndef AMONTONS_STUDY_SWEEP_STUDY_POINT_H
 #define AMONTONS_STUDY_SWEEP_STUDY_POINT_H
 

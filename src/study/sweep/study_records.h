@@ -3,7 +3,7 @@
 #ifndef AMONTONS_STUDY_SWEEP_STUDY_RECORDS_H
 #define AMONTONS_STUDY_SWEEP_STUDY_RECORDS_H
 
-// X(name in `record`, path in run.json, recorded where the study does not say, meaning)
+// X(name in `record`, path in run.json, recorded by default, meaning)
 #define STUDY_RECORDS(X)                                                                           \
     X("mu_M", "results.mu_M", true, "macroscopic static friction coefficient")                     \
     X("mu_M_error", "results.mu_M_error", true, "its standard error")                              \

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A key that stands in several places is one column.
+// A key that is given in several places is one column.
 static bool add_column(Study *study, const char *key, Error *err)
 {
     if (study_column(study, key) >= 0) return true;
@@ -105,7 +105,7 @@ cleanup:
 // {log: [from, to], points: n} or {linear: [from, to], points: n}; ends are met exactly, what lies
 // between is rounded to 6 digits, so that it can be quoted.
 // *text: a YAML list, the caller's to free, so that values of a range are read by the same parser
-// as those that stand in the file.
+// as those in the file.
 static bool write_range(const double bounds[2], bool is_log, int32_t points, char **text,
                         Error *err)
 {
@@ -183,7 +183,7 @@ cleanup:
 
 // --- axes ---------------------------------------------------------------------------------------
 
-// A key of `vary`: its values as they stand, or those of a range, made into a document of their
+// A key of `vary`: a list of values, or those of a range, made into a document of their
 // own.
 static bool read_axis(Study *study, YamlNode item, Error *err)
 {
@@ -255,7 +255,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// `cases` and `vary` say which keys are columns; --set must know them to refuse those that vary;
+// `cases` and `vary` decide which keys are columns; --set refuses those, and is read after them;
 // `set` comes after --set, which may replace a formula.
 bool study_read_vary(Study *study, const char *const *overrides, int32_t override_count, Error *err)
 {

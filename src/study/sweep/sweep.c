@@ -26,7 +26,7 @@ static bool make_folders(const char *path, Error *err)
     return folder_make(folder, err);
 }
 
-// The lock goes with the process, however that ends.
+// The system removes the lock when the process ends, however it ends.
 static bool take_folder(Sweep *sweep, Error *err)
 {
     char path[POINT_PATH_SIZE];

@@ -2,8 +2,8 @@
 // The table of a sweep, a row a point in the study's order: as text in sweep.csv (RFC 4180), as
 // arrays in sweep.h5. Columns: point, the keys that vary, what is recorded, status, message, run.
 //
-// Both files hold the same rows: the CSV for spreadsheets and eyes, the arrays for programs, which
-// have no words: a word is its index in a list that is an attribute beside its column.
+// Both files hold the same rows: the CSV for spreadsheets and readers, the arrays for programs. An
+// array has no words: a word is its index in a list that is an attribute beside its column.
 #include "study/sweep/table.h"
 
 #include "base/memory.h"
@@ -41,7 +41,7 @@ static void write_head(TableWriter *writer)
 
 // --- rows ---------------------------------------------------------------------------------------
 
-// NaN where the list is full: such a word still stands in sweep.csv.
+// NaN where the list is full: such a word is in sweep.csv only.
 static double word_index(WordList *list, const char *word)
 {
     for (int32_t k = 0; k < list->count; k++)
@@ -86,7 +86,7 @@ static void clear_bounds(Bounds *bounds, int32_t point)
     bounds->low[point] = bounds->high[point] = bounds->period[point] = NAN;
 }
 
-// Two standard errors to either side of `result`, whose error stands beside it.
+// Two standard errors to either side of `result`; run.json has the error beside it.
 static void note_bounds(Bounds *bounds, int32_t point, const char *report, const char *result,
                         const char *period)
 {
@@ -238,7 +238,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Both files get their names when they are whole; an older table stands until then.
+// Both files get their names when they are complete; an older table is kept until then.
 bool table_write(const Sweep *sweep, SweepTable *table, Error *err)
 {
     char path[POINT_PATH_SIZE];

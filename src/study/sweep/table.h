@@ -29,8 +29,8 @@ typedef struct SweepTable {
 } SweepTable;
 
 bool table_write(const Sweep *sweep, SweepTable *table, Error *err);
-// Whether the column `record` repeats, and within what bounds it lies: those of mu_hold for
-// mu_hold, those of mu_M for all others, of which *bounded says that low and high are not its own.
+// Whether the values of `record` repeat, and their bounds: those of mu_hold for itself, those of
+// mu_M for all other columns. *bounded: low and high are bounds of this column.
 const Bounds *table_bounds(const SweepTable *table, const StudyRecord *record, bool *bounded);
 void table_destroy(SweepTable *table);   // zeroed is fine
 

@@ -8,8 +8,8 @@
 
 #include <math.h>
 
-// Tells the caller that point `k` has ended and left `report` (NULL: none).
-static void tell(Sweep *sweep, int32_t k, const char *report)
+// Reports to the caller that point `k` has ended and left `report` (NULL: none).
+static void report_point(Sweep *sweep, int32_t k, const char *report)
 {
     const SweepPoint *point = &sweep->points[k];
     char words[POINT_WORDS_SIZE] = "", message[ERROR_MESSAGE_SIZE] = "";
@@ -54,7 +54,7 @@ bool sweep_take_finished(Sweep *sweep, Error *err)
             point->status = POINT_PENDING;
         point->reused = point->status != POINT_PENDING;
         if (point->reused) {
-            tell(sweep, k, report);
+            report_point(sweep, k, report);
         } else if (report) {
             point_remove(sweep, k);
         }
@@ -64,7 +64,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Looked at between points; what the caller does about those under way is his.
 bool sweep_check_stop(const Sweep *sweep, Error *err)
 {
     const volatile sig_atomic_t *stop = sweep->options->stop;
@@ -74,13 +73,13 @@ cleanup:
     return error_is_clean(err);
 }
 
-// A point whose scene an earlier one has waits for that one, not by itself.
+// A point with the scene of an earlier one is not computed again.
 bool sweep_is_waiting(const Sweep *sweep, int32_t point)
 {
     return sweep->points[point].status == POINT_PENDING && sweep->points[point].same_as == point;
 }
 
-// Called as points end, in whatever order that is; the table keeps the study's.
+// Points end in any order; the table keeps the study's.
 bool sweep_take_ended(Sweep *sweep, int32_t point, double seconds, bool *left, Error *err)
 {
     char *report = point_report(sweep, point, err);
@@ -91,13 +90,13 @@ bool sweep_take_ended(Sweep *sweep, int32_t point, double seconds, bool *left, E
     sweep->points[point].status = point_status(report);
     sweep->points[point].seconds = seconds;
     sweep->computed++;
-    tell(sweep, point, report);
+    report_point(sweep, point, report);
 cleanup:
     memory_free(report);
     return error_is_clean(err);
 }
 
-// The report is read back rather than made up: what is counted is what the next sweep will find.
+// The report is read back, so that what is counted is what the next sweep will find.
 bool sweep_take_lost(Sweep *sweep, int32_t point, double seconds, const char *failure,
                      const char *message, Error *err)
 {
@@ -106,8 +105,7 @@ bool sweep_take_lost(Sweep *sweep, int32_t point, double seconds, const char *fa
            sweep_take_ended(sweep, point, seconds, &left, err);
 }
 
-// What one computation decided holds for all points of the same scene.
-// Called when all are computed, before the table, which has a row for each.
+// Before the table, which has a row for each.
 void sweep_share_results(Sweep *sweep)
 {
     for (int32_t k = 0; k < sweep->study.point_count; k++) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The state of each point, counted while points end, and told to the caller. Called by sweep and by
-// what computes points: pool and slurm.
+// Counts points as they end, and reports each to the caller (options->on_point). Called by sweep,
+// and by pool and slurm, which compute points.
 #ifndef AMONTONS_STUDY_SWEEP_TALLY_H
 #define AMONTONS_STUDY_SWEEP_TALLY_H
 
@@ -11,8 +11,8 @@ bool sweep_take_finished(Sweep *sweep, Error *err);
 bool sweep_is_waiting(const Sweep *sweep, int32_t point);   // to be computed, by itself
 // ERROR_INTERRUPT once options->stop is set.
 bool sweep_check_stop(const Sweep *sweep, Error *err);
-// The process of `point` has ended: its report is counted and the caller told. seconds: it took;
-// NaN: as the report says. *left: whether there is a report.
+// The process of `point` has ended: its report is counted and reported. seconds: it took;
+// NaN: as in run.json. *left: whether there is a run.json.
 bool sweep_take_ended(Sweep *sweep, int32_t point, double seconds, bool *left, Error *err);
 // The same of one that left none: first the report of its failure is written, `failure` in a word
 // or two, `message` in full.
