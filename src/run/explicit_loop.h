@@ -10,7 +10,7 @@
 #ifndef AMONTONS_RUN_EXPLICIT_LOOP_H
 #define AMONTONS_RUN_EXPLICIT_LOOP_H
 
-#include "run/simulation.h"
+#include "run/simulation_state.h"
 
 // After relaxation: chooses the step (the stable one, or time.step_max where that is shorter).
 // Does nothing under another scheme.

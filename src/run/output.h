@@ -4,7 +4,7 @@
 #ifndef AMONTONS_RUN_OUTPUT_H
 #define AMONTONS_RUN_OUTPUT_H
 
-#include "run/simulation.h"
+#include "run/simulation_state.h"
 
 bool output_open_history(Simulation *simulation, Error *err);
 bool output_open_fields(Simulation *simulation, Error *err);

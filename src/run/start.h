@@ -4,7 +4,7 @@
 #ifndef AMONTONS_RUN_START_H
 #define AMONTONS_RUN_START_H
 
-#include "run/simulation.h"
+#include "run/simulation_state.h"
 
 bool start_prepare_steps(Simulation *simulation, Error *err);
 bool start_relax(Simulation *simulation, Error *err);

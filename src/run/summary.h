@@ -5,7 +5,7 @@
 #ifndef AMONTONS_RUN_SUMMARY_H
 #define AMONTONS_RUN_SUMMARY_H
 
-#include "run/simulation.h"
+#include "run/simulation_state.h"
 
 // t_end: when the scene ends, time.
 StepView step_view(const Observation *seen, const Events *events, double t_end);

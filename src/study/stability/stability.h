@@ -9,7 +9,7 @@
 #define AMONTONS_STUDY_STABILITY_STABILITY_H
 
 #include "amontons_stability.h"
-#include "run/simulation.h"
+#include "run/simulation_state.h"
 #include "stepping/growth.h"
 
 typedef struct StabilityPath {

@@ -18,14 +18,6 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-// folder and folder/points, with all that leads there.
-static bool make_folders(const char *path, Error *err)
-{
-    char folder[POINT_PATH_SIZE];
-    snprintf(folder, sizeof folder, "%s/points", path);
-    return folder_make(folder, err);
-}
-
 // The system removes the lock when the process ends, however it ends.
 static bool take_folder(Sweep *sweep, Error *err)
 {
@@ -33,7 +25,8 @@ static bool take_folder(Sweep *sweep, Error *err)
     if (snprintf(sweep->folder, sizeof sweep->folder, "%s", sweep->options->folder) >=
         (int)sizeof sweep->folder)
         FAIL(err, ERROR_INPUT, "the path of the sweep's folder is too long");
-    TRY(make_folders(sweep->folder, err));
+    snprintf(path, sizeof path, "%s/points", sweep->folder);
+    TRY(folder_make(path, err));
     snprintf(path, sizeof path, "%s/lock", sweep->folder);
     sweep->lock = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (sweep->lock < 0)

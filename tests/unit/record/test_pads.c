@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "io/result_file.h"
 #include "result_place.h"
-#include "run/simulation.h"
+#include "run/simulation_state.h"
 #include "seen_by_hand.h"
 
 typedef struct Fixture {

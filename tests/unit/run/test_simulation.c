@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Whole runs on a coarse mesh: the same bits twice, balances, what is written and when, and how a
 // run that is stopped or fails leaves things.
-#include "run/simulation.h"
+#include "run/simulation_state.h"
 
 #include "base/memory.h"
 #include "io/result_file.h"

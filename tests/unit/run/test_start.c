@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What the words of a scene become: the state at t = 0 under each of them, what steps and ends are
 // taken from it, and scenes that cannot be computed.
-#include "run/simulation.h"
+#include "run/simulation_state.h"
 
 #include "base/memory.h"
 #include "small_scene.h"

@@ -3,7 +3,7 @@
 // its weakening is as its weight, so the ratio of both follows pressure, v_c, eta and element size.
 #include "run/warnings.h"
 
-#include "run/simulation.h"
+#include "run/simulation_state.h"
 #include "small_scene.h"
 
 #include <string.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// One simulation: the list of stages, and nothing else. amontons.h declares what the caller sees of
-// it; this is what its stages share.
-#ifndef AMONTONS_RUN_SIMULATION_H
-#define AMONTONS_RUN_SIMULATION_H
+// What the stages of a simulation share. run/simulation is the list of stages; amontons.h declares
+// what the caller sees.
+#ifndef AMONTONS_RUN_SIMULATION_STATE_H
+#define AMONTONS_RUN_SIMULATION_STATE_H
 
 #include "amontons.h"
 #include "record/fields.h"
