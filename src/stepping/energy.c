@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Work comes from the stages, u and v of each with the scheme's weights; what is stored comes from
-// the states at the ends of steps. Both must agree but for the integrator's error: a term that is
-// wrong in any of them shows as an imbalance that does not go down with the step.
 #include "stepping/energy.h"
 
 #include "base/dense.h"
@@ -42,24 +39,14 @@ StagePower energy_stage(const Interface *interface, const double *velocity,
     return power;
 }
 
-// 0 for an exact integrator.
 double energy_imbalance(const EnergyLedger *ledger)
 {
     return ledger->rod_work + ledger->load_work - ledger->viscous - ledger->frictional -
            (ledger->elastic + ledger->kinetic - ledger->stored_at_start);
 }
 
-// Since the ledger was opened; what an imbalance is measured with. Never below what was stored at
-// the start.
 double energy_turnover(const EnergyLedger *ledger)
 {
     return fabs(ledger->rod_work) + fabs(ledger->load_work) + ledger->viscous + ledger->frictional +
            ledger->elastic + ledger->kinetic + ledger->stored_at_start;
-}
-
-double energy_turned_over(const EnergyLedger *before, const EnergyLedger *after)
-{
-    return fabs(after->rod_work - before->rod_work) + fabs(after->load_work - before->load_work) +
-           fabs(after->viscous - before->viscous) + fabs(after->frictional - before->frictional) +
-           fabs(after->elastic - before->elastic) + fabs(after->kinetic - before->kinetic);
 }

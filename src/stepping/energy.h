@@ -2,7 +2,8 @@
 // The energy ledger: work of rod and loads = elastic + kinetic + viscous + frictional. Works and
 // dissipations are summed over the stages with the scheme's own weights, stored energies are taken
 // from the states, so the imbalance is the integrator's error (and goes down at its order) or a
-// bug. All per width, of the block. Filled by stepping/sdirk, judged by run/simulation.
+// bug, which shows as an imbalance that does not go down with the step. All per width, of the block. Filled by stepping/sdirk, judged by
+// stepping/step_control and run/simulation.
 #ifndef AMONTONS_STEPPING_ENERGY_H
 #define AMONTONS_STEPPING_ENERGY_H
 
@@ -21,7 +22,7 @@ typedef struct EnergyLedger {
 EnergyLedger energy_open(const State *state);
 void energy_store(const State *state, EnergyLedger *ledger);
 
-// Adds `weight` (time) times the powers of one stage: C v [dof_count], v and r on the interface.
+// Powers of one stage, from C v [dof_count] and from v and r on the interface.
 typedef struct StagePower {
     double rod, viscous, frictional;   // energy/time
 } StagePower;
@@ -30,9 +31,8 @@ StagePower energy_stage(const Interface *interface, const double *velocity,
                         const ContactSolution *contact);
 
 double energy_imbalance(const EnergyLedger *ledger);   // work - stored - dissipated
-// Of the imbalance: everything that was moved, summed by magnitude.
+// What an imbalance is measured with: everything that was moved since the ledger was opened, summed
+// by magnitude, and what was stored then.
 double energy_turnover(const EnergyLedger *ledger);
-// What was moved between two times, summed by magnitude.
-double energy_turned_over(const EnergyLedger *before, const EnergyLedger *after);
 
 #endif

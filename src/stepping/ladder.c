@@ -1,8 +1,4 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// dt_k = dt_max 2^-k. A rung is the matrix A_k = M/(gamma dt_k) + C + gamma dt_k K
-// condensed on the interface: it does not depend on the state, is made when a step first asks for
-// it, and is kept to the end of the run, so that a change of step costs nothing after that. gamma
-// is that of the scheme that steps on it (stepping/tableau).
 #include "stepping/ladder.h"
 
 #include "base/clock.h"
@@ -11,7 +7,6 @@
 #include <math.h>
 #include <stddef.h>
 
-// Nothing is factored yet.
 void ladder_init(BulkOperator *system, double step_max, double step_min, Ladder *ladder)
 {
     *ladder =
@@ -29,19 +24,16 @@ void ladder_destroy(Ladder *ladder)
     *ladder = (Ladder){0};
 }
 
-// A power of two times the longest step, exactly.
 double ladder_step(const Ladder *ladder, int32_t k)
 {
     return ldexp(ladder->step_max, -k);
 }
 
-// gamma dt: displacement over velocity of one stage, time.
 double ladder_reach(const Ladder *ladder, int32_t k)
 {
     return ladder->gamma * ladder_step(ladder, k);
 }
 
-// The longest rung that is not longer than `step`; rung_count where even the shortest is.
 int32_t ladder_find(const Ladder *ladder, double step)
 {
     int32_t k = 0;
@@ -49,14 +41,13 @@ int32_t ladder_find(const Ladder *ladder, double step)
     return k;
 }
 
-// A of SDIRK2, over gamma dt.
 static OperatorTerms rung_terms(const Ladder *ladder, int32_t k)
 {
     double scaled = ladder_reach(ladder, k);
     return (OperatorTerms){.mass = 1 / scaled, .damping = 1, .stiffness = scaled};
 }
 
-// NULL with the error set. The time of a factorisation is counted here, not in the step's.
+// The time of a factorisation is counted here, not in the step's.
 InterfaceOperator *ladder_rung(Ladder *ladder, int32_t k, Error *err)
 {
     if (!ladder->rung[k]) {

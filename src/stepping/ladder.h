@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The step sizes dt_max 2^-k. A rung's matrix A = M/(gamma dt) + C + gamma dt K is factored when
-// the rung is first used and kept; changing the step then costs nothing. Used by stepping/sdirk.
+// The step sizes dt_k = dt_max 2^-k. The matrix of a rung, A_k = M/(gamma dt_k) + C + gamma dt_k K
+// condensed on the interface (Hairer and Wanner, Solving ODEs II, IV.8: one matrix for all stages),
+// does not depend on the state: it is factored when the rung is first used and kept, so that
+// changing the step costs nothing after that. Used by stepping/sdirk.
 #ifndef AMONTONS_STEPPING_LADDER_H
 #define AMONTONS_STEPPING_LADDER_H
 
@@ -25,7 +27,7 @@ void ladder_init(BulkOperator *system, double step_max, double step_min, Ladder 
 void ladder_destroy(Ladder *ladder);
 
 double ladder_step(const Ladder *ladder, int32_t k);
-double ladder_reach(const Ladder *ladder, int32_t k);   // gamma dt: displacement per velocity
+double ladder_reach(const Ladder *ladder, int32_t k);   // gamma dt: displacement over velocity
 // The coarsest rung whose step is at most `step`; rung_count when there is none.
 int32_t ladder_find(const Ladder *ladder, double step);
 // NULL with the error set when the matrix cannot be factored.

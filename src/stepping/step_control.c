@@ -84,8 +84,7 @@ typedef enum Verdict {
     STEP_UNCERTIFIED
 } Verdict;
 
-// The ledger after the step under trial.
-// A copy: the real ledger changes with an accepted step only.
+// The ledger as it is if the step under trial is accepted.
 static EnergyLedger book_step(const StepControl *control, int32_t k, const StepOutcome *outcome)
 {
     EnergyLedger ledger = control->ledger;
@@ -94,6 +93,7 @@ static EnergyLedger book_step(const StepControl *control, int32_t k, const StepO
     return ledger;
 }
 
+// The longest step that resolves waves.
 static int32_t wave_rung(const StepControl *control)
 {
     return ladder_find(&control->ladder, control->def.wave_step);
@@ -141,11 +141,6 @@ static bool may_skip_waves(StepControl *control, const State *state)
            certificate_excludes_runaway(&control->certificate, state, &control->ladder);
 }
 
-static bool resolves_waves(const StepControl *control, int32_t k)
-{
-    return ladder_step(&control->ladder, k) <= control->def.wave_step * (1 + 1e-12);
-}
-
 // Cheapest first. *certified: of the state the step leads to; true, without a look, where the
 // certificate is switched off.
 static Verdict judge_step(StepControl *control, int32_t k, const StepOutcome *outcome,
@@ -160,7 +155,7 @@ static Verdict judge_step(StepControl *control, int32_t k, const StepOutcome *ou
     if (!control->def.use_certificate) return STEP_ACCEPTED;
     *certified = certificate_holds(&control->certificate, &control->next);
     if (*certified) return STEP_ACCEPTED;
-    if (!resolves_waves(control, k))
+    if (k < wave_rung(control))
         return may_skip_waves(control, &control->next) ? STEP_ACCEPTED : STEP_UNCERTIFIED;
     bool resolved = certificate_step_resolves(&control->certificate, &control->next,
                                               ladder_contact(&control->ladder, k));
@@ -248,7 +243,7 @@ static void accept_step(StepControl *control, int32_t k, const StepOutcome *outc
     control->outcome = *outcome;
     control->last_step = ladder_step(&control->ladder, k);
     control->counters.accepted++;
-    if (resolves_waves(control, k))
+    if (k >= wave_rung(control))
         oscillation_record_add(&control->oscillations, &control->now, control->last_step,
                                control->certified);
     else
