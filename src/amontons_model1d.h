@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What stands behind `amontons model1d`: the 1D model of a block. Public, as amontons.h.
+// `amontons model1d`: the 1D model of a block. Public, as amontons.h.
 #ifndef AMONTONS_MODEL1D_H
 #define AMONTONS_MODEL1D_H
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What stands behind `amontons stability`: growth rates of slow slip. Public, as amontons.h.
+// `amontons stability`: growth rates of slow slip. Public, as amontons.h.
 #ifndef AMONTONS_STABILITY_H
 #define AMONTONS_STABILITY_H
 
@@ -76,7 +76,7 @@ typedef struct StabilityOptions {
     const volatile sig_atomic_t *stop;   // as in RunOptions
 } StabilityOptions;
 
-// Follows the quasi-static path of `scene` and asks each front position for its growth rates.
+// Follows the quasi-static path of `scene` and computes the growth rates at each front position.
 bool amontons_stability(const Scene *scene, const StabilityOptions *options,
                         StabilitySummary *summary, Error *err);
 

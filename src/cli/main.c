@@ -17,13 +17,14 @@ typedef struct Command {
 
 // In the order in which `--help` lists them.
 static const Command commands[] = {
-    {"run", command_run, "SCENE", "simulates a scene into a result folder"},
+    {"run", command_run, "SCENE", "simulates a scene and writes a result folder"},
     {"static", command_static, "SCENE", "finds the equilibrium under a given load"},
     {"stability", command_stability, "SCENE", "finds where slow slip loses stability: l_c, mu_M"},
-    {"model1d", command_model1d, "SCENE", "the paper's effective 1D model: theory and simulation"},
-    {"sweep", command_sweep, "STUDY", "computes many runs over varied keys, one table out"},
+    {"model1d", command_model1d, "SCENE",
+     "computes the 1D model of the paper: theory and simulation"},
+    {"sweep", command_sweep, "STUDY", "computes many runs over varied keys, into one table"},
     {"render", command_render, "RESULT", "draws the pictures of a stored result again"},
-    {"info", command_info, "FILE", "says what a mesh, a scene or a result holds"},
+    {"info", command_info, "FILE", "prints what a mesh, a scene or a result holds"},
 };
 
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };

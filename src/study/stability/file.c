@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What `amontons stability` leaves: numbers in stability.json, mode shapes in stability.h5. Lengths
 // are over L in the JSON (keys end in _over_L) and in the scene's units in the arrays; NaN becomes
-// null. The JSON is written last: where it stands, the arrays are whole.
+// null. The JSON is written last: where it exists, the arrays are complete.
 #include "study/stability/stability.h"
 
 #include "io/array_file.h"
@@ -138,7 +138,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// A file that failed half-way is abandoned: it never stands under its final name.
+// A file that could not be completed never gets its final name.
 bool stability_write(const StabilityPath *path, const StabilitySummary *summary, Error *err)
 {
     char name[AMONTONS_PATH_SIZE + 32];

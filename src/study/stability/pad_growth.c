@@ -101,7 +101,7 @@ static double load_of(PadWork *work, int32_t slipping)
     return growth_scan(work->path->growth, trial).load;
 }
 
-// Linear between the last number of nodes that holds and the next.
+// Linear between the last number of nodes that is stable and the next.
 static double critical_length(PadWork *work)
 {
     int32_t holds = 0, fails = work->count;

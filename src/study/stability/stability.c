@@ -87,8 +87,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The path's own steps, from where the simulation stands: tolerance and certificate off, so that
-// every step is as long as PATH_STEP says, and a rod of its own velocity that goes on from where
+// The path's own steps, from the state of the simulation: tolerance and certificate off, so that
+// every step is PATH_STEP long, and a rod of its own velocity that continues from where
 // the simulation's rod is. Memory for a point per contact node and the two ends.
 static bool open_path(StabilityPath *path, Error *err)
 {
@@ -219,7 +219,7 @@ cleanup:
 
 // Steps until the front has reached the end (whose own state is the last point), or is some
 // positions beyond l_c. A node that goes SNAP times as far in one step as the rod has jumped: where
-// a pad stands on its leading edge, slow slip has no state to go on to once the edge reaches mu_S.
+// a pad rests on its leading edge, slow slip has no state to go on to once the edge reaches mu_S.
 // The path's long steps damp the jump and go on; in time it may be a sliding.
 static bool follow_path(StabilityPath *path, Error *err)
 {
@@ -253,8 +253,8 @@ cleanup:
 
 // --- where something is lost --------------------------------------------------------------------
 
-// A measure of a point that is below 0 where it holds and reaches 0 where it is lost. Between two
-// points of which the second has one more slipping node, it is taken as linear in l.
+// A measure of a point that is below 0 where it is stable and reaches 0 where that is lost. Between
+// two points of which the second has one more slipping node, it is taken as linear in l.
 typedef double (*Margin)(const StabilityPath *path, int32_t k);
 
 // Point k slips at one node more than the one before, and that is the next one along the front
@@ -288,8 +288,8 @@ static double overload(const StabilityPath *path, int32_t k)
     return path->points[k].load - 1;
 }
 
-// Near the birth of the real pair (Im lambda)^2 goes linearly through 0; the first point of the
-// real pair has lost its own, and stands for what the two before it point at.
+// Near the birth of the real pair (Im lambda)^2 is linear through 0; the first point of the
+// real pair has none, and is replaced by the extrapolation of the two before it.
 static double frequency_square(const StabilityPath *path, int32_t k)
 {
     const StabilityPoint *point = &path->points[k];

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Where does slow slip lose its stability? The block is led along its quasi-static path: steps so
+// Where does slow slip lose its stability? The block follows its quasi-static path: steps so
 // long that the implicit, L-stable scheme damps whatever would grow, the certificate switched off,
 // the rod so slow that the velocity drops out (V -> 0). Whenever a further node begins to slip, the
-// state just before is asked for its growth rates (stepping/growth). Or, without a path, the
-// state in which the scene's own run ends is asked for its own.
+// growth rates of the state just before are computed (stepping/growth). Or, without a path, those
+// of the state in which the scene's own run ends.
 // amontons_stability is the entry; this is what its files share.
 #ifndef AMONTONS_STUDY_STABILITY_STABILITY_H
 #define AMONTONS_STUDY_STABILITY_STABILITY_H
