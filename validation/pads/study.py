@@ -164,7 +164,7 @@ def study_count(study, name, points, plain, pressures, title):
 # --- which pad goes, and why ----------------------------------------------------------------------
 
 def runaway_table(study, scene, pressures, reach, points, counts=COUNTS):
-    """Which pad the growing mode lies on, and what the trailing pad bears; by pressure and n."""
+    """Which pad the growing mode lies on, and what the trailing pad can resist; by pressure and n."""
     found = {}
     for P in pressures:
         every = [{"load.pressure": P, "mesh.set.n": n, "time.until.U": reach * P} for n in counts]
@@ -183,11 +183,11 @@ def runaway_table(study, scene, pressures, reach, points, counts=COUNTS):
                      " ".join("–" if v is None else f"{v:.2f}" for v in l_c),
                      pad["pressure"] / P * 0.6, pad["load"], pad["drag"], pad["drag"] * pad["length"]])
     study.table(f"Loss of stability at V on the quasi-static path ({scene}.yaml): the pad that the growing "
-                "mode lies on; of the trailing pad its share of load, what it bears and its drag",
-                ["P", "n", "mu where swings grow", "mu where a node jumps", "mu, stability", "mu_hold, stepping",
+                "mode lies on; of the trailing pad its share of load, its weakening over resistance, and its drag",
+                ["P", "n", "mu where oscillations grow", "mu where a node jumps", "mu, stability", "mu_hold, stepping",
                  "first whole pad, stepping", "pad that goes",
                  "next in mode", "l_c of each pad alone, over its length", "load share",
-                 "weakening / borne", "drag", "drag x length"], rows)
+                 "weakening / resistance", "drag", "drag x length"], rows)
     return found
 
 
@@ -199,9 +199,9 @@ def study_load(study, a, b):
         content.append({"label": f"{name}, ~{{P}} = {stress(P)}", "x": n, "color": color,
                         "y": [found[P, k]["pads"][0]["load"] for k in n],
                         "marker": "circle" if name == "A" else "square", "line": "thin"})
-    study.plot("load", title="Weakening over what the trailing pad bears alone", height=0.7,
+    study.plot("load", title="Weakening over what the trailing pad resists alone", height=0.7,
                x={"label": "pads ~{n}", "range": [0.4, 12.6]},
-               y={"label": "weakening / borne", "scale": "log"},
+               y={"label": "weakening / resistance", "scale": "log"},
                series=content + [level(1, [0.6, 12.4], 0)])
 
 
@@ -239,7 +239,7 @@ def study_drag(study, grooves):
                         "line": "dashed"})
     study.table("Drag (viscous shear of the softest slip over its rate, eta1/L0) by height, P = 0.006",
                 ["contact", "height", "drag, trailing pad", "drag, middle pad", "drag x length",
-                 "weakening / borne", "mu, stability"], rows)
+                 "weakening / resistance", "mu, stability"], rows)
     study.plot("drag", title="Drag of the trailing pad against height of pads, depth of grooves", height=0.7,
                x={"label": "height of pads, depth of grooves / ~{L}_{0}", "range": [0, 0.19]},
                y={"label": "drag of the trailing pad"}, series=content)
