@@ -124,10 +124,16 @@ class Program(unittest.TestCase):
         self.assertEqual(rows, re.split(r",\s+", names.strip()))
 
     def test_glossary(self):
-        """A name in `code` is one that the program, its files or the docs use."""
+        """Names in `code` and the words of each term are ones that the program, its files or the docs use."""
         glossary = (SOURCE / "docs/glossary.md").read_text()
         used = "".join(p.read_text() for p in [*SOURCE.glob("src/**/*.[ch]"), SOURCE / "README.md",
                                                *(d for d in DOCS if d.name != "glossary.md")])
+        terms = re.findall(r"\*\*([^*]+)\*\*", glossary)
+        self.assertGreater(len(terms), 60)
+        for term in terms:
+            for word in re.findall(r"[a-z]{4,}", term):
+                with self.subTest(term):
+                    self.assertRegex(used, rf"(?i)\b{word}")
         names = set(re.findall(r"`([^`]+)`", glossary))
         self.assertGreater(len(names), 20)
         for name in sorted(names):
