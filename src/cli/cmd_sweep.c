@@ -148,7 +148,7 @@ static int close_sweep(const SweepDisplay *display, const char *folder, const ch
     if (!display->quiet) {
         printf("%d points: %d computed in %.1f s", summary->points, summary->computed,
                summary->seconds);
-        if (summary->reused) printf(", %d known before", summary->reused);
+        if (summary->reused) printf(", %d computed before", summary->reused);
         if (summary->failed) printf(", %d failed", summary->failed);
         printf("\nTable in %s: sweep.csv and sweep.h5; each point's run.json in points/\n", folder);
         if (ranked) fputs(ranked, stdout);

@@ -189,10 +189,10 @@ class Sweep(unittest.TestCase):
 
     def test_refusals(self):
         _, errors = self.sweep("--slurm=--partition=none", status=1)
-        self.assertRegex(errors, "sbatch does not take the array: .*invalid partition")
+        self.assertRegex(errors, "sbatch refuses the array: .*invalid partition")
         self.assertFalse((self.folder / "out/slurm/running").exists())
         _, errors = self.sweep("--slurm=$(touch no)", status=2)
-        self.assertIn("wanted are words for sbatch", errors)
+        self.assertIn("expected options of sbatch", errors)
 
 
 if __name__ == "__main__":

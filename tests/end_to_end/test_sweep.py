@@ -110,7 +110,7 @@ class Sweep(unittest.TestCase):
         self.assertEqual(len(stamps), 8)
         again = self.sweep()
         self.assertIn("8 points: 0 computed", again.stdout)
-        self.assertIn("8 known before", again.stdout)
+        self.assertIn("8 computed before", again.stdout)
         self.assertEqual((self.folder / "out/sweep.csv").read_bytes(), before)
         # Another order, a value more: only that is computed.
         study = self.study(STUDY.replace("[0.003, 0.006]", "[0.006, 0.004, 0.003]"))
@@ -298,7 +298,7 @@ class Sweep(unittest.TestCase):
         with open(self.folder / "out/lock", "w") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
             done = self.sweep(status=1)
-        self.assertIn("another sweep is at work", done.stderr)
+        self.assertIn("another sweep is running", done.stderr)
 
     def test_settings_and_history(self):
         self.sweep("--set", "output.history=true", "--set", "mesh.set.nx=6", "mesh.set.nz=6")

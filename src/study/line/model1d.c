@@ -43,7 +43,7 @@ static bool check_scene(const Scene *scene, Error *err)
         FAIL(err, ERROR_INPUT, "%s: the 1D model needs load.pressure above 0", path);
     if (scene->load.traction_count > 0 || scene->load.support_count > 0)
         FAIL(err, ERROR_INPUT,
-             "%s: the 1D model knows pressure on top and a rod only, no load.tractions or "
+             "%s: the 1D model has a pressure on top and a rod only, no load.tractions or "
              "load.supports",
              path);
 cleanup:
@@ -90,7 +90,7 @@ static bool measure_block(const Scene *scene, Model1d *model, Error *err)
                  mesh.x_max - ends <= FLAT * model->length;
     if (contact.curve_count != 1 || !whole)
         FAIL(err, ERROR_INPUT,
-             "%s: the 1D model knows one contact along the whole block, from x = %g to %g; here "
+             "%s: the 1D model has one contact along the whole block, from x = %g to %g; here "
              "%d contact curves reach from %g to %g",
              scene->mesh.file, mesh.x_min, mesh.x_max, contact.curve_count, begins, ends);
 cleanup:

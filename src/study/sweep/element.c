@@ -33,7 +33,7 @@ bool elements_write(const Sweep *sweep, const char *path, const int32_t *points,
     char *directory = getcwd(NULL, 0), *folder = realpath(sweep->folder, NULL);
     JsonWriter *json = NULL;
     if (!directory || !folder)
-        FAIL(err, ERROR_FILE, "cannot tell where %s lies: %s", sweep->folder, strerror(errno));
+        FAIL(err, ERROR_FILE, "cannot find the path of %s: %s", sweep->folder, strerror(errno));
     TRY((json = json_create(path, err)));
     json_begin_object(json, NULL);
     json_text(json, "directory", directory);

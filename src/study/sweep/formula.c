@@ -39,7 +39,7 @@ static double refuse(Formula *formula, const char *wanted)
 {
     if (next_of(formula))
         error_set(formula->err, ERROR_INPUT, __FILE__, __LINE__,
-                  "`%.40s`: wanted is %s in its place", formula->at, wanted);
+                  "`%.40s`: expected %s in its place", formula->at, wanted);
     else
         error_set(formula->err, ERROR_INPUT, __FILE__, __LINE__,
                   "the formula ends where %s is "

@@ -31,7 +31,7 @@ bool slurm_jobs_open(const char *folder, int32_t count, SlurmJobs *jobs, Error *
     Hash hash = hash_start();
     *jobs = (SlurmJobs){.answer_size = ANSWER_SIZE + (size_t)count * LINE_SIZE};
     if (!place || strlen(place) + 40 > sizeof jobs->folder)
-        FAIL(err, ERROR_FILE, "cannot tell where %s lies", folder);
+        FAIL(err, ERROR_FILE, "cannot find the path of %s", folder);
     memcpy(jobs->folder, place, strlen(place) + 1);
     hash_text(&hash, place);
     hash_write(&hash, text);
@@ -116,7 +116,7 @@ bool slurm_write_script(const char *path, const char *list, Error *err)
     char program[PATH_MAX] = "";
     FILE *file = NULL;
     if (readlink("/proc/self/exe", program, sizeof program - 1) < 0)
-        FAIL(err, ERROR_FILE, "cannot tell where the program stands (/proc/self/exe)");
+        FAIL(err, ERROR_FILE, "cannot find the path of this program (/proc/self/exe)");
     if (!(file = fopen(path, "w")))
         FAIL(err, ERROR_FILE, "cannot write %s: %s", path, strerror(errno));
     fprintf(file, "#!/bin/sh\n#SBATCH --ntasks=1\n#SBATCH --cpus-per-task=1\nexec ");
@@ -140,7 +140,7 @@ bool slurm_submit(SlurmJobs *jobs, const char *script, int32_t count, const Swee
     wordexp_t given = {0};
     if (wordexp(options->slurm, &given, WRDE_NOCMD) != 0 || given.we_wordc + 10 > ARGUMENTS_MAX)
         FAIL(err, ERROR_INPUT,
-             "--slurm=%s: wanted are words for sbatch, as in "
+             "--slurm=%s: expected options of sbatch, as in "
              "--slurm=\"--partition=short --time=10\"",
              options->slurm);
     snprintf(output, sizeof output, "--output=%s/slurm/%%A_%%a.out", jobs->folder);
@@ -154,8 +154,7 @@ bool slurm_submit(SlurmJobs *jobs, const char *script, int32_t count, const Swee
     words[used++] = name;
     words[used++] = script;
     TRY(ask(jobs, words, &status, err));
-    if (status != 0)
-        FAIL(err, ERROR_LIBRARY, "sbatch does not take the array: %.1500s", jobs->answer);
+    if (status != 0) FAIL(err, ERROR_LIBRARY, "sbatch refuses the array: %.1500s", jobs->answer);
     // "123" or "123;cluster", perhaps below lines that a site adds.
     const char *line = strrchr(jobs->answer, '\n');
     line = line ? line + 1 : jobs->answer;

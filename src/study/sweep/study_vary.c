@@ -10,6 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const char AXIS_ALLOWED[] = "a list of values, {log: [from, to], points: n} or "
+                                   "{linear: [from, to], points: n}";
+
 // A key that is given in several places is one column.
 static bool add_column(Study *study, const char *key, Error *err)
 {
@@ -137,8 +140,6 @@ static bool write_range(const double bounds[2], bool is_log, int32_t points, cha
 // place.
 static bool read_range(Study *study, YamlNode node, StudyAxis *axis, Error *err)
 {
-    static const char allowed[] = "a list of values, {log: [from, to], points: n} or "
-                                  "{linear: [from, to], points: n}";
     YamlNode ends = YAML_NO_NODE, points = YAML_NO_NODE;
     bool is_log = false, is_known = true;
     double bounds[2] = {0, 0}, count = 0;
@@ -157,7 +158,7 @@ static bool read_range(Study *study, YamlNode node, StudyAxis *axis, Error *err)
         }
     }
     if (!is_known || ends == YAML_NO_NODE || points == YAML_NO_NODE)
-        return study_refuse(study, node, axis->key, allowed, err);
+        return study_refuse(study, node, axis->key, AXIS_ALLOWED, err);
     YamlNode first = yaml_first(study->file, ends);
     bool good = yaml_kind(study->file, ends) == YAML_LIST && yaml_count(study->file, ends) == 2 &&
                 study_plain_number(study, first, &bounds[0]) &&
@@ -196,10 +197,7 @@ static bool read_axis(Study *study, YamlNode item, Error *err)
     if (kind == YAML_MAP) TRY(read_range(study, item, axis, err));
     axis->count = yaml_count(axis->document, axis->list);
     if ((kind != YAML_MAP && kind != YAML_LIST) || axis->count == 0)
-        return study_refuse(study, item, axis->key,
-                            "a list of values, {log: [from, to], points: n} or "
-                            "{linear: [from, to], points: n}",
-                            err);
+        return study_refuse(study, item, axis->key, AXIS_ALLOWED, err);
     study->axis_count++;
     for (YamlNode value = yaml_first(axis->document, axis->list); value != YAML_NO_NODE;
          value = yaml_next(axis->document, value))
@@ -228,7 +226,7 @@ static bool read_override(Study *study, const char *text, Error *err)
     char *key = study->override_keys[study->override_count];
     const char *equals = strchr(text, '=');
     if (!equals || equals == text || equals - text >= STUDY_NAME_SIZE)
-        FAIL(err, ERROR_INPUT, "--set %.80s: wanted is key=value, as in load.pressure=0.006", text);
+        FAIL(err, ERROR_INPUT, "--set %.80s: expected key=value, as in load.pressure=0.006", text);
     memcpy(key, text, (size_t)(equals - text));
     if (study_column(study, key) >= 0)
         FAIL(err, ERROR_INPUT, "--set %s: %s varies this key", key, study->path);

@@ -33,7 +33,7 @@ static bool take_folder(Sweep *sweep, Error *err)
         FAIL(err, ERROR_FILE, "cannot write into %s: %s", sweep->folder, strerror(errno));
     if (flock(sweep->lock, LOCK_EX | LOCK_NB) != 0)
         FAIL(err, ERROR_FILE,
-             "another sweep is at work in %s: wait for it, or choose another "
+             "another sweep is running in %s: wait for it, or choose another "
              "folder (-o)",
              sweep->folder);
 cleanup:

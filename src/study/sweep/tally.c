@@ -68,7 +68,8 @@ bool sweep_check_stop(const Sweep *sweep, Error *err)
 {
     const volatile sig_atomic_t *stop = sweep->options->stop;
     if (stop && *stop)
-        FAIL(err, ERROR_INTERRUPT, "interrupted; the same command goes on where this one stopped");
+        FAIL(err, ERROR_INTERRUPT,
+             "interrupted; the same command continues where this one stopped");
 cleanup:
     return error_is_clean(err);
 }

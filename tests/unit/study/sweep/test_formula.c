@@ -54,12 +54,12 @@ static void test_refusals(void **state)
     } known[] = {{"", "ends where"},
                  {"2 *", "ends where"},
                  {"(1 + 2", "ends where a closing bracket"},
-                 {"1 2", "`2`: wanted is an operator"},
+                 {"1 2", "`2`: expected an operator"},
                  {"mesh.set.lenght", "`mesh.set.lenght` is no number"},
                  {"1 / 0", "not finite"},
                  {"sqrt(-1)", "not finite"},
                  {"sqrt", "`sqrt` is no number"},
-                 {"3 $ 4", "`$ 4`: wanted is an operator"}};
+                 {"3 $ 4", "`$ 4`: expected an operator"}};
     for (size_t k = 0; k < sizeof known / sizeof known[0]; k++) {
         Error err = {0};
         double value = 0;

@@ -279,7 +279,7 @@ static void test_faults_of_overrides(void **state)
 {
     (void)state;
     static const char *const overrides[][2] = {
-        {"load.pressure=3", "varies this key"}, {"=3", "wanted is key=value"}, {"a", "wanted is"}};
+        {"load.pressure=3", "varies this key"}, {"=3", "expected key=value"}, {"a", "expected"}};
     for (size_t k = 0; k < 3; k++) {
         Error err = {0};
         write_study("vary: {load.pressure: [1]}\n");
