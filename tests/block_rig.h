@@ -8,6 +8,7 @@
 #include "block_mesh.h"
 #include "dense_by_hand.h"
 #include "stepping/step_control.h"
+#include "paper_material.h"
 
 typedef struct RigDef {
     BlockDef block;
@@ -31,7 +32,7 @@ typedef struct BlockRig {
 static inline RigDef rig_def(void)
 {
     return (RigDef){.block = {.kind = ELEMENT_Q4, .nx = 4, .nz = 2, .length = 1, .height = 0.5},
-                    .material = material_default(),
+                    .material = paper_material(),
                     .law = {FRICTION_LINEAR_WEAKENING, 0.38, 0.1, 3.4e-4},   // the paper's set A
                     .rod_height = 0.25,
                     .rod_width = 0.1,

@@ -10,11 +10,6 @@
 #include <math.h>
 #include <string.h>
 
-Material material_default(void)
-{
-    return (Material){.young = 1, .poisson = 0.34, .density = 1, .eta1 = 1, .eta2 = 1};
-}
-
 // E nu / ((1+nu)(1-2nu)), or what sigma_yy = 0 makes of it in a thin plate: E nu / (1 - nu^2).
 static double lame_lambda(const Material *material)
 {

@@ -18,9 +18,6 @@ typedef struct Material {
     bool plane_strain;
 } Material;
 
-// The normalised material of the paper: E = rho = eta1 = eta2 = 1, nu = 0.34, plane stress.
-Material material_default(void);
-
 // sigma = D [eps_xx, eps_zz, 2 eps_xz]; row-major, symmetric.
 void material_elastic(const Material *material, double d[3][3]);
 void material_viscous(const Material *material, double d[3][3]);

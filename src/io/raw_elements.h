@@ -24,8 +24,7 @@ typedef struct RawElements {
     RawElement *items;   // [count]; owned
 } RawElements;
 
-// Whether a block's entity is in a group, and in how many groups of its dimension it is.
-bool raw_group_holds(const RawGroup *group, const RawBlock *block);
+// In how many groups of its dimension a block's entity is.
 int32_t raw_block_groups(const MeshRaw *raw, const RawBlock *block);
 
 // The elements of the body by ascending number: of the physical surfaces, or of every surface where

@@ -52,11 +52,6 @@ const char *result_series_name(ResultSeries series)
     return series_rows[series].name;
 }
 
-const char *result_nodes_name(ResultNodes nodes)
-{
-    return nodes_rows[nodes].name;
-}
-
 const char *result_table_name(ResultTable table)
 {
     return table_rows[table].name;

@@ -15,7 +15,6 @@
 #include <stdio.h>
 
 const char *result_series_name(ResultSeries series);
-const char *result_nodes_name(ResultNodes nodes);
 const char *result_table_name(ResultTable table);
 const char *result_number_name(ResultNumber number);
 ResultColumns result_series_columns(ResultSeries series);

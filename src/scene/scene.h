@@ -138,7 +138,4 @@ typedef struct SceneSetting {
 bool scene_read_settings(const char *path, const SceneSetting *settings, int32_t setting_count,
                          Scene *scene, Error *err);
 
-// The same from a text, with `path` (of a file that need not exist) for errors and mesh.file.
-bool scene_read_text(const char *path, const char *text, Scene *scene, Error *err);
-
 #endif

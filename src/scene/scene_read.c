@@ -328,19 +328,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool scene_read_text(const char *path, const char *text, Scene *scene, Error *err)
-{
-    *scene = (Scene){0};
-    Reader reader = {0};
-    reader.keys = scene_keys(&reader.key_count);
-    TRY(yaml_parse(path, text, 0, &reader.file, err));
-    TRY(begin_reading(&reader, path, scene, err));
-    TRY(finish_reading(&reader, path, scene, err));
-cleanup:
-    destroy_reader(&reader);
-    return error_is_clean(err);
-}
-
 // --- the public face ----------------------------------------------------------------------------
 
 bool amontons_scene_read(const char *path, const char *const *overrides, int32_t override_count,

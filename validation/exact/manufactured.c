@@ -227,7 +227,8 @@ static int32_t read_parameters(int argc, char **argv, MeshParameter *parameters)
 int main(int argc, char **argv)
 {
     Error err = {0};
-    Problem problem = {.material = material_default()};
+    Problem problem = {
+        .material = {.young = 1, .poisson = 0.34, .density = 1, .eta1 = 1, .eta2 = 1}};
     MeshParameter parameters[PARAMETERS_MAX] = {0};
     MeshFile file = {0};
     if (argc < 2) return 2;

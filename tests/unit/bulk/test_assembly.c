@@ -6,6 +6,7 @@
 #include "block_mesh.h"
 #include "bulk/element.h"
 #include "dense_by_hand.h"
+#include "paper_material.h"
 
 static BlockDef distorted(int32_t kind)
 {
@@ -69,7 +70,7 @@ static void test_dense_assembly(void **state)
 {
     (void)state;
     Error err = {0};
-    Material material = material_default();
+    Material material = paper_material();
     material.density = 1.7;
     for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++) {
         BlockDef def = distorted(kind);
@@ -129,7 +130,7 @@ static void test_weights_and_tractions(void **state)
 {
     (void)state;
     Error err = {0};
-    Material material = material_default();
+    Material material = paper_material();
     for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++) {
         BlockDef def = distorted(kind);
         Mesh mesh;
@@ -175,7 +176,7 @@ static void test_held(void **state)
 {
     (void)state;
     Error err = {0};
-    Material material = material_default();
+    Material material = paper_material();
     BlockDef def = distorted(ELEMENT_Q4);
     Mesh mesh;
     Bulk bulk;
@@ -213,7 +214,7 @@ static void test_held(void **state)
 static void test_memory_faults(void **state)
 {
     (void)state;
-    Material material = material_default();
+    Material material = paper_material();
     BlockDef def = distorted(ELEMENT_Q4);
     Mesh mesh;
     block_build(&def, &mesh);

@@ -5,6 +5,7 @@
 
 #include "block_mesh.h"
 #include "dense_by_hand.h"
+#include "paper_material.h"
 
 // The elements of distorted blocks, three blocks a kind.
 typedef void (*ElementCheck)(ElementKind kind, const double (*position)[2],
@@ -139,7 +140,7 @@ static void check_spectrum(ElementKind kind, const double (*position)[2],
 static void test_spectra(void **state)
 {
     (void)state;
-    Material material = material_default();
+    Material material = paper_material();
     for_all_elements(&material, check_spectrum);
 }
 
@@ -159,7 +160,7 @@ static void check_mass(ElementKind kind, const double (*position)[2],
 static void test_masses(void **state)
 {
     (void)state;
-    Material material = material_default();
+    Material material = paper_material();
     material.density = 2.5;
     for_all_elements(&material, check_mass);
     const double fractions[ELEMENT_KIND_COUNT][3] = {[ELEMENT_T3] = {1. / 3},
@@ -216,7 +217,7 @@ static void test_damping_is_the_viscous_stiffness(void **state)
 static void test_quadratic_motions(void **state)
 {
     (void)state;
-    Material material = material_default();
+    Material material = paper_material();
     double d[3][3];
     material_elastic(&material, d);
     const ElementKind kinds[] = {ELEMENT_T6, ELEMENT_Q8, ELEMENT_Q9};

@@ -3,6 +3,7 @@
 #include "bulk/material.h"
 
 #include "near.h"
+#include "paper_material.h"
 
 static const double RATIOS[] = {-0.5, 0, 0.1, 0.25, 0.34, 0.4, 0.49};
 enum { RATIO_COUNT = sizeof RATIOS / sizeof *RATIOS };
@@ -87,7 +88,7 @@ static void test_rayleigh(void **state)
     }
     const double paper[][4] = {{0.34, 1.06335, 0.61085, 0.56199}, {0.4, 1.09109, 0.59761, 0.55289}};
     for (int32_t k = 0; k < 2; k++) {
-        Material material = material_default();
+        Material material = paper_material();
         material.poisson = paper[k][0];
         WaveSpeeds speeds = material_speeds(&material);
         assert_near("c_L", speeds.longitudinal, paper[k][1], 5e-6);
@@ -103,7 +104,7 @@ static void test_slip_speed(void **state)
     (void)state;
     for (int strain = 0; strain < 2; strain++) {
         for (double nu = -0.5; nu < 0.5; nu += 0.04) {
-            Material material = material_default();
+            Material material = paper_material();
             material.poisson = nu;
             material.plane_strain = strain;
             double shear = sqrt(0.5 / (1 + nu));
@@ -117,7 +118,7 @@ static void test_slip_speed(void **state)
 static void test_default_is_the_paper(void **state)
 {
     (void)state;
-    Material material = material_default();
+    Material material = paper_material();
     assert_true(material.young == 1 && material.density == 1 && material.poisson == 0.34);
     assert_true(material.eta1 == 1 && material.eta2 == 1 && !material.plane_strain);
 }

@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "near.h"
+#include "scene_of_text.h"
 #include "random_numbers.h"
 
 #include <sys/stat.h>
@@ -67,7 +68,7 @@ static void key_with(int32_t line, const char *replaced, double tolerance, char 
     }
     if (line >= LINES) strcat(text, replaced);
     snprintf(path, sizeof path, "%s/scene.yaml", folder);
-    if (!scene_read_text(path, text, &scene, &err)) fail_msg("%s", err.message);
+    if (!scene_of_text(path, text, &scene, &err)) fail_msg("%s", err.message);
     if (!shape_key(&scene, tolerance, key, &err)) fail_msg("%s", err.message);
 }
 

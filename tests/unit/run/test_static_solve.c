@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "scene/scene.h"
 #include "run/static_solve.h"
+#include "scene_of_text.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -32,7 +33,7 @@ static Scene read_scene(const char *more)
              "mesh: {file: ../../meshes/block.geo, set: {nx: 4, nz: 2}}\n"
              "material: {poisson: 0.3}\n%s\n",
              more);
-    if (!scene_read_text(path, text, &scene, &err)) fail_msg("%s", err.message);
+    if (!scene_of_text(path, text, &scene, &err)) fail_msg("%s", err.message);
     return scene;
 }
 

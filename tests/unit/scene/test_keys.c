@@ -3,6 +3,7 @@
 // same scene.
 #include "base/memory.h"
 #include "scene/keys.h"
+#include "scene_of_text.h"
 #include "unit/scene/scene_texts.h"
 
 #include <math.h>
@@ -142,9 +143,9 @@ static void assert_round_trip(const char *text)
     Error err = {0};
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/run.json", folder);
-    if (!scene_read_text("s.yaml", text, &scene, &err)) fail_msg("%s", err.message);
+    if (!scene_of_text("s.yaml", text, &scene, &err)) fail_msg("%s", err.message);
     char *json = scene_as_json(&scene, path);
-    if (!scene_read_text("s.yaml", json, &again, &err)) fail_msg("%s\n%s", err.message, json);
+    if (!scene_of_text("s.yaml", json, &again, &err)) fail_msg("%s\n%s", err.message, json);
     int32_t count = 0;
     const SceneKey *keys = scene_keys(&count);
     for (int32_t k = 0; k < count; k++) {
@@ -203,7 +204,7 @@ static void test_json_is_nested_as_the_scene(void **state)
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/run.json", folder);
     scene_text_with(0, "", text);
-    assert_true(scene_read_text("s.yaml", text, &scene, &err));
+    assert_true(scene_of_text("s.yaml", text, &scene, &err));
     char *json = scene_as_json(&scene, path), compact[4000];
     size_t used = 0;
     for (char *c = json; *c; c++)

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "scene/scene.h"
 #include "scene/keys.h"
+#include "scene_of_text.h"
 #include "unit/scene/scene_texts.h"
 
 #include <setjmp.h>
@@ -30,7 +31,7 @@ static Scene read_with(int32_t line, const char *text)
     Scene scene;
     Error err = {0};
     scene_text_with(line, text, whole);
-    if (!scene_read_text("folder/s.yaml", whole, &scene, &err)) fail_msg("%s", err.message);
+    if (!scene_of_text("folder/s.yaml", whole, &scene, &err)) fail_msg("%s", err.message);
     return scene;
 }
 
@@ -171,7 +172,7 @@ static void test_si_units(void **state)
         "time: {until: {U: 20 um, t: 3 ms}}\n";
     Scene scene;
     Error err = {0};
-    if (!scene_read_text("s.yaml", text, &scene, &err)) fail_msg("%s", err.message);
+    if (!scene_of_text("s.yaml", text, &scene, &err)) fail_msg("%s", err.message);
     assert_string_equal(scene.mesh.file, "/m/b.msh");
     assert_true(scene.mesh.parameters[0].value == 0.01);
     assert_string_equal(scene.mesh.parameters[2].text, "3 kg");
@@ -198,7 +199,7 @@ static void test_special_cases(void **state)
     char *until = strstr(text, "{U: 0.1}");
     until[1] = 't';
     Error err = {0};
-    assert_true(scene_read_text("s.yaml", text, &scene, &err));
+    assert_true(scene_of_text("s.yaml", text, &scene, &err));
     assert_int_equal(scene.rod.kind, ROD_NONE);
     assert_string_equal(scene.mesh.file, "block.geo");   // the scene stands in this folder
 }
@@ -269,7 +270,7 @@ static void test_mutated_scenes(void **state)
         }
         Scene scene;
         Error err = {0};
-        bool done = scene_read_text("fuzz.yaml", text, &scene, &err);
+        bool done = scene_of_text("fuzz.yaml", text, &scene, &err);
         if (!done && err.code != ERROR_INPUT) fail_msg("%s\nof\n%s", err.message, text);
         valid += done;
     }

@@ -2,6 +2,7 @@
 // Bad scenes: each error must stand at the right place and say what is wrong and what is allowed.
 // Lines and columns were counted by hand.
 #include "scene/scene.h"
+#include "scene_of_text.h"
 #include "unit/scene/scene_texts.h"
 
 #include <setjmp.h>
@@ -231,7 +232,7 @@ static void assert_bad(const BadScene *bad, const char *text)
 {
     static Scene scene;
     Error err = {0};
-    assert_false(scene_read_text("s.yaml", text, &scene, &err));
+    assert_false(scene_of_text("s.yaml", text, &scene, &err));
     assert_int_equal(err.code, ERROR_INPUT);
     bool right = strncmp(err.message, bad->place, strlen(bad->place)) == 0;
     for (int i = 0; i < 3 && bad->words[i]; i++)

@@ -10,6 +10,7 @@
 #include "bulk/interface_operator.h"
 #include "contact/rod.h"
 #include "stepping/state.h"
+#include "paper_material.h"
 
 typedef struct SteppedDef {
     int32_t cells;   // along each side
@@ -53,7 +54,7 @@ static inline void stepped_block_build(const SteppedDef *def, SteppedBlock *bloc
 {
     Error err = {0};
     dense_use_one_thread();
-    *block = (SteppedBlock){.law = def->law, .material = material_default()};
+    *block = (SteppedBlock){.law = def->law, .material = paper_material()};
     block->material.eta1 = block->material.eta2 = def->eta;
     BlockDef shape = {.kind = ELEMENT_Q4,
                       .nx = def->cells,
