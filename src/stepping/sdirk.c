@@ -93,6 +93,13 @@ cleanup:
     return error_is_clean(err);
 }
 
+// y += factor x. Not BLAS's, whose fused multiply-adds round otherwise: a block of period 2 can then
+// pass for one of period 1, its rounds being near each other.
+static void add_scaled(double factor, const double *x, int32_t count, double *y)
+{
+    for (int32_t k = 0; k < count; k++) y[k] += factor * x[k];
+}
+
 // Size of the local error of u, as stepping/tableau estimates it.
 static double estimate_error(Sdirk *scheme, const State *from, const State *to, double step)
 {
@@ -103,8 +110,8 @@ static double estimate_error(Sdirk *scheme, const State *from, const State *to, 
         error[k] = step * (tableau->error[0] * from->velocity[k] +
                            tableau->error[stages] * to->velocity[k]);
     for (int32_t i = 0; i + 1 < stages; i++)
-        dense_add_scaled(step * tableau->error[i + 1], scheme->stage_velocity + (int64_t)i * dofs,
-                         dofs, error);
+        add_scaled(step * tableau->error[i + 1], scheme->stage_velocity + (int64_t)i * dofs, dofs,
+                   error);
     return bulk_operator_size(scheme->system, error);
 }
 
@@ -170,9 +177,9 @@ static void start_stage(Sdirk *scheme, const Trial *trial, int32_t i)
         const double *velocity = scheme->stage_velocity + (int64_t)j * dofs;
         const double *elastic = scheme->stage_elastic + (int64_t)j * dofs;
         const double *impulse = scheme->stage_impulse + (int64_t)j * dofs;
-        dense_add_scaled(trial->step * weight, velocity, dofs, scheme->predictor);
-        dense_add_scaled(trial->step * weight, elastic, dofs, scheme->force);
-        dense_add_scaled(weight, impulse, dofs, trial->to->inertia);
+        add_scaled(trial->step * weight, velocity, dofs, scheme->predictor);
+        add_scaled(trial->step * weight, elastic, dofs, scheme->force);
+        add_scaled(weight, impulse, dofs, trial->to->inertia);
     }
 }
 
