@@ -36,7 +36,7 @@ bool moving_set_create(const Block *block, MovingSet *set, Error *err);
 void moving_set_destroy(MovingSet *set);
 
 // Lists what `state` lets move. with_open false: open nodes are left out, as in matrices that have
-// them condensed out (contact/closed_operator).
+// them condensed out (contact/contact_matrix).
 void moving_set_find(MovingSet *set, const State *state, bool with_open);
 
 // matrix = factor S[F,F] + keep matrix [count^2]. schur: S [interface->count^2], symmetric.
