@@ -122,16 +122,18 @@ static void test_without_period(void **state)
     hand_drops_end(&hand);
 }
 
-// L = 2, set A, at P L = 0.006: slidings by turns at 0.266 and 0.271. A run that stops because its
-// drops repeat says after how many, and mu_M is the mean of whole rounds.
+// L = 4, set A, P = 0.0022 on few cells: slidings by turns at 0.24 and 0.29. A run that stops
+// because its drops repeat says after how many, and mu_M is the mean of whole rounds.
 static void test_block_of_period_two(void **state)
 {
     (void)state;
     static const char *const overrides[] = {
-        "mesh.set={length: 2, height: 1, nx: 40, nz: 20}",
-        "rod.height=0.5",
-        "rod.width=0.1",
-        "time.until={U: 0.2, periodic: true}",
+        "mesh.set={length: 4, height: 2, nx: 32, nz: 16}",
+        "rod.height=1",
+        "rod.width=0.2",
+        "load.pressure=0.0022",
+        "time.periodic_tolerance=0.05",
+        "time.until={U: 0.4, periodic: true}",
         "output={history: false, fields: none, figures: []}",
     };
     Error err = {0};
@@ -140,12 +142,12 @@ static void test_block_of_period_two(void **state)
     RunOptions options = {.folder = NULL};
     RunSummary summary;
     snprintf(path, sizeof path, "%s/validation/paper/fig1.yaml", getenv("AMONTONS_SOURCE"));
-    if (!amontons_scene_read(path, overrides, 5, &scene, &err) ||
+    if (!amontons_scene_read(path, overrides, 7, &scene, &err) ||
         !amontons_run(scene, &options, &summary, &err))
         fail_msg("%s", err.message);
     assert_int_equal(summary.period, 2);
     assert_int_equal(summary.drop_period, 2);
-    assert_int_equal(summary.peaks_counted, 4);
+    assert_true(summary.peaks_counted >= 4 && summary.peaks_counted % 2 == 0);
     assert_true(summary.mu_M > summary.mu_hold &&
                 summary.mu_M < summary.mu_hold + summary.mu_M_spread);
     assert_true(summary.mu_M_error < 0.1 * summary.mu_M_spread);   // rounds agree, branches differ
