@@ -174,11 +174,9 @@ bool model1d_write(const Model1dSimulation *simulation, const Model1dSummary *su
     if (!file) goto cleanup;
     TRY(write_curves(file, simulation, err));
     TRY(write_profiles(file, simulation, err));
-    ArrayFile *closing = file;
-    file = NULL;
-    TRY(array_file_close(closing, err));
-    TRY(write_numbers(simulation, summary, err));
 cleanup:
+    if (error_is_clean(err))
+        return array_file_close(file, err) && write_numbers(simulation, summary, err);
     array_file_abandon(file);
-    return error_is_clean(err);
+    return false;
 }

@@ -146,11 +146,9 @@ bool stability_write(const StabilityPath *path, const StabilitySummary *summary,
     ArrayFile *file = array_file_create(name, err);
     if (!file) goto cleanup;
     TRY(fill_arrays(file, path, err));
-    ArrayFile *closing = file;
-    file = NULL;
-    TRY(array_file_close(closing, err));
-    TRY(write_numbers(path, summary, err));
 cleanup:
+    if (error_is_clean(err))
+        return array_file_close(file, err) && write_numbers(path, summary, err);
     array_file_abandon(file);
-    return error_is_clean(err);
+    return false;
 }

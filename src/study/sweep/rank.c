@@ -170,12 +170,10 @@ bool ranking_write(const Sweep *sweep, const Ranking *ranking, Error *err)
     TRY((csv = csv_create(path, err)));
     write_head(csv, &sweep->study);
     for (int32_t k = 0; k < ranking->count; k++) TRY(write_row(csv, sweep, ranking, k, err));
-    CsvWriter *closing = csv;
-    csv = NULL;
-    TRY(csv_finish(closing, err));
 cleanup:
+    if (error_is_clean(err)) return csv_finish(csv, err);
     csv_abandon(csv);
-    return error_is_clean(err);
+    return false;
 }
 
 // --- on the terminal ----------------------------------------------------------------------------

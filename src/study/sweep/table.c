@@ -200,12 +200,10 @@ static bool write_h5(const Sweep *sweep, const SweepTable *table, Error *err)
     ArrayFile *file = array_file_create(path, err);
     TRY(file);
     TRY(write_arrays(&sweep->study, table, file, err));
-    ArrayFile *closing = file;
-    file = NULL;
-    TRY(array_file_close(closing, err));
 cleanup:
+    if (error_is_clean(err)) return array_file_close(file, err);
     array_file_abandon(file);
-    return error_is_clean(err);
+    return false;
 }
 
 static bool make_bounds(int64_t count, Bounds *bounds, Error *err)
@@ -252,15 +250,12 @@ bool table_write(const Sweep *sweep, SweepTable *table, Error *err)
     TRY((writer.csv = csv_create(path, err)));
     write_head(&writer);
     for (int32_t k = 0; k < sweep->study.point_count; k++) TRY(write_row(&writer, k, scene, err));
-    CsvWriter *closing = writer.csv;
-    writer.csv = NULL;
-    TRY(csv_finish(closing, err));
-    TRY(write_h5(sweep, table, err));
 cleanup:
-    csv_abandon(writer.csv);
     memory_free(writer.cell);
     memory_free(scene);
-    return error_is_clean(err);
+    if (error_is_clean(err)) return csv_finish(writer.csv, err) && write_h5(sweep, table, err);
+    csv_abandon(writer.csv);
+    return false;
 }
 
 void table_destroy(SweepTable *table)
