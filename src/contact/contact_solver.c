@@ -330,8 +330,8 @@ static bool may_go_on(Solve *solve)
     return solve->iterations++ < solve->limit;
 }
 
-// After statuses have changed. A set met before tells of a cycle (Brent, BIT 20, 1980: compared with
-// one set that is kept, and renewed at powers of two).
+// After statuses have changed. A set met before tells of a cycle (Brent, BIT 20, 1980: compared
+// with one set that is kept, and renewed at powers of two).
 static void note_statuses(Solve *solve)
 {
     solve->least = INFINITY;
@@ -352,10 +352,10 @@ static bool has_stalled(Solve *solve, double residual)
     return solve->stalled >= STALLED_MAX;
 }
 
-// A node whose shear exceeds its threshold at rest, yet which slips against that shear after Newton's
-// first step: friction falls faster with its slip rate than S resists, so that slow slip is no
-// solution while the others' statuses stay. It starts again beyond the weakening. false: it is not
-// so.
+// A node whose shear exceeds its threshold at rest, yet which slips against that shear after
+// Newton's first step: friction falls faster with its slip rate than S resists, so that slow slip
+// is no solution while the others' statuses stay. It starts again beyond the weakening. false: it
+// is not so.
 static bool starts_fast(Solve *solve)
 {
     const ContactProblem *problem = solve->equations.problem;

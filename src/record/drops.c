@@ -9,8 +9,8 @@
 #include <math.h>
 
 // Relative to the top. In parameter set A on up to 12 pads, single pads that slide lower mu by at
-// most 2.5 %, and what makes the block give way by 8 % and more. In set B on 8 pads there is no such
-// gap (slidings of pads lower mu by 0.5 to 80 %, half of them by 2 to 5 %): there it is a
+// most 2.5 %, and what makes the block give way by 8 % and more. In set B on 8 pads there is no
+// such gap (slidings of pads lower mu by 0.5 to 80 %, half of them by 2 to 5 %): there it is a
 // choice. docs/constants.md has what half and twice of it change.
 const double LEAST_DROP = 0.05;
 

@@ -2,8 +2,8 @@
 // The energy ledger: work of rod and loads = elastic + kinetic + viscous + frictional. Works and
 // dissipations are summed over the stages with the scheme's own weights, stored energies are taken
 // from the states, so the imbalance is the integrator's error (and goes down at its order) or a
-// bug, which shows as an imbalance that does not go down with the step. All per width, of the block. Filled by stepping/sdirk, judged by
-// stepping/step_control and run/simulation.
+// bug, which shows as an imbalance that does not go down with the step. All per width, of the
+// block. Filled by stepping/sdirk, judged by stepping/step_control and run/simulation.
 #ifndef AMONTONS_STEPPING_ENERGY_H
 #define AMONTONS_STEPPING_ENERGY_H
 

@@ -93,8 +93,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// y += factor x. Not BLAS's, whose fused multiply-adds round otherwise: a block of period 2 can then
-// pass for one of period 1, its rounds being near each other.
+// y += factor x. Not BLAS's, whose fused multiply-adds round otherwise: a block of period 2 can
+// then pass for one of period 1, its rounds being near each other.
 static void add_scaled(double factor, const double *x, int32_t count, double *y)
 {
     for (int32_t k = 0; k < count; k++) y[k] += factor * x[k];
