@@ -25,13 +25,9 @@ typedef struct PlotReader {
     Error *err;
 } PlotReader;
 
-// Sets ERROR_INPUT with place, what was found and what is allowed; false.
 static bool refuse(const PlotReader *reader, YamlNode node, const char *what, const char *allowed)
 {
-    char found[100];
-    yaml_describe(reader->file, node, found, sizeof found);
-    yaml_error(reader->file, node, reader->err, "%s: found %s; allowed: %s", what, found, allowed);
-    return false;
+    return yaml_refuse(reader->file, node, what, allowed, reader->err);
 }
 
 // The child of `map` called `key`; a key that is in none of the `known` names is refused.

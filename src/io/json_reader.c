@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A scanner over the text (RFC 8259): it steps over whole values until it stands at the one wanted.
 //
-// No tree is built: of a run.json of some hundred kilobytes two or three values are wanted. It
-// reads what io/json_writer writes; of wrong JSON it finds nothing, or something, but never reads
-// beyond the text's end.
+// No tree is built, as libfyaml or json-c would do: of a run.json of some hundred kilobytes two or
+// three values are wanted. It reads what io/json_writer writes; of wrong JSON it finds nothing, or
+// something, but never reads beyond the text's end.
 #include "io/json_reader.h"
 
 #include <ctype.h>

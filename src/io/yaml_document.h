@@ -61,7 +61,9 @@ void yaml_error(const YamlDocument *document, YamlNode node, Error *err, const c
 void yaml_key_error(const YamlDocument *document, YamlNode node, Error *err, const char *format,
                     ...) __attribute__((format(printf, 4, 5)));
 
-// What stands at `node`, in a few words for an error: "the text `abc`", "a list", "nothing".
-void yaml_describe(const YamlDocument *document, YamlNode node, char *words, int32_t size);
+// Sets yaml_error's "NAME: found WHAT STANDS THERE; allowed: ALLOWED". Always false, so that a
+// reader can return it.
+bool yaml_refuse(const YamlDocument *document, YamlNode node, const char *name, const char *allowed,
+                 Error *err);
 
 #endif

@@ -160,8 +160,8 @@ void yaml_key_error(const YamlDocument *document, YamlNode node, Error *err, con
     yaml_error_at(document, position, err, message);
 }
 
-// For messages: "found `abc`", "found a list of 3".
-void yaml_describe(const YamlDocument *document, YamlNode node, char *words, int32_t size)
+// "`abc`", "a list of 3"
+static void describe(const YamlDocument *document, YamlNode node, char *words, int32_t size)
 {
     const YamlItem *item = &document->nodes[node];
     switch (item->kind) {
@@ -178,6 +178,15 @@ void yaml_describe(const YamlDocument *document, YamlNode node, char *words, int
         snprintf(words, (size_t)size, "a map of %d keys", item->count);
         return;
     }
+}
+
+bool yaml_refuse(const YamlDocument *document, YamlNode node, const char *name, const char *allowed,
+                 Error *err)
+{
+    char found[100];
+    describe(document, node, found, sizeof found);
+    yaml_error(document, node, err, "%s: found %s; allowed: %s", name, found, allowed);
+    return false;
 }
 
 // NULL is fine, and so is a document that was never finished.

@@ -69,12 +69,8 @@ static bool gather_children(Reader *reader, const char *name, const SceneValue *
 {
     const YamlDocument *document = value->document;
     YamlKind kind = yaml_kind(document, value->node);
-    if (kind != YAML_MAP && kind != YAML_NOTHING) {
-        char found[100];
-        yaml_describe(document, value->node, found, sizeof found);
-        yaml_error(document, value->node, err, "%s: found %s; allowed: a map of keys", name, found);
-        goto cleanup;
-    }
+    if (kind != YAML_MAP && kind != YAML_NOTHING)
+        return yaml_refuse(document, value->node, name, "a map of keys", err);
     for (YamlNode item = yaml_first(document, value->node); item != YAML_NO_NODE;
          item = yaml_next(document, item)) {
         char path[KEY_NAME_SIZE];

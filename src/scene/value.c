@@ -21,11 +21,9 @@ static void *field_of(const SceneKey *key, Scene *scene)
 // "material.young: found `abc`; allowed: a number > 0"
 static void report_wrong(const SceneKey *key, const SceneValue *value, Error *err)
 {
-    char found[100], allowed[300];
-    yaml_describe(value->document, value->node, found, sizeof found);
+    char allowed[300];
     scene_key_allowed(key, allowed, sizeof allowed);
-    yaml_error(value->document, value->node, err, "%s: found %s; allowed: %s", key->name, found,
-               allowed);
+    yaml_refuse(value->document, value->node, key->name, allowed, err);
 }
 
 static bool expect_scalar(const SceneKey *key, const SceneValue *value, Error *err)

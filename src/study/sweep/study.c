@@ -7,16 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Always false, so that a reader can return it.
-bool study_refuse(const Study *study, YamlNode node, const char *name, const char *allowed,
-                  Error *err)
-{
-    char found[100];
-    yaml_describe(study->file, node, found, sizeof found);
-    yaml_error(study->file, node, err, "%s: found %s; allowed: %s", name, found, allowed);
-    return false;
-}
-
 // Without a unit, and finite.
 bool study_plain_number(const Study *study, YamlNode node, double *value)
 {

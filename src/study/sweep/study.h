@@ -105,8 +105,5 @@ bool study_is_chosen(const Study *study, const char *key);
 // `= 0.5 * mesh.set.length`; in quotes it is a text that begins with `=`.
 bool study_is_formula(const YamlDocument *document, YamlNode node);
 bool study_plain_number(const Study *study, YamlNode node, double *value);   // false: is none
-// Sets ERROR_INPUT: "NAME: found ...; allowed: ..."; false.
-bool study_refuse(const Study *study, YamlNode node, const char *name, const char *allowed,
-                  Error *err);
 
 #endif

@@ -49,7 +49,7 @@ static bool read_text(const Study *study, const char *key, char text[SCENE_TEXT_
     if (node == YAML_NO_NODE) return true;
     const char *value = yaml_text(study->file, node);
     bool fits = yaml_kind(study->file, node) == YAML_SCALAR && strlen(value) < SCENE_TEXT_SIZE;
-    if (!fits) return study_refuse(study, node, key, "a text of at most 511 bytes", err);
+    if (!fits) return yaml_refuse(study->file, node, key, "a text of at most 511 bytes", err);
     memcpy(text, value, strlen(value) + 1);
     return true;
 }

@@ -68,7 +68,7 @@ static bool read_set(Study *study, Error *err)
     study->set = yaml_look_up(study->file, "set");
     if (study->set == YAML_NO_NODE) return true;
     if (yaml_kind(study->file, study->set) != YAML_MAP)
-        return study_refuse(study, study->set, "set", "a map of the scene's keys", err);
+        return yaml_refuse(study->file, study->set, "set", "a map of the scene's keys", err);
     for (YamlNode item = yaml_first(study->file, study->set); item != YAML_NO_NODE;
          item = yaml_next(study->file, item)) {
         TRY(check_key(study, item, err));
@@ -87,12 +87,12 @@ static bool read_cases(Study *study, Error *err)
     if (study->cases == YAML_NO_NODE) return true;
     study->case_count = yaml_count(study->file, study->cases);
     if (yaml_kind(study->file, study->cases) != YAML_LIST || study->case_count == 0)
-        return study_refuse(study, study->cases, "cases", "a list of maps of the scene's keys",
-                            err);
+        return yaml_refuse(study->file, study->cases, "cases", "a list of maps of the scene's keys",
+                           err);
     for (YamlNode one = yaml_first(study->file, study->cases); one != YAML_NO_NODE;
          one = yaml_next(study->file, one)) {
         if (yaml_kind(study->file, one) != YAML_MAP)
-            return study_refuse(study, one, "cases", "a map of the scene's keys", err);
+            return yaml_refuse(study->file, one, "cases", "a map of the scene's keys", err);
         for (YamlNode item = yaml_first(study->file, one); item != YAML_NO_NODE;
              item = yaml_next(study->file, item)) {
             TRY(check_key(study, item, err));
@@ -158,19 +158,19 @@ static bool read_range(Study *study, YamlNode node, StudyAxis *axis, Error *err)
         }
     }
     if (!is_known || ends == YAML_NO_NODE || points == YAML_NO_NODE)
-        return study_refuse(study, node, axis->key, AXIS_ALLOWED, err);
+        return yaml_refuse(study->file, node, axis->key, AXIS_ALLOWED, err);
     YamlNode first = yaml_first(study->file, ends);
     bool good = yaml_kind(study->file, ends) == YAML_LIST && yaml_count(study->file, ends) == 2 &&
                 study_plain_number(study, first, &bounds[0]) &&
                 study_plain_number(study, yaml_next(study->file, first), &bounds[1]);
-    if (!good) return study_refuse(study, ends, axis->key, "two numbers, [from, to]", err);
+    if (!good) return yaml_refuse(study->file, ends, axis->key, "two numbers, [from, to]", err);
     if (is_log && !(bounds[0] > 0 && bounds[1] > 0))
-        return study_refuse(study, ends, axis->key, "two numbers > 0 in a range of logarithms",
-                            err);
+        return yaml_refuse(study->file, ends, axis->key, "two numbers > 0 in a range of logarithms",
+                           err);
     if (!study_plain_number(study, points, &count) || count != floor(count) || count < 1 ||
         count > STUDY_RANGE_MAX)
-        return study_refuse(study, points, axis->key, "a whole number of points, from 1 to 10000",
-                            err);
+        return yaml_refuse(study->file, points, axis->key,
+                           "a whole number of points, from 1 to 10000", err);
     TRY(write_range(bounds, is_log, (int32_t)count, &text, err));
     snprintf(name, sizeof name, "%s:%d:%d, values of the range", study->path,
              yaml_line(study->file, node), yaml_column(study->file, node));
@@ -197,7 +197,7 @@ static bool read_axis(Study *study, YamlNode item, Error *err)
     if (kind == YAML_MAP) TRY(read_range(study, item, axis, err));
     axis->count = yaml_count(axis->document, axis->list);
     if ((kind != YAML_MAP && kind != YAML_LIST) || axis->count == 0)
-        return study_refuse(study, item, axis->key, AXIS_ALLOWED, err);
+        return yaml_refuse(study->file, item, axis->key, AXIS_ALLOWED, err);
     study->axis_count++;
     for (YamlNode value = yaml_first(axis->document, axis->list); value != YAML_NO_NODE;
          value = yaml_next(axis->document, value))
@@ -211,7 +211,7 @@ static bool read_vary(Study *study, Error *err)
     YamlNode vary = yaml_look_up(study->file, "vary");
     if (vary == YAML_NO_NODE) return true;
     if (yaml_kind(study->file, vary) != YAML_MAP || yaml_count(study->file, vary) > STUDY_AXES_MAX)
-        return study_refuse(study, vary, "vary", "a map of at most 16 keys of the scene", err);
+        return yaml_refuse(study->file, vary, "vary", "a map of at most 16 keys of the scene", err);
     for (YamlNode item = yaml_first(study->file, vary); item != YAML_NO_NODE;
          item = yaml_next(study->file, item))
         TRY(read_axis(study, item, err));

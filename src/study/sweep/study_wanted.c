@@ -111,7 +111,7 @@ static bool read_records(Study *study, Error *err)
     }
     int32_t count = yaml_count(study->file, list);
     if (yaml_kind(study->file, list) != YAML_LIST || count == 0 || count > STUDY_RECORDS_MAX)
-        return study_refuse(study, list, "record", "a list of at most 64 names", err);
+        return yaml_refuse(study->file, list, "record", "a list of at most 64 names", err);
     for (YamlNode item = yaml_first(study->file, list); item != YAML_NO_NODE;
          item = yaml_next(study->file, item))
         TRY(read_record(study, item, "record", &ignored, err));
@@ -138,7 +138,8 @@ static bool find_keys(const Study *study, const char *what, WantedKey *keys, int
         keys[k].node = YAML_NO_NODE;
     }
     if (yaml_kind(study->file, map) != YAML_MAP)
-        return study_refuse(study, map, what, "a map, as in {by: mu_M}, {x: load.pressure}", err);
+        return yaml_refuse(study->file, map, what, "a map, as in {by: mu_M}, {x: load.pressure}",
+                           err);
     for (YamlNode item = yaml_first(study->file, map); item != YAML_NO_NODE;
          item = yaml_next(study->file, item)) {
         int32_t k = 0;
@@ -167,7 +168,7 @@ static bool read_choice(const Study *study, const WantedKey *key, const char *co
         *choice = k;
         return true;
     }
-    return study_refuse(study, key->node, key->name, allowed, err);
+    return yaml_refuse(study->file, key->node, key->name, allowed, err);
 }
 
 // --- rank ---------------------------------------------------------------------------------------
@@ -184,8 +185,8 @@ static bool read_against(Study *study, const WantedKey *key, Error *err)
         return true;
     }
     if (yaml_kind(study->file, key->node) != YAML_MAP)
-        return study_refuse(study, key->node, "against",
-                            "first, best, or a map of varied keys, as in {mesh.set.n: 1}", err);
+        return yaml_refuse(study->file, key->node, "against",
+                           "first, best, or a map of varied keys, as in {mesh.set.n: 1}", err);
     study->rank.against = AGAINST_KEYS;
     study->rank.baseline = key->node;
     for (YamlNode item = yaml_first(study->file, key->node); item != YAML_NO_NODE;
@@ -220,7 +221,7 @@ static bool read_rank(Study *study, Error *err)
     double top = TOP_STANDARD;
     bool good = keys[2].node == YAML_NO_NODE || study_plain_number(study, keys[2].node, &top);
     if (!good || top != floor(top) || top < 1 || top > TOP_MAX)
-        return study_refuse(study, keys[2].node, "top", "a whole number from 1 to 1000", err);
+        return yaml_refuse(study->file, keys[2].node, "top", "a whole number from 1 to 1000", err);
     rank->wanted = true;
     rank->lowest = order == 1;
     rank->top = (int32_t)top;
@@ -264,7 +265,7 @@ static bool read_plot(Study *study, Error *err)
     if (keys[2].node != YAML_NO_NODE) {
         plot->series = study_column(study, yaml_text(study->file, keys[2].node));
         if (plot->series < 0)
-            return study_refuse(study, keys[2].node, "series", "a key that varies", err);
+            return yaml_refuse(study->file, keys[2].node, "series", "a key that varies", err);
     }
     plot->wanted = true;
     plot->log_x = log == 1 || log == 3;

@@ -139,11 +139,18 @@ static void test_errors_show_the_line(void **state)
     assert_string_equal(err.message, "scene.yaml:5:1: not known\n"
                                      "    5 | unité: 10 um/s\n"
                                      "      | ^");
-    char words[100];
-    yaml_describe(document, yaml_look_up(document, "block.names"), words, sizeof words);
-    assert_string_equal(words, "a list of 3");
-    yaml_describe(document, yaml_look_up(document, "empty"), words, sizeof words);
-    assert_string_equal(words, "nothing");
+    const struct {
+        const char *path, *found;
+    } refused[] = {{"block.names", "n: found a list of 3; allowed: a number"},
+                   {"block", "n: found a map of 2 keys; allowed: a number"},
+                   {"block.young", "n: found `1e3`; allowed: a number"},
+                   {"empty", "n: found nothing; allowed: a number"}};
+    for (int k = 0; k < 4; k++) {
+        error_clear(&err);
+        assert_false(
+            yaml_refuse(document, yaml_look_up(document, refused[k].path), "n", "a number", &err));
+        if (!strstr(err.message, refused[k].found)) fail_msg("%s", err.message);
+    }
     yaml_destroy(document);
 }
 
