@@ -18,6 +18,10 @@ static const double SAFETY = 0.5;
 // nodes that hit, however short the step; still shorter ones only drive the force of the blow up.)
 static const double LEDGER_SHARE = 0.5;
 
+// A rung that slip outgrew is not tried again for a while, twice as long each time. Without this mu
+// of seven pads of set B (P = 5.75e-5) came out 1 to 2 % higher.
+enum { HOLD_FIRST = 4, HOLD_MAX = 256 };
+
 // Rungs down from a long step into a state that is not certified, at most as far as waves are
 // resolved: where slip first goes too far is closed in on by eighths.
 enum { UNCERTIFIED_DROP = 3 };
@@ -185,11 +189,21 @@ static int32_t smaller_rung(const StepControl *control, int32_t k, Verdict verdi
     return target > k ? target : k + 1;
 }
 
+// Counted in accepted steps.
+static void hold_rung(StepControl *control)
+{
+    control->hold = control->hold == 0 ? HOLD_FIRST : 2 * control->hold;
+    if (control->hold > HOLD_MAX) control->hold = HOLD_MAX;
+    control->hold_end = control->counters.accepted + control->hold;
+}
+
 // The rung after an accepted step: one up when the error allows it and the certificate does.
 static int32_t next_rung(StepControl *control, int32_t k, double error, bool retried)
 {
     double expected = error * exp2(estimate_order(control));
-    bool grows = !retried && k > control->coarsest && expected < SAFETY * control->def.tolerance;
+    bool held = control->counters.accepted < control->hold_end;
+    bool grows = !retried && !held && k > control->coarsest &&
+                 expected < SAFETY * control->def.tolerance;
     int32_t next = grows ? k - 1 : k, resolving = wave_rung(control);
     if (next >= resolving || control->certified || may_skip_waves(control, &control->now))
         return next;
@@ -272,6 +286,7 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
         Verdict verdict = judge_step(control, k, &outcome, &certified);
         if (verdict == STEP_ACCEPTED) {
             control->certified = certified;
+            if (certified) control->hold = control->hold_end = 0;
             accept_step(control, k, &outcome);
             scan_growth(control);
             if (!shortened || retried)
@@ -283,6 +298,7 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
         counters->rejected_energy += verdict == STEP_UNBALANCED;
         counters->rejected_uncertified += verdict == STEP_UNCERTIFIED;
         retried = true;
+        if (verdict == STEP_UNCERTIFIED || verdict == STEP_UNBALANCED) hold_rung(control);
         k = smaller_rung(control, k, verdict, &outcome);
         if (k >= control->ladder.rung_count)
             FAIL(err, ERROR_COMPUTE, "at t = %.9g the step went below time.step_min = %g: %s",

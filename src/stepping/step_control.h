@@ -54,6 +54,8 @@ typedef struct StepControl {
     int32_t rung;   // to try next
     int32_t coarsest;   // rung of the longest step allowed
     bool settles;   // see step_control_settle
+    int64_t hold;   // steps for which no longer one is tried, after growth was met
+    int64_t hold_end;   // accepted steps when that is over
     StepCounters counters;
 } StepControl;
 
