@@ -26,12 +26,16 @@ static void print_mu_M(const RunSummary *summary)
         return;
     }
     print_estimate("mu_M", summary->mu_M, summary->mu_M_error);
-    printf(": static friction, mean of %d of the %d peaks before the whole block slid\n",
+    printf(": static friction, mean of the last %d of %d peaks, each before the whole block "
+           "slid\n",
            summary->peaks_counted, summary->peaks);
     if (isnan(summary->mu_M_spread)) return;
     printf("                  they differ by at most %.4f", summary->mu_M_spread);
     if (summary->period > 1) printf(" and repeat after %d slidings", summary->period);
     printf("%s\n", summary->period > 0 ? "" : "; not periodic yet");
+    if (!isnan(summary->mu_M_error))
+        printf("                  +- is that of %d peaks; the error of the mesh comes on top\n",
+               summary->peaks_counted);
 }
 
 // The holding coefficient: parts of a block that slide on their own make the load drop below mu_M.
@@ -42,9 +46,9 @@ static void print_mu_hold(const RunSummary *summary)
         return;
     }
     print_estimate("mu_hold", summary->mu_hold, summary->mu_hold_error);
-    printf("%s: what the contact holds, %s of %d drops of the load\n",
+    printf("%s: what the contact holds, the %s of %d load ratios at which the load dropped\n",
            summary->drops_enough ? "" : " so far",
-           summary->drop_period > 0 ? "the lowest" : "the lowest tenth", summary->drops);
+           summary->drop_period > 0 ? "lowest" : "lowest tenth", summary->drops);
     if (summary->drop_period > 1)
         printf("                  which repeat after %d\n", summary->drop_period);
     else if (summary->drop_period == 0 && summary->drops_enough)
@@ -69,10 +73,11 @@ static void print_answers(const RunSummary *summary)
     printf("  largest errors  energy %.1e, moment %.1e, contact %.1e (relative)\n",
            summary->energy_error, summary->moment_error, summary->complementarity_error);
     const RunCounters *counters = &summary->counters;
-    printf("  steps           %lld accepted, %lld repeated (%lld: could have grown, %lld: no "
-           "solution)\n",
+    printf("  steps           %lld accepted, %lld repeated (%lld: error too large, %lld: slip "
+           "could have grown, %lld: no solution)\n",
            (long long)counters->accepted,
            (long long)(counters->rejected + counters->unsolved_retries),
+           (long long)(counters->rejected - counters->rejected_uncertified),
            (long long)counters->rejected_uncertified, (long long)counters->unsolved_retries);
     printf("  time taken      %.1f s (solving %.1f, output %.1f)\n", summary->seconds_total,
            summary->seconds_solve, summary->seconds_output);
