@@ -36,7 +36,7 @@ static const char *const figure_choices[] = {
 // Keys of one map stand together: the writers open and close maps as they go along.
 static const SceneKey keys[] = {
     {"title", KEY_TEXT, offsetof(Scene, title), "1", RANGE_ANY, "\"\"",
-     .sentence = "What the scene is, in a line; shown in pictures and results."},
+     .sentence = "What the scene is, in a line; shown in the closing lines and kept in results."},
     {"units", KEY_CHOICE, offsetof(Scene, units), "1", RANGE_ANY, "normalised",
      .sentence = "`normalised`: plain numbers; density, Young's modulus and eta1 usually 1. "
                  "`si`: numbers in SI base units, or with a unit (10 um/s, 3 kPa).",
@@ -149,9 +149,10 @@ static const SceneKey keys[] = {
      .sentence = "Local error allowed to the displacements in one step, over the slip that the "
                  "drop of friction drives, (mu_S - mu_K) P H / E; 0: by time.accuracy."},
     {"time.step_max", KEY_NUMBER, offsetof(Scene, time.step_max), "time", RANGE_NOT_NEGATIVE, "0",
-     .sentence = "Longest step; 0: from the block's size and wave speeds."},
+     .sentence = "Longest step; 0: the rod moves 0.2 of the slip that the drop of friction drives "
+                 "(see time.tolerance) in it, up to twice that."},
     {"time.step_min", KEY_NUMBER, offsetof(Scene, time.step_min), "time", RANGE_NOT_NEGATIVE, "0",
-     .sentence = "Shortest step; 0: from the block's size and wave speeds."},
+     .sentence = "Shortest step; 0: 1e-10 of the smaller of longest step and wave step."},
     {"time.wave_step", KEY_NUMBER, offsetof(Scene, time.wave_step), "1", RANGE_PART, "0.2",
      .sentence = "Longest step while slip is not certified to be stable, in wave crossings of the "
                  "block, L / c_L (L / 2 c_S where that is longer)."},
@@ -169,7 +170,7 @@ static const SceneKey keys[] = {
      .sentence = "The run fails when the energy ledger is off by more, relative to the work done."},
     {"time.periodic_tolerance", KEY_NUMBER, offsetof(Scene, time.periodic_tolerance), "1",
      RANGE_PART, "1e-2",
-     .sentence = "Peaks that agree within this, relative, make a periodic regime."},
+     .sentence = "Load drops that agree within this, relative, make a periodic regime."},
     {"reduction.use", KEY_CHOICE, offsetof(Scene, reduction.use), "1", RANGE_ANY, "auto",
      .sentence = "Reduce the bulk to its interface and a small interior basis before stepping; "
                  "`auto`: where that is expected to be faster.",
