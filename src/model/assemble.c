@@ -39,6 +39,22 @@ static double free_scale(const Model *model, double load)
     return load < 0 ? -load : material->young * model->length;
 }
 
+// What is held needs no load, and what flies towards the plane has its momentum.
+bool model_set_load(Model *model, double unit_resultant, Error *err)
+{
+    const Scene *scene = model->scene;
+    double load = unit_resultant * load_reference(scene);
+    bool held = scene->load.support_count > 0 || scene->start.velocity_z < 0;
+    if (!(load > 0) && held) load = free_scale(model, load);
+    if (!(load > 0))
+        FAIL(err, ERROR_INPUT,
+             "%s: the loads do not press the block onto the plane (their resultant along -z is %g)",
+             scene->path, load);
+    model->scales.load = load;
+cleanup:
+    return error_is_clean(err);
+}
+
 // Pressure and tractions onto the bulk's load, first per unit of load_reference(): so what the
 // cache keeps of them has the same bits whichever pressure asked first. F_N, their resultant
 // towards the plane, becomes the force that others are measured with.
@@ -63,18 +79,7 @@ static bool add_loads(Model *model, Error *err)
     model->unit_load.size = dense_max_abs(bulk->load, bulk->dof_count);
     model->unit_load.resultant = unit;
     for (int32_t dof = 0; dof < bulk->dof_count; dof++) bulk->load[dof] *= reference;
-    double load = unit * reference;
-    // What is held needs no load, and what flies towards the plane has its momentum.
-    bool held = scene->load.support_count > 0 || scene->start.velocity_z < 0;
-    if (!(load > 0) && held) {
-        load = free_scale(model, load);
-        model->unit_load.resultant = load / reference;
-    }
-    if (!(load > 0))
-        FAIL(err, ERROR_INPUT,
-             "%s: the loads do not press the block onto the plane (their resultant along -z is %g)",
-             scene->path, load);
-    model->scales.load = load;
+    TRY(model_set_load(model, unit, err));
 cleanup:
     return error_is_clean(err);
 }

@@ -11,4 +11,8 @@ bool model_read_mesh(Model *model, Error *err);
 bool model_build_bulk(Model *model, Error *err);   // material, bulk, loads, interface
 bool model_hold_supports(Model *model, Error *err);   // takes their unknowns out of the bulk
 
+// The force that others are measured with, from the resultant of the loads towards the plane, per
+// unit of load_reference(), wherever that comes from. ERROR_INPUT: nothing presses the block down.
+bool model_set_load(Model *model, double unit_resultant, Error *err);
+
 #endif

@@ -62,8 +62,8 @@ static bool adopt_shape(Model *model, Shape *shape, Error *err)
     model->elements = (int32_t)shape->sizes.elements;
     model->full_dofs = (int32_t)shape->sizes.full_dofs;
     model->reduced.scales = bulk_scales(model, load);
-    model->scales.load = shape->sizes.load_resultant * load_reference(model->scene);
-    return bulk_operator_reduce(&model->reduced, shape->rotation,
+    return model_set_load(model, shape->sizes.load_resultant, err) &&
+           bulk_operator_reduce(&model->reduced, shape->rotation,
                                 shape->sizes.area * model->material.density, &model->system, err);
 }
 
@@ -214,6 +214,15 @@ static bool find_key(Model *model, char key[HASH_TEXT_SIZE], Error *err)
     return shape_key(scene, reduction_tolerance(scene), key, err);
 }
 
+// Modes of another mesh: gmsh made this one otherwise than the one that was reduced. Always false.
+static bool forget_shape(Model *model, Shape *shape)
+{
+    shape_destroy(shape);
+    reduced_bulk_destroy(&model->reduced);
+    model->from_cache = false;
+    return false;
+}
+
 // A shape and its basis, both from the cache; *found: they were there.
 static bool find_shape(Model *model, const char *key, Shape *shape, bool *found, Error *err)
 {
@@ -224,11 +233,8 @@ static bool find_shape(Model *model, const char *key, Shape *shape, bool *found,
         TRY(basis_cache_load(shape->basis, model->scene->output.fields, &model->reduced, found,
                              model->cache_note, err));
     *found = *found && model->reduced.interface_count == shape->interface.count;
-    if (!*found) {
-        shape_destroy(shape);
-        reduced_bulk_destroy(&model->reduced);
-    }
     model->from_cache = *found;
+    if (!*found) forget_shape(model, shape);
 cleanup:
     return error_is_clean(err);
 }
@@ -262,6 +268,8 @@ bool model_obtain(const Scene *scene, Model *model, Error *err)
     TRY(find_key(model, key, err));
     TRY(find_shape(model, key, &shape, &found, err));
     if (!found || scene->output.fields) TRY(model_read_mesh(model, err));
+    if (found && scene->output.fields && 2 * model->mesh.node_count != model->reduced.full_dofs)
+        found = forget_shape(model, &shape);
     if (!found) TRY(model_build_bulk(model, err));
     // What a scene may ask of a shape is checked here, wherever the shape comes from.
     TRY(check_rod(scene, found ? shape.sizes.rod_reach : rod_reach(model), err));

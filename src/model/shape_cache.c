@@ -18,7 +18,7 @@
 enum { MESH_BYTES_MAX = 1 << 28, COUNTS = 3 };
 
 // Stands in every key, beside the basis's: a new meaning of the arrays below needs a new number.
-static const char FORMAT[] = "shape 6";
+static const char FORMAT[] = "shape 7";
 
 // Names travel as the bytes of doubles, filled up with zeros.
 enum {

@@ -21,7 +21,7 @@ typedef struct ShapeSizes {
     double elements;   // of the mesh
     double full_dofs;   // unknowns of the mesh
     double load_size;   // largest nodal load per unit of load_reference()
-    double load_resultant;   // F_N per unit of load_reference()
+    double load_resultant;   // of the loads towards the plane, per unit of load_reference()
     double rod_reach;   // greatest x of a rod node from the trailing end, over L; 0: no rod
 } ShapeSizes;
 

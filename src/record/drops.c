@@ -127,6 +127,7 @@ bool drops_record(void *self, const Observation *seen, Error *err)
     drops->mu_max = fmax(drops->mu_max, seen->mu);
     if (in_event) follow_fall(drops, seen);
     if (events->crossed) {
+        if (isinf(drops->rising.mu)) rise(&drops->rising, seen);   // it slid from the first step on
         if (seen->grows && isnan(drops->rising.front_growth))
             drops->rising.front_growth = seen->front;
         TRY(add_drop(drops, seen, true, err));

@@ -87,7 +87,9 @@ bool start_relax(Simulation *simulation, Error *err)
     simulation->law = model->law;
     simulation->rod.kind = ROD_KINDS[scene->rod.kind];
     simulation->rod.velocity = scene->rod.velocity;
-    if (scene->rod.kind != ROD_NONE) touch_rod(simulation);
+    // A rod that was held stands where it stood, however far its soft ends were pressed in.
+    bool held = scene->start.rod == START_ROD_HELD;
+    if (scene->rod.kind != ROD_NONE && !held) touch_rod(simulation);
     if (scene->start.velocity_x != 0 || scene->start.velocity_z != 0)
         set_moving(model, &simulation->control.now);
     step_control_restart(&simulation->control);

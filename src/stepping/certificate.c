@@ -150,7 +150,8 @@ bool certificate_excludes_runaway(Certificate *certificate, const State *state, 
         load[0] = load[1];
         load[1] = load[2];
         load[2] = rung ? certificate_load(certificate, state, rung) : 0;
-        if (!(fmax(load[2], weakening_load_top(load, &octaves)) < 1)) return false;
+        // Each by itself: fmax would lose a load that is not a number.
+        if (!(load[2] < 1) || !(weakening_load_top(load, &octaves) < 1)) return false;
     }
     return true;
 }

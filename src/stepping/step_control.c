@@ -71,6 +71,7 @@ void step_control_restart(StepControl *control)
     control->settles = false;
     control->now.time = 0;
     control->counters = (StepCounters){0};
+    control->hold = control->hold_end = 0;   // counted in accepted steps
     for (int32_t k = 0; k < LADDER_RUNGS_MAX; k++) control->ladder.accepted[k] = 0;
     control->ledger = energy_open(&control->now);
     oscillation_record_clear(&control->oscillations);

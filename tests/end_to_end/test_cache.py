@@ -141,6 +141,17 @@ class SameBits(Cached):
         self.assertEqual(report["timing_s"]["mesh"], 0)
         self.assert_same_history(none, cached)
 
+    def test_blocks_that_fly_at_other_speeds(self):
+        """Where no load presses, forces are measured by the impact's: it is none of the shape's."""
+        flying = ["load.pressure=0", "rod.kind=none", "time.until={t: 2}", "time.energy_tolerance=1"]
+        for speed in ("-1e-3", "-1e-2"):
+            moving = [*flying, f"start.velocity_z={speed}", *PLAIN]
+            one, cached = self.run_scene(*moving, settings=SHORT[:2] + SHORT[3:])
+            other, made = self.run_scene(*moving, cache="", settings=SHORT[:2] + SHORT[3:])
+            self.assertEqual(cached["errors"], made["errors"])
+            self.assertEqual(cached["steps"], made["steps"])
+        self.assertTrue(cached["model"]["from_cache"])
+
     def test_rod_on_the_leading_face(self):
         """It may pull there, and a shape so stored does not let it push."""
         leads = [*PLAIN, "groups.rod=leading"]

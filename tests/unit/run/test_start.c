@@ -88,7 +88,8 @@ static void test_rod_at_the_start(void **state)
             int32_t at = interface_rod(&simulation->model.interface, j);
             double u =
                 simulation->control.now.displacement[simulation->model.system.interface_dofs[at]];
-            assert_near("touches", simulation->rod.origin[j], u, 1e-18);
+            double wanted = strstr(cases[k].start, "held") ? 0 : u;
+            assert_near("touches", simulation->rod.origin[j], wanted, 1e-18);
         }
         if (simulation->model.interface.rod_count > 0)
             assert_near("V", simulation->rod.velocity, 1e-5, 0);
