@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The split-pad study: all sweeps, the stability analysis, tables and figures, from one command.
 
