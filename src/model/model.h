@@ -21,8 +21,8 @@ typedef struct Model {
         // all that follows
     Bulk bulk;   // assembled; empty where the shape came from the cache
     struct {
-        double size,
-            resultant;   // largest nodal load, their sum towards the plane; per unit of load_reference()
+        double size, resultant;   // largest nodal load, sum of all towards the plane; per unit of
+            // load_reference()
     } unit_load;   // of an assembled bulk
     Interface interface;
     ReducedBulk reduced;   // count 0: the full mesh is stepped
