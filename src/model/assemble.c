@@ -91,7 +91,6 @@ bool model_build_bulk(Model *model, Error *err)
     const Scene *scene = model->scene;
     double middle = 0, width = 0;
     model_rod_strip(scene, model->height, &middle, &width);
-    model_set_materials(model);
     TRY(bulk_assemble(&model->mesh, &model->material, &model->bulk, err));
     TRY(add_loads(model, err));
     InterfaceDef def = {.contact_name_count = scene->groups.contact.count,

@@ -6,9 +6,9 @@
 
 #include "model/model.h"
 
-// Each needs the ones before it; model->scene stands.
+// Each needs the ones before it; the first an empty model (model_of).
 bool model_read_mesh(Model *model, Error *err);
-bool model_build_bulk(Model *model, Error *err);   // material, bulk, loads, interface
+bool model_build_bulk(Model *model, Error *err);   // bulk, loads, interface
 bool model_hold_supports(Model *model, Error *err);   // takes their unknowns out of the bulk
 
 // The force that others are measured with, from the resultant of the loads towards the plane, per

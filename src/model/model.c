@@ -11,16 +11,16 @@ void model_destroy(Model *model)
     *model = (Model){0};
 }
 
-void model_set_materials(Model *model)
+Model model_of(const Scene *scene)
 {
-    const Scene *scene = model->scene;
-    model->material = (Material){.young = scene->material.young,
-                                 .poisson = scene->material.poisson,
-                                 .density = scene->material.density,
-                                 .eta1 = scene->material.eta1,
-                                 .eta2 = scene->material.eta2,
-                                 .plane_strain = scene->material.plane == PLANE_STRAIN};
-    model->law = scene->friction;
+    return (Model){.scene = scene,
+                   .material = {.young = scene->material.young,
+                                .poisson = scene->material.poisson,
+                                .density = scene->material.density,
+                                .eta1 = scene->material.eta1,
+                                .eta2 = scene->material.eta2,
+                                .plane_strain = scene->material.plane == PLANE_STRAIN},
+                   .law = scene->friction};
 }
 
 double model_friction_slip(const Model *model)

@@ -37,8 +37,8 @@ typedef struct Model {
 
 void model_destroy(Model *model);   // zeroed and half-built too
 
-// Material, law and wave speeds as the scene gives them: the same numbers, other structs.
-void model_set_materials(Model *model);
+// An empty model of `scene`, with its material and law: the same numbers, other structs.
+Model model_of(const Scene *scene);
 
 // The slip that the drop of friction can drive, (mu_S - mu_K) p H / E with p the mean pressure,
 // length. For Coulomb friction, which has no drop, mu_S stands in its place; without friction 1.

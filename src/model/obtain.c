@@ -263,8 +263,7 @@ bool model_obtain(const Scene *scene, Model *model, Error *err)
     char key[HASH_TEXT_SIZE];
     Shape shape = {0};
     bool found = false;
-    *model = (Model){.scene = scene};
-    model_set_materials(model);
+    *model = model_of(scene);
     TRY(find_key(model, key, err));
     TRY(find_shape(model, key, &shape, &found, err));
     if (!found || scene->output.fields) TRY(model_read_mesh(model, err));

@@ -5,12 +5,12 @@
 #define AMONTONS_RUN_SIMULATION_STATE_H
 
 #include "amontons.h"
+#include "model/model.h"
 #include "record/fields.h"
 #include "record/history.h"
 #include "run/pace.h"
 #include "run/report.h"
 #include "run/result_folder.h"
-#include "model/model.h"
 #include "stepping/explicit_reference.h"
 
 struct Simulation {

@@ -31,7 +31,7 @@ static bool make_room(const Model *model, StaticSolution *solution, Error *err)
     return error_is_clean(err);
 }
 
-void static_solution_destroy(StaticSolution *solution)
+static void static_solution_destroy(StaticSolution *solution)
 {
     memory_free(solution->displacement);
     memory_free(solution->load);
@@ -132,7 +132,7 @@ static void find_reactions(const Model *model, StaticSolution *solution)
 // alone may be singular (a block that only stands): its interface is lifted for the factor, and S
 // lowered again (bulk/interface_operator). ERROR_COMPUTE: no equilibrium, or K is singular in the
 // interior.
-bool static_solve(Model *model, StaticSolution *solution, Error *err)
+static bool static_solve(Model *model, StaticSolution *solution, Error *err)
 {
     *solution = (StaticSolution){0};
     Bulk *bulk = &model->bulk;
@@ -222,7 +222,7 @@ static double contact_violation(const Model *model, const StaticSolution *soluti
     return contact_residual_max(&residual);
 }
 
-StaticSummary static_summarise(const Model *model, StaticSolution *solution)
+static StaticSummary static_summarise(const Model *model, StaticSolution *solution)
 {
     const Mesh *mesh = &model->mesh;
     int32_t dofs = model->bulk.dof_count;
@@ -265,7 +265,7 @@ StaticSummary static_summarise(const Model *model, StaticSolution *solution)
 bool amontons_static(const Scene *scene, const char *folder, bool overwrite, StaticSummary *summary,
                      Error *err)
 {
-    Model model = {.scene = scene};
+    Model model = model_of(scene);
     StaticSolution solution = {0};
     ResultFolder place = {0};
     *summary = (StaticSummary){0};

@@ -29,14 +29,6 @@ typedef struct StaticSolution {
     int64_t iterations;
 } StaticSolution;
 
-// model: mesh read, bulk built, supports not yet held (this does it). ERROR_COMPUTE: none
-// found.
-bool static_solve(Model *model, StaticSolution *solution, Error *err);
-void static_solution_destroy(StaticSolution *solution);
-
-// Sums, and how well everything balances.
-StaticSummary static_summarise(const Model *model, StaticSolution *solution);
-
 // static.json, static.h5, static.vtu in `folder`.
 bool static_report_write(const char *folder, const Model *model, StaticSolution *solution,
                          const StaticSummary *summary, Error *err);

@@ -68,7 +68,7 @@ cleanup:
 }
 
 // By hash, not by number: a study that is changed finds its old points again.
-void point_folder(const Sweep *sweep, int32_t point, char folder[POINT_PATH_SIZE])
+static void point_folder(const Sweep *sweep, int32_t point, char folder[POINT_PATH_SIZE])
 {
     snprintf(folder, POINT_PATH_SIZE, "%s/points/%s", sweep->folder, sweep->points[point].hash);
 }

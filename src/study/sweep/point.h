@@ -48,7 +48,6 @@ typedef struct PointMesh {
 
 // A name for all that decides what a point comes to: version, mesh file, every key but the title.
 bool point_hash(const Scene *scene, PointMesh *mesh, char hash[HASH_TEXT_SIZE], Error *err);
-void point_folder(const Sweep *sweep, int32_t point, char folder[POINT_PATH_SIZE]);
 // run.json of the point (memory_free); NULL without an error when there is none.
 char *point_report(const Sweep *sweep, int32_t point, Error *err);
 PointStatus point_status(const char *report);   // of a run.json, or NULL
