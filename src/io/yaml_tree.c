@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A tree in two arrays: nodes, linked by first child and next sibling, and their texts. Positions
-// are bytes; lines and columns are counted only when an error wants them.
+// A tree in one array: nodes, linked by first child and next sibling. Positions are bytes; lines
+// and columns are counted only when an error wants them.
 #include "io/yaml_tree.h"
 
 #include "base/memory.h"
@@ -22,7 +22,7 @@ YamlKind yaml_kind(const YamlDocument *document, YamlNode node)
 const char *yaml_text(const YamlDocument *document, YamlNode node)
 {
     const YamlItem *item = &document->nodes[node];
-    return item->kind == YAML_SCALAR ? document->texts + item->text : "";
+    return item->kind == YAML_SCALAR ? item->text : "";
 }
 
 bool yaml_is_quoted(const YamlDocument *document, YamlNode node)
@@ -195,8 +195,7 @@ void yaml_destroy(YamlDocument *document)
     if (!document) return;
     memory_free(document->name);
     memory_free(document->shown);
-    memory_free(document->read);
+    for (int32_t i = 0; i < document->node_count; i++) memory_free(document->nodes[i].text);
     memory_free(document->nodes);
-    memory_free(document->texts);
     memory_free(document);
 }
