@@ -4,6 +4,8 @@
 #include "base/text.h"
 
 #include <ctype.h>
+#include <stdbool.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { NAME_MAX_LENGTH = 127 };
@@ -76,4 +78,14 @@ int32_t text_utf8_length(const char *text)
         high = 0xBF;
     }
     return length;
+}
+
+int32_t text_number(const char *text, double *value)
+{
+    const char *at = text + (*text == '+' || *text == '-');
+    bool hexadecimal = at[0] == '0' && (at[1] == 'x' || at[1] == 'X');
+    char *end = NULL;
+    if (!isdigit((unsigned char)at[*at == '.']) || hexadecimal) return 0;
+    *value = strtod(text, &end);
+    return (int32_t)(end - text);
 }

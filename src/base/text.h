@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Suggestions for mistyped names, called wherever a name from a user is looked up; and what is a
-// character, for those who read and write text.
+// number and a character, for those who read and write text.
 #ifndef AMONTONS_BASE_TEXT_H
 #define AMONTONS_BASE_TEXT_H
 
@@ -13,6 +13,10 @@ int32_t text_distance(const char *a, const char *b);
 // The index of the name nearest to `given`, or -1 when none is near enough to be a likely slip of
 // the finger (more than a third of the longer name differs). names: [count].
 int32_t text_nearest(const char *given, const char *const *names, int32_t count);
+
+// The decimal number that `text` begins with, and the bytes it takes; 0: it begins with none.
+// strtod alone would take "inf", "nan" and "0x10" too. 1e999 is a number, infinite.
+int32_t text_number(const char *text, double *value);
 
 // Bytes of the UTF-8 character at `text`, which ends with a zero byte; 0 when it is none (RFC 3629:
 // no overlong forms, no surrogates, nothing past U+10FFFF). The zero byte itself is a character.

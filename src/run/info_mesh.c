@@ -5,10 +5,10 @@
 
 #include "base/memory.h"
 #include "base/module.h"
+#include "base/text.h"
 #include "render/render.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const char *dimension_name(int32_t dimension)
@@ -72,7 +72,6 @@ void info_write_mesh(const Mesh *mesh, FILE *out)
 static bool read_parameter(const char *word, MeshParameter *parameter, Error *err)
 {
     const char *equals = strchr(word, '=');
-    char *end = NULL;
     *parameter = (MeshParameter){0};
     if (!equals || equals == word || !equals[1])
         FAIL(err, ERROR_INPUT, "--set %s: a mesh takes name=value, as in --set n=4", word);
@@ -80,8 +79,8 @@ static bool read_parameter(const char *word, MeshParameter *parameter, Error *er
         FAIL(err, ERROR_INPUT, "--set %s: name and value have at most %d bytes each", word,
              GROUP_NAME_SIZE - 1);
     memcpy(parameter->name, word, (size_t)(equals - word));
-    parameter->value = strtod(equals + 1, &end);
-    if (*end) snprintf(parameter->text, GROUP_NAME_SIZE, "%s", equals + 1);
+    int32_t length = text_number(equals + 1, &parameter->value);
+    if (equals[1 + length]) snprintf(parameter->text, GROUP_NAME_SIZE, "%s", equals + 1);
 cleanup:
     return error_is_clean(err);
 }

@@ -7,9 +7,7 @@
 #include "base/text.h"
 #include "scene/units.h"
 
-#include <ctype.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 // The key table holds offsets into Scene.
@@ -55,22 +53,12 @@ cleanup:
 
 // --- numbers ------------------------------------------------------------------------------------
 
-// Decimal numbers only: strtod would take "inf", "nan" and "0x10" too.
-static bool starts_as_number(const char *text)
-{
-    if (*text == '+' || *text == '-') text++;
-    if (*text == '.') text++;
-    return isdigit((unsigned char)*text) && !(text[0] == '0' && (text[1] == 'x' || text[1] == 'X'));
-}
-
 // Splits "10 um/s" into 10 and "um/s".
 static bool split_number(const char *text, double *number, const char **suffix)
 {
-    if (!starts_as_number(text)) return false;
-    char *end = NULL;
-    *number = strtod(text, &end);
-    *suffix = end + strspn(end, " ");
-    return true;
+    int32_t length = text_number(text, number);
+    *suffix = text + length + strspn(text + length, " ");
+    return length > 0;
 }
 
 // Applies the unit `suffix` to *number, or says why it does not fit.
@@ -246,7 +234,8 @@ static bool set_parameter(const SceneKey *key, const SceneValue *value, Scene *s
         goto cleanup;
     }
     TRY(expect_scalar(key, value, err));
-    if (!yaml_is_quoted(value->document, value->node) && starts_as_number(text))
+    double ignored = 0;
+    if (!yaml_is_quoted(value->document, value->node) && text_number(text, &ignored))
         TRY(read_number(key, value, scene->units, &made.value, err));
     else
         TRY(copy_text(key, value, GROUP_NAME_SIZE, made.text, err));

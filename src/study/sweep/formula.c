@@ -2,9 +2,10 @@
 // One function a rule of the grammar in formula.h.
 #include "study/sweep/formula.h"
 
+#include "base/text.h"
+
 #include <ctype.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { NAME_SIZE = 96, DEPTH_MAX = 50 };
@@ -76,10 +77,10 @@ static double read_unit(Formula *formula)
     char next = next_of(formula);
     if (formula->depth > DEPTH_MAX) return refuse(formula, "a formula of fewer brackets");
     if (isdigit((unsigned char)next) || next == '.') {
-        char *end = NULL;
-        double value = strtod(formula->at, &end);
-        if (end == formula->at) return refuse(formula, "a number");
-        formula->at = end;
+        double value = 0;
+        int32_t length = text_number(formula->at, &value);
+        if (length == 0) return refuse(formula, "a decimal number");
+        formula->at += length;
         return value;
     }
     if (isalpha((unsigned char)next)) return read_name(formula);

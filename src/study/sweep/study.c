@@ -2,18 +2,19 @@
 // What the files that read a study share.
 #include "study/sweep/study.h"
 
+#include "base/text.h"
+
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 // Without a unit, and finite.
 bool study_plain_number(const Study *study, YamlNode node, double *value)
 {
     const char *text = yaml_text(study->file, node);
-    char *end = NULL;
-    *value = strtod(text, &end);
-    return yaml_kind(study->file, node) == YAML_SCALAR && *text && !*end && isfinite(*value);
+    int32_t length = text_number(text, value);
+    return yaml_kind(study->file, node) == YAML_SCALAR && length > 0 && !text[length] &&
+           isfinite(*value);
 }
 
 // `= 0.5 * mesh.set.length`; in quotes it is a text that begins with `=`.

@@ -15,7 +15,8 @@
 //
 // A value that begins with `=` is a formula (study/sweep/formula) over the numbers of the scene;
 // formulas are worked out last, in the order of the file. Later ones win: the base scene, what
-// every sweep sets (STUDY_STANDARD), `set`, --set, `cases`, `vary`, formulas.
+// every sweep sets (STUDY_STANDARD), `set`, --set, `cases`, `vary`, formulas. What varies may be
+// given nowhere else, but in a formula of `cases` over itself.
 #ifndef AMONTONS_STUDY_SWEEP_STUDY_H
 #define AMONTONS_STUDY_SWEEP_STUDY_H
 

@@ -101,7 +101,7 @@ static YamlNode child_at(const YamlDocument *document, YamlNode list, int32_t in
     return node;
 }
 
-// A formula that a later setting of the same key replaces is not worked out.
+// A formula of `set` that --set replaces is not worked out.
 static void drop_replaced(const Study *study, PointSettings *settings)
 {
     int32_t kept = 0;
@@ -109,8 +109,6 @@ static void drop_replaced(const Study *study, PointSettings *settings)
         bool replaced = false;
         for (int32_t i = 0; i < study->override_count; i++)
             replaced = replaced || strcmp(study->override_keys[i], settings->formulas[k].key) == 0;
-        for (int32_t i = 0; i < study->axis_count; i++)
-            replaced = replaced || strcmp(study->axes[i].key, settings->formulas[k].key) == 0;
         if (!replaced) settings->formulas[kept++] = settings->formulas[k];
     }
     settings->formula_count = kept;

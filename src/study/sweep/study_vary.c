@@ -219,6 +219,75 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Whether `node`, given under `key`, gives the key `wanted`: by itself, or in the map it is.
+static bool gives(const YamlDocument *document, const char *key, YamlNode node, const char *wanted)
+{
+    size_t length = strlen(key);
+    char path[STUDY_NAME_SIZE];
+    if (strcmp(key, wanted) == 0) return true;
+    if (strncmp(wanted, key, length) != 0 || wanted[length] != '.') return false;
+    for (YamlNode item = yaml_first(document, node); item != YAML_NO_NODE;
+         item = yaml_next(document, item)) {
+        snprintf(path, sizeof path, "%.40s.%.50s", key, yaml_key(document, item));
+        if (gives(document, path, item, wanted)) return true;
+    }
+    return false;
+}
+
+// Whether any of its values gives it; the values of a range are numbers.
+static bool axis_gives(const StudyAxis *axis, const char *wanted)
+{
+    for (YamlNode value = yaml_first(axis->document, axis->list); value != YAML_NO_NODE;
+         value = yaml_next(axis->document, value))
+        if (gives(axis->document, axis->key, value, wanted)) return true;
+    return false;
+}
+
+// Refuses a key of `map` (under `what`) that gives the varied key `wanted` once more. A formula
+// over that key itself (= 2 * load.pressure) takes what varies, and is no second value.
+static bool check_map(const Study *study, const char *what, YamlNode map, const char *wanted,
+                      Error *err)
+{
+    if (map == YAML_NO_NODE) return true;
+    for (YamlNode item = yaml_first(study->file, map); item != YAML_NO_NODE;
+         item = yaml_next(study->file, item)) {
+        if (!gives(study->file, yaml_key(study->file, item), item, wanted)) continue;
+        if (strcmp(what, "cases") == 0 && study_is_formula(study->file, item) &&
+            strstr(yaml_text(study->file, item), wanted))
+            continue;
+        yaml_key_error(study->file, item, err, "%s: given by `%s` and again by `vary`", wanted,
+                       what);
+        return false;
+    }
+    return true;
+}
+
+// A key has one value at a point, from one place. Cases may replace what `set` gives: it is what
+// the other cases have.
+static bool check_twice(const Study *study, Error *err)
+{
+    YamlNode vary = yaml_look_up(study->file, "vary"), item = YAML_NO_NODE;
+    for (int32_t c = 0; c < study->column_count; c++) {
+        const char *wanted = study->columns[c];
+        int32_t given = 0;
+        if (vary != YAML_NO_NODE) item = yaml_first(study->file, vary);
+        for (int32_t k = 0; k < study->axis_count; k++, item = yaml_next(study->file, item)) {
+            given += axis_gives(&study->axes[k], wanted);
+            if (given < 2) continue;
+            yaml_key_error(study->file, item, err, "%s: varied twice", wanted);
+            return false;
+        }
+        if (given == 0) continue;
+        TRY(check_map(study, "set", study->set, wanted, err));
+        if (study->cases == YAML_NO_NODE) continue;
+        for (YamlNode one = yaml_first(study->file, study->cases); one != YAML_NO_NODE;
+             one = yaml_next(study->file, one))
+            TRY(check_map(study, "cases", one, wanted, err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
 // A key that varies is refused, rather than silently losing to `vary`.
 static bool read_override(Study *study, const char *text, Error *err)
 {
@@ -228,12 +297,13 @@ static bool read_override(Study *study, const char *text, Error *err)
     if (!equals || equals == text || equals - text >= STUDY_NAME_SIZE)
         FAIL(err, ERROR_INPUT, "--set %.80s: expected key=value, as in load.pressure=0.006", text);
     memcpy(key, text, (size_t)(equals - text));
-    if (study_column(study, key) >= 0)
-        FAIL(err, ERROR_INPUT, "--set %s: %s varies this key", key, study->path);
     snprintf(shown, sizeof shown, "--set %s", key);
     YamlDocument **document = &study->made[study->made_count];
     TRY(yaml_parse(shown, text, (int32_t)(equals - text) + 1, document, err));
     study->made_count++;
+    for (int32_t c = 0; c < study->column_count; c++)
+        if (gives(*document, key, YAML_ROOT, study->columns[c]))
+            FAIL(err, ERROR_INPUT, "--set %s: %s varies %s", key, study->path, study->columns[c]);
     study->overrides[study->override_count++] =
         (SceneSetting){.key = key, .document = *document, .node = YAML_ROOT};
 cleanup:
@@ -264,6 +334,7 @@ bool study_read_vary(Study *study, const char *const *overrides, int32_t overrid
     TRY(read_vary(study, err));
     for (int32_t k = 0; k < override_count; k++) TRY(read_override(study, overrides[k], err));
     TRY(read_set(study, err));
+    TRY(check_twice(study, err));
     TRY(count_points(study, err));
 cleanup:
     return error_is_clean(err);

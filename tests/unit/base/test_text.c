@@ -129,6 +129,24 @@ static void test_utf8(void **state)
     assert_int_equal(text_utf8_length(""), 1);
 }
 
+static void test_number(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        int32_t length;
+        double value;
+    } known[] = {{"10 um", 2, 10}, {"-.5e1x", 5, -5}, {"+3", 2, 3},   {"1e999", 5, INFINITY},
+                 {"0", 1, 0},      {"0x10", 0, 0},    {"-0X1", 0, 0}, {"inf", 0, 0},
+                 {"nan", 0, 0},    {".", 0, 0},       {"-", 0, 0},    {"", 0, 0},
+                 {" 1", 0, 0},     {"1e", 1, 1},      {"..5", 0, 0}};
+    for (size_t k = 0; k < sizeof known / sizeof known[0]; k++) {
+        double value = 0;
+        assert_int_equal(text_number(known[k].text, &value), known[k].length);
+        assert_true(value == known[k].value);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -137,6 +155,7 @@ int main(void)
         cmocka_unit_test(test_long_names_are_cut),
         cmocka_unit_test(test_nearest),
         cmocka_unit_test(test_utf8),
+        cmocka_unit_test(test_number),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

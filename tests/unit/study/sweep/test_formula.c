@@ -59,7 +59,9 @@ static void test_refusals(void **state)
                  {"1 / 0", "not finite"},
                  {"sqrt(-1)", "not finite"},
                  {"sqrt", "`sqrt` is no number"},
-                 {"3 $ 4", "`$ 4`: expected an operator"}};
+                 {"3 $ 4", "`$ 4`: expected an operator"},
+                 {"0x10", "`0x10`: expected a decimal number"},
+                 {"2 * 0X1p3", "`0X1p3`: expected a decimal number"}};
     for (size_t k = 0; k < sizeof known / sizeof known[0]; k++) {
         Error err = {0};
         double value = 0;

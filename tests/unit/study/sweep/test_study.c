@@ -231,6 +231,8 @@ static void test_faults(void **state)
         {"vary: {load.pressure: {log: [0, 1], points: 3}}\n", ":2:29: load.pressure: "},
         {"vary: {load.pressure: {log: [1, 2, 3], points: 3}}\n", "[from, to]"},
         {"vary: {load.pressure: {log: [1, 2], points: 2.5}}\n", "whole number of points"},
+        {"vary: {load.pressure: {log: [1, 2], points: 0x2}}\n", "whole number of points"},
+        {"vary: {load.pressure: {log: [0x1, 2], points: 2}}\n", "two numbers"},
         {"vary: {load.pressure: {log: [1, 2], linear: [1, 2], points: 2}}\n", "allowed: a list"},
         {"vary: {load.pressure: {log: [1, 2]}}\n", "allowed: a list"},
         {"vary: [1]\n", "vary: found a list"},
@@ -243,6 +245,18 @@ static void test_faults(void **state)
         {"record: [qqqqqq]\n", "a path in run.json"},
         {"record: 3\n", "record: found `3`"},
         {"title: [1]\n", "title: found a list"},
+        {"set: {load.pressure: 1}\nvary: {load.pressure: [1, 2]}\n",
+         ":2:7: load.pressure: given by `set` and again by `vary`"},
+        {"set: {load: {pressure: 1}}\nvary: {load.pressure: [1, 2]}\n",
+         ":2:7: load.pressure: given by `set` and again by `vary`"},
+        {"set: {load.pressure: = 3}\nvary: {load: [{pressure: 1}, {pressure: 2}]}\n",
+         ":2:7: load.pressure: given by `set` and again by `vary`"},
+        {"cases: [{rod.kind: push}, {load.pressure: 1}]\nvary: {load.pressure: [1, 2]}\n",
+         ":2:28: load.pressure: given by `cases` and again by `vary`"},
+        {"cases: [{load.pressure: = 2 * rod.width}]\nvary: {load.pressure: [1, 2]}\n",
+         ":2:10: load.pressure: given by `cases` and again by `vary`"},
+        {"vary: {mesh.set.nx: [4, 5], mesh.set: [{nz: 3}, {nx: 4}]}\n",
+         ":2:29: mesh.set.nx: varied twice"},
         {"rank: mu_M\n", "rank: found `mu_M`; allowed: a map"},
         {"rank: {order: lowest}\n", "`by` must be given"},
         {"rank: {by: mu_N}\n", ":2:12: by: unknown name `mu_N`; did you mean `mu_M`?"},
@@ -278,9 +292,11 @@ static void test_faults(void **state)
 static void test_faults_of_overrides(void **state)
 {
     (void)state;
-    static const char *const overrides[][2] = {
-        {"load.pressure=3", "varies this key"}, {"=3", "expected key=value"}, {"a", "expected"}};
-    for (size_t k = 0; k < 3; k++) {
+    static const char *const overrides[][2] = {{"load.pressure=3", "varies load.pressure"},
+                                               {"load={pressure: 3}", "varies load.pressure"},
+                                               {"=3", "expected key=value"},
+                                               {"a", "expected"}};
+    for (size_t k = 0; k < 4; k++) {
         Error err = {0};
         write_study("vary: {load.pressure: [1]}\n");
         Study *study = NEW_ARRAY(Study, 1, &err);
