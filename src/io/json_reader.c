@@ -8,6 +8,7 @@
 
 #include <ctype.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -67,6 +68,15 @@ static const char *skip_value(const char *at)
     return at;
 }
 
+// Behind a value and its comma, at the next item or the bracket that ends the list; NULL: no JSON.
+static const char *next_item(const char *at)
+{
+    at = skip_value(at);
+    if (!at) return NULL;
+    at = skip_space(at);
+    return *at == ',' ? skip_space(at + 1) : at;
+}
+
 // At the child of the object or list at `at` that the first `length` bytes of `name` call for.
 static const char *enter_child(const char *at, const char *name, size_t length)
 {
@@ -85,10 +95,7 @@ static const char *enter_child(const char *at, const char *name, size_t length)
         bool found = is_object ? (size_t)size == length + 2 && strncmp(key + 1, name, length) == 0
                                : k == wanted;
         if (found) return at;
-        at = skip_value(at);
-        if (!at) return NULL;
-        at = skip_space(at);
-        if (*at == ',') at = skip_space(at + 1);
+        at = next_item(at);
     }
     return NULL;
 }
@@ -104,6 +111,41 @@ static const char *find(const char *text, const char *path)
         if (*path == '.') path++;
     }
     return at;
+}
+
+static bool may_hold(const char *at, const char *path, int32_t depth)
+{
+    size_t length = strcspn(path, ".");
+    const char *rest = path + length + (path[length] == '.');
+    if (!at || depth > DEPTH_MAX) return false;
+    if (!*path) return *at != '{' && *at != '[';
+    if (*at != '[') return may_hold(enter_child(at, path, length), rest, depth + 1);
+    if (strspn(path, "0123456789") != length) return false;
+    at = skip_space(at + 1);
+    if (*at == ']') return true;
+    for (; at && *at && *at != ']'; at = next_item(at))
+        if (may_hold(at, rest, depth + 1)) return true;
+    return false;
+}
+
+bool json_may_hold(const char *text, const char *path)
+{
+    return may_hold(skip_space(text), path, 0);
+}
+
+bool json_find_key(const char *text, const char *path, int32_t index, char *key, int32_t size)
+{
+    const char *at = find(text, path), *name = NULL;
+    int32_t length = 0;
+    if (!at || *at != '{') return false;
+    at = skip_space(at + 1);
+    for (int32_t k = 0; at && *at == '"'; k++, at = next_item(at)) {
+        at = enter_item(at, &name, &length);
+        if (!at) return false;
+        if (k == index) snprintf(key, (size_t)size, "%.*s", length - 2, name + 1);
+        if (k == index) return true;
+    }
+    return false;
 }
 
 // The text is walked once, up to the value; braces inside strings are skipped with their strings.

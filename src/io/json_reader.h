@@ -13,6 +13,11 @@
 
 // A number, or a boolean as 1 or 0, or null as NaN.
 bool json_find_number(const char *text, const char *path, double *value);
+// Whether such a value can stand at `path`: a list index stands for every item, and an empty list
+// may hold anything.
+bool json_may_hold(const char *text, const char *path);
+// The key of the item number `index` of the object at `path`, cut to `size` bytes.
+bool json_find_key(const char *text, const char *path, int32_t index, char *key, int32_t size);
 // A text, cut to `size` bytes; \u escapes beyond ASCII become `?`.
 bool json_find_text(const char *text, const char *path, char *value, int32_t size);
 

@@ -319,6 +319,26 @@ class Sweep(unittest.TestCase):
                 self.assertRegex(done.stderr, message)
                 self.assertFalse((self.folder / "out").exists())
 
+    def test_paths_that_run_json_lacks(self):
+        """Known with the first point that is done: the rest is not computed for an empty column."""
+        for words, message in [
+                ("record: [mu_M, results.mu_maxx]", r":9:16: record: run\.json has no `results\.mu_maxx`; did you mean `results\.mu_max`\?"),
+                ("rank: {by: results.drops.men}", r":9:12: by: .*`results\.drops\.men`; did you mean `results\.drops\.mean`\?"),
+                ("plot: {x: load.pressure, y: result.mu_M}", r":9:29: y: .*`result\.mu_M`; did you mean `results\.mu_M`\?"),
+                ("record: [results.peaks.0.mmu]", r"did you mean `results\.peaks\.0\.mu`\?"),
+                ("record: [zz.zz]", r"run\.json has no `zz\.zz`\n"),
+                ("record: [results.drops]", r"record: `results\.drops` of run\.json has many values: name one")]:
+            with self.subTest(words):
+                shutil.rmtree(self.folder / "out", ignore_errors=True)
+                done = self.sweep("-j", "1", study=self.study(STUDY + words + "\n"), status=2)
+                self.assertRegex(done.stderr, message)
+                self.assertEqual(len(list((self.folder / "out/points").glob("*/run.json"))), 1)
+                again = self.sweep("-j", "1", study=self.study(STUDY + words + "\n"), status=2)   # nor when it is known before
+                self.assertRegex(again.stderr, message)
+        # What a run may have and these have not is no mistake.
+        self.sweep(study=self.study(STUDY + "record: [results.peaks.99.mu, scene.rod.kind, results.pads.7.l_c]\n"))
+        self.assertEqual([row["scene.rod.kind"] for row in self.table()], ["push", "bonded"] * 4)
+
     def test_names_of_earlier_versions(self):
         for words, old, new in [("rank: {by: mu_trusted}", "mu_trusted", "mu_hold"),
                                 ("record: [results.mu_trusted_error]", r"results\.mu_trusted_error", "mu_hold_error"),

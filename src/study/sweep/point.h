@@ -35,7 +35,7 @@ typedef struct Sweep {
     int lock;   // file descriptor; -1: none
     SweepPoint *points;   // [study.point_count]; owned
     double started;   // wall clock, s
-    double busy;   // seconds of all points computed so far
+    bool checked;   // what the study records is in run.json
     int32_t computed, failed, finished;
 } Sweep;
 

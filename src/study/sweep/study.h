@@ -41,6 +41,8 @@ enum {
 typedef struct StudyRecord {
     char name[STUDY_NAME_SIZE];   // of the column
     char path[STUDY_NAME_SIZE];   // in run.json
+    const char *given_by;   // "record", "by", "x", "y"; static storage
+    YamlNode node;   // where the study names it; YAML_NO_NODE: nowhere
 } StudyRecord;
 
 typedef struct StudyAxis {

@@ -25,9 +25,11 @@ enum { KNOWN_RECORD_COUNT = sizeof KNOWN_RECORDS / sizeof KNOWN_RECORDS[0] };
 
 // --- what is recorded ---------------------------------------------------------------------------
 
-static void add_record(Study *study, const char *name, const char *path)
+static void add_record(Study *study, const char *name, const char *path, const char *given_by,
+                       YamlNode node)
 {
     StudyRecord *record = &study->records[study->record_count++];
+    *record = (StudyRecord){.given_by = given_by, .node = node};
     snprintf(record->name, sizeof record->name, "%s", name);
     snprintf(record->path, sizeof record->path, "%s", path);
 }
@@ -61,8 +63,8 @@ static const char *new_name(const char *name)
     return NULL;
 }
 
-// The column of what `node` names, under the key `what`: a name of STUDY_RECORDS or a path in
-// run.json. What no column holds yet gets one.
+// The column of what `node` names, under the key `what` (static storage): a name of STUDY_RECORDS
+// or a path in run.json. What no column holds yet gets one.
 static bool read_record(Study *study, YamlNode node, const char *what, int32_t *column, Error *err)
 {
     const char *name = yaml_text(study->file, node), *names[KNOWN_RECORD_COUNT];
@@ -83,7 +85,7 @@ static bool read_record(Study *study, YamlNode node, const char *what, int32_t *
         return false;
     }
     if (path) {
-        add_record(study, name, path);
+        add_record(study, name, path, what, node);
         return true;
     }
     int32_t nearest = text_nearest(name, names, KNOWN_RECORD_COUNT);
@@ -106,7 +108,7 @@ static bool read_records(Study *study, Error *err)
     if (list == YAML_NO_NODE) {
         for (int32_t k = 0; k < KNOWN_RECORD_COUNT; k++)
             if (KNOWN_RECORDS[k].standard)
-                add_record(study, KNOWN_RECORDS[k].name, KNOWN_RECORDS[k].path);
+                add_record(study, KNOWN_RECORDS[k].name, KNOWN_RECORDS[k].path, "", YAML_NO_NODE);
         return true;
     }
     int32_t count = yaml_count(study->file, list);

@@ -4,6 +4,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "io/json_reader.h"
+#include "study/sweep/record_check.h"
 #include "study/sweep/study_point.h"
 
 #include <math.h>
@@ -41,6 +42,14 @@ static void report_point(Sweep *sweep, int32_t k, const char *report)
     sweep->options->on_point(&view, sweep->options->context);
 }
 
+// What `record` names must be in the run.json of the first point that is done.
+static bool check_records(Sweep *sweep, int32_t point, const char *report, Error *err)
+{
+    if (sweep->checked || sweep->points[point].status != POINT_DONE) return true;
+    sweep->checked = true;
+    return record_check(&sweep->study, report, err);
+}
+
 // Points finished by an earlier sweep.
 bool sweep_take_finished(Sweep *sweep, Error *err)
 {
@@ -55,10 +64,12 @@ bool sweep_take_finished(Sweep *sweep, Error *err)
         point->reused = point->status != POINT_PENDING;
         if (point->reused) {
             report_point(sweep, k, report);
+            check_records(sweep, k, report, err);
         } else if (report) {
             point_remove(sweep, k);
         }
         memory_free(report);
+        TRY(error_is_clean(err));
     }
 cleanup:
     return error_is_clean(err);
@@ -92,6 +103,7 @@ bool sweep_take_ended(Sweep *sweep, int32_t point, double seconds, bool *left, E
     sweep->points[point].seconds = seconds;
     sweep->computed++;
     report_point(sweep, point, report);
+    TRY(check_records(sweep, point, report, err));
 cleanup:
     memory_free(report);
     return error_is_clean(err);

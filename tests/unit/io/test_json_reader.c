@@ -71,6 +71,55 @@ static void test_texts(void **state)
     assert_string_equal(few, "don");
 }
 
+// An index stands for every item: a list may be shorter at another time.
+static void test_may_hold(void **state)
+{
+    (void)state;
+    static const char *const holds[] = {"last",
+                                        "status",
+                                        "results.none",
+                                        "results.list.9",
+                                        "results.peaks.7.U",
+                                        "results.peaks.0.mu",
+                                        "empty.3.thing"};
+    static const char *const lacks[] = {"results",
+                                        "results.peaks",
+                                        "results.peaks.0",
+                                        "results.mu",
+                                        "results.peaks.0.V",
+                                        "results.peaks.U",
+                                        "results.list.9.mu",
+                                        "last.0",
+                                        "",
+                                        "empty.thing"};
+    static const char text[] =
+        "{\"empty\": [], \"last\": 7, \"status\": \"\", \"results\": {\"none\": "
+        "null, \"list\": [1, 2], \"mu_M\": 1, \"peaks\": [{\"mu\": 1}, {\"mu\": "
+        "2, \"U\": 3}]}}";
+    for (size_t k = 0; k < sizeof holds / sizeof holds[0]; k++)
+        if (!json_may_hold(text, holds[k])) fail_msg("%s", holds[k]);
+    for (size_t k = 0; k < sizeof lacks / sizeof lacks[0]; k++)
+        if (json_may_hold(text, lacks[k])) fail_msg("%s", lacks[k]);
+}
+
+static void test_keys(void **state)
+{
+    (void)state;
+    char key[20];
+    static const char *const keys[] = {"mu_M", "none", "periodic", "off", "peaks", "list"};
+    for (int32_t k = 0; k < 6; k++) {
+        assert_true(json_find_key(TEXT, "results", k, key, sizeof key));
+        assert_string_equal(key, keys[k]);
+    }
+    assert_false(json_find_key(TEXT, "results", 6, key, sizeof key));
+    assert_true(json_find_key(TEXT, "results.peaks.1", 0, key, sizeof key));
+    assert_string_equal(key, "mu");
+    assert_true(json_find_key(TEXT, "", 0, key, 4));
+    assert_string_equal(key, "sta");
+    assert_false(json_find_key(TEXT, "last", 0, key, sizeof key));
+    assert_false(json_find_key(TEXT, "results.list", 0, key, sizeof key));
+}
+
 // Cut anywhere, or with any byte replaced: an answer or none, and no byte beyond the end is read
 // (the sanitizers say so: the text is copied to where it just fits).
 static void test_damage(void **state)
@@ -88,14 +137,17 @@ static void test_damage(void **state)
             cut[k] = *other;
             json_find_number(cut, "results.peaks.1.mu", &value);
             json_find_text(cut, "message", text, sizeof text);
+            json_may_hold(cut, "results.peaks.9.mu");
+            json_find_key(cut, "results.peaks.1", 3, text, sizeof text);
         }
     }
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_numbers),
-                                       cmocka_unit_test(test_absent), cmocka_unit_test(test_texts),
-                                       cmocka_unit_test(test_damage)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_numbers), cmocka_unit_test(test_absent),
+        cmocka_unit_test(test_texts),   cmocka_unit_test(test_may_hold),
+        cmocka_unit_test(test_keys),    cmocka_unit_test(test_damage)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
