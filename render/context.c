@@ -7,6 +7,7 @@
 #include "base/memory.h"
 
 #include <GL/osmesa.h>
+#include <pthread.h>
 
 enum { TOKEN_SIZE = 16 };   // pixels a side of the buffer OSMesa insists on
 
@@ -14,6 +15,10 @@ struct RenderContext {
     OSMesaContext mesa;   // owned
     uint8_t token[TOKEN_SIZE * TOKEN_SIZE * 4];   // never drawn into
 };
+
+// Mesa shares states between contexts: one thread draws at a time. Recursive: a thread may have
+// several contexts.
+static pthread_mutex_t drawing = PTHREAD_RECURSIVE_MUTEX_INITIALIZER_NP;
 
 // 3.3 core is what the shaders need; a driver may give a later version.
 RenderContext *context_create(Error *err)
@@ -31,6 +36,7 @@ RenderContext *context_create(Error *err)
                                  0};
     RenderContext *context = NULL;
     TRY(context = NEW_ARRAY(RenderContext, 1, err));
+    pthread_mutex_lock(&drawing);
     context->mesa = OSMesaCreateContextAttribs(wanted, NULL);
     if (!context->mesa) FAIL(err, ERROR_LIBRARY, "OSMesa gives no OpenGL 3.3 core context");
     if (!OSMesaMakeCurrent(context->mesa, context->token, GL_UNSIGNED_BYTE, TOKEN_SIZE, TOKEN_SIZE))
@@ -46,4 +52,5 @@ void context_destroy(RenderContext *context)
     if (!context) return;
     if (context->mesa) OSMesaDestroyContext(context->mesa);
     memory_free(context);
+    pthread_mutex_unlock(&drawing);
 }

@@ -11,17 +11,23 @@
 //               amontons_run(scene, &options, &summary, &err);
 //   amontons_scene_destroy(scene);
 //
-// Functions that can fail return bool and take an Error last (base/error.h says how). Strings and
-// arrays handed in stay the caller's. Quantities are in the units of the scene's file.
+// Functions that can fail return bool (true: done) and take an Error last, handed in clean. Strings
+// and arrays handed in stay the caller's. Quantities are in the units of the scene's file.
+// The library never prints, exits, or changes locale and signals of the process. Simulations may
+// be computed in several threads at a time, each in one.
 #ifndef AMONTONS_H
 #define AMONTONS_H
 
-#include "base/error.h"
+#include "amontons_error.h"
 
 #include <signal.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 typedef struct Scene Scene;   // what to compute; opaque here
 typedef struct Simulation Simulation;   // one computation on its way; opaque
@@ -105,6 +111,14 @@ typedef struct RunOptions {
     const volatile sig_atomic_t *stop;   // non-zero: finish the step, keep what is there, return
         // ERROR_INTERRUPT; NULL: never
 } RunOptions;
+
+// --- the library --------------------------------------------------------------------------------
+const char *amontons_version(void);   // "0.1.0"; static storage, like the next two
+// Of git, "3c94c86f0d", with ", changed" behind it where that was not committed; "": of an archive.
+const char *amontons_revision(void);
+const char *amontons_libraries(void);   // what it was built with: "gmsh 4.8.0, HDF5 1.10.8, ..."
+// The folder of the meshes and example scenes that come with the library; false: not found.
+bool amontons_data_folder(char folder[AMONTONS_PATH_SIZE]);
 
 // --- scenes -------------------------------------------------------------------------------------
 // Reads `path` and applies `overrides` ("load.pressure=0.006"), [override_count]. ERROR_INPUT gives
@@ -207,5 +221,9 @@ typedef struct InfoOptions {
 bool amontons_info(const char *path, const InfoOptions *options, FILE *out, Error *err);
 // The index of the one of `names` that a mistyped `word` probably means; -1: none is near.
 int32_t amontons_nearest_name(const char *word, const char *const *names, int32_t count);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -5,6 +5,10 @@
 
 #include "amontons.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 // One position of the quasi-static front in theory, and in the simulation when its rod has gone
 // as far (NaN where it had slid by then).
 typedef struct Model1dPoint {
@@ -56,5 +60,9 @@ Model1dOptions amontons_model1d_options(void);   // alpha 0.2, 81 nodes, simulat
 // and a simulation up to the scene's end. ERROR_INPUT where the model does not apply.
 bool amontons_model1d(const Scene *scene, const Model1dOptions *options, Model1dSummary *summary,
                       Error *err);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -5,6 +5,10 @@
 
 #include "amontons.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 // One state of the quasi-static path, and how small disturbances of it grow.
 typedef struct StabilityPoint {
     double front;   // l, length
@@ -79,5 +83,9 @@ typedef struct StabilityOptions {
 // Follows the quasi-static path of `scene` and computes the growth rates at each front position.
 bool amontons_stability(const Scene *scene, const StabilityOptions *options,
                         StabilitySummary *summary, Error *err);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -248,5 +248,5 @@ int main(int argc, char **argv)
     }
     if (make_page(argv[1], &err)) return 0;
     fprintf(stderr, "amontons_chart: error: %s\n", err.message);
-    return error_exit_status(err.code);
+    return amontons_error_exit_status(err.code);
 }

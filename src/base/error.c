@@ -46,7 +46,7 @@ bool error_is_clean(const Error *err)
 }
 
 // From the table of codes in the header; 1 for a number that is no code.
-int error_exit_status(ErrorCode code)
+int amontons_error_exit_status(ErrorCode code)
 {
     switch (code) {
 #define X(symbol, status, name)                                                                    \
@@ -58,7 +58,7 @@ int error_exit_status(ErrorCode code)
     return 1;
 }
 
-const char *error_name(ErrorCode code)
+const char *amontons_error_name(ErrorCode code)
 {
     switch (code) {
 #define X(symbol, status, name)                                                                    \

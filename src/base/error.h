@@ -13,33 +13,10 @@
 #ifndef AMONTONS_BASE_ERROR_H
 #define AMONTONS_BASE_ERROR_H
 
+#include "amontons_error.h"
+
 #include <stdbool.h>
 #include <stdint.h>
-
-// code, exit status of the program, short name
-#define ERROR_CODES(X)                                                                             \
-    X(ERROR_NONE, 0, "none")                                                                       \
-    X(ERROR_INPUT, 2, "wrong input")                                                               \
-    X(ERROR_FILE, 1, "file")                                                                       \
-    X(ERROR_MEMORY, 1, "out of memory")                                                            \
-    X(ERROR_LIBRARY, 1, "library")                                                                 \
-    X(ERROR_COMPUTE, 1, "computation failed")                                                      \
-    X(ERROR_INTERRUPT, 1, "interrupted")
-
-typedef enum ErrorCode {
-#define X(code, status, name) code,
-    ERROR_CODES(X)
-#undef X
-} ErrorCode;
-
-enum { ERROR_MESSAGE_SIZE = 2000 };
-
-typedef struct Error {
-    ErrorCode code;   // ERROR_NONE: clean
-    int32_t line;   // of the FAIL that set it
-    const char *file;   // of the FAIL that set it; static storage
-    char message[ERROR_MESSAGE_SIZE];   // says what is wrong, where, and how to mend it
-} Error;
 
 // Sets a clean error; a set one keeps its first cause. `file`, `line`: the origin.
 void error_set(Error *err, ErrorCode code, const char *file, int32_t line, const char *format, ...)
@@ -50,8 +27,6 @@ void error_context(Error *err, const char *format, ...) __attribute__((format(pr
 
 void error_clear(Error *err);
 bool error_is_clean(const Error *err);
-int error_exit_status(ErrorCode code);   // 0 done, 1 the computation failed, 2 wrong input
-const char *error_name(ErrorCode code);   // static storage
 
 #define FAIL(err, code, ...)                                                                       \
     do {                                                                                           \

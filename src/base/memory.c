@@ -1,28 +1,37 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The counters are process-wide and atomic: modules and BLAS threads share them.
+// Each thread has counters of its own, so that simulations in several threads count what is theirs;
+// a module counts in those of the library that opened it (memory_use_tally).
 // Every array begins at a multiple of 64 bytes, a cache line and the widest vector, and its size is
 // rounded up to whole lines, so that loops over it may be vectorised to its end. Arrays know
 // nothing of their length: who has one keeps it.
 #include "base/memory.h"
 
-#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { ALIGNMENT = 64, FIRST_ROOM = 16 };
 
-static atomic_llong allocation_count;
-static atomic_llong live_count;
-static atomic_llong allocations_until_failure = -1;
+static _Thread_local MemoryTally own_tally = {.until_failure = -1};
+
+static MemoryTally *tally_of_thread(void)
+{
+    return &own_tally;
+}
+
+static _Atomic(MemoryTallyFunction) tally_function = tally_of_thread;
+
+static MemoryTally *tally_now(void)
+{
+    return tally_function();
+}
 
 // Counts down to the failure that a test asked for, and stays at 0 from then on: what fails once
 // goes on failing, as memory that has run out does.
-static bool fault_is_due(void)
+static bool fault_is_due(MemoryTally *tally)
 {
-    long long left = atomic_load(&allocations_until_failure);
-    if (left < 0) return false;
-    if (left == 0) return true;
-    atomic_store(&allocations_until_failure, left - 1);
+    if (tally->until_failure < 0) return false;
+    if (tally->until_failure == 0) return true;
+    tally->until_failure--;
     return false;
 }
 
@@ -37,11 +46,12 @@ static void *allocate(int64_t count, size_t size, size_t *padded, Error *err)
         FAIL(err, ERROR_MEMORY, "an array of %lld items of %zu bytes is not possible",
              (long long)count, size);
     *padded = (bytes / ALIGNMENT + 1) * ALIGNMENT;
-    if (!fault_is_due()) array = aligned_alloc(ALIGNMENT, *padded);
+    MemoryTally *tally = tally_now();
+    if (!fault_is_due(tally)) array = aligned_alloc(ALIGNMENT, *padded);
     if (!array)
         FAIL(err, ERROR_MEMORY, "no memory for %lld items of %zu bytes", (long long)count, size);
-    atomic_fetch_add(&allocation_count, 1);
-    atomic_fetch_add(&live_count, 1);
+    tally->counters.allocations++;
+    tally->counters.live++;
 cleanup:
     return array;
 }
@@ -97,18 +107,28 @@ char *memory_text(const char *text, Error *err)
 void memory_free(void *array)
 {
     if (!array) return;
-    atomic_fetch_sub(&live_count, 1);
+    tally_now()->counters.live--;
     free(array);
 }
 
 MemoryCounters memory_counters(void)
 {
-    return (MemoryCounters){.allocations = atomic_load(&allocation_count),
-                            .live = atomic_load(&live_count)};
+    return tally_now()->counters;
 }
 
-// Process-wide: a test that sets it must take it back (-1) also where it fails.
+// A test that sets it must take it back (-1) also where it fails.
 void memory_fail_after(int64_t allocations)
 {
-    atomic_store(&allocations_until_failure, allocations);
+    tally_now()->until_failure = allocations;
+}
+
+MemoryTallyFunction memory_tally(void)
+{
+    return tally_function;
+}
+
+// Exported by modules, by this name: base/module calls it when it has opened one.
+void amontons_module_tally(MemoryTallyFunction tally)
+{
+    tally_function = tally;
 }

@@ -11,8 +11,8 @@
 #include <stdint.h>
 
 typedef struct MemoryCounters {
-    int64_t allocations;   // calls that returned memory, since the program started
-    int64_t live;   // arrays not yet freed
+    int64_t allocations;   // calls that returned memory, in this thread, since it started
+    int64_t live;   // arrays not yet freed, less those that this thread freed for others
 } MemoryCounters;
 
 // `count` items of `size` bytes, zeroed, 64-byte aligned; count 0 gives a valid pointer.
@@ -35,9 +35,18 @@ char *memory_text(const char *text, Error *err);   // an owned copy
 void memory_free(void *array);   // NULL is fine
 MemoryCounters memory_counters(void);
 
-// Fault injection: the allocation after `allocations` more successful ones fails, and every later
-// one too, until called with -1. For tests only.
+// Fault injection: this thread's allocation after `allocations` more successful ones fails, and
+// every later one too, until called with -1. For tests only.
 void memory_fail_after(int64_t allocations);
+
+// A module has a copy of base/ in it. It counts where the library that opened it does.
+typedef struct MemoryTally {
+    MemoryCounters counters;
+    int64_t until_failure;   // allocations; below 0: none is asked for
+} MemoryTally;
+typedef MemoryTally *(*MemoryTallyFunction)(void);   // that of the calling thread
+MemoryTallyFunction memory_tally(void);
+void amontons_module_tally(MemoryTallyFunction tally);
 
 // NEW_ARRAY(double, n, err): a zeroed double[n], or NULL with the error set.
 #define NEW_ARRAY(type, count, err) ((type *)memory_array((count), sizeof(type), (err)))

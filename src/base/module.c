@@ -3,28 +3,40 @@
 // end with the program.
 #include "base/module.h"
 
+#include "base/memory.h"
+#include "base/place.h"
+
 #include <dlfcn.h>
-#include <libgen.h>
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
-// The folder of the modules: AMONTONS_MODULES, else where the executable stands.
-static bool module_folder(char *folder, size_t size, Error *err)
+// Of the module `name`: in the folder AMONTONS_MODULES, else where modules are installed, else
+// beside this object, which is the build folder, or another module.
+static bool module_path(const char *name, char *path, size_t size, Error *err)
 {
     const char *given = getenv("AMONTONS_MODULES");
-    if (given && given[0]) {
-        snprintf(folder, size, "%s", given);
-        return true;
+    char folder[PATH_MAX], installed[PATH_MAX];
+    const char *const places[] = {installed};
+    snprintf(installed, sizeof installed, "amontons/amontons_%s.so", name);
+    if (!(given && given[0])) {
+        if (place_find(places, 1, path, size)) return true;
+        TRY(place_folder(folder, sizeof folder, err));
+        given = folder;
     }
-    char executable[PATH_MAX] = {0};
-    if (readlink("/proc/self/exe", executable, sizeof executable - 1) < 0)
-        FAIL(err, ERROR_LIBRARY, "cannot tell where the program stands (/proc/self/exe)");
-    snprintf(folder, size, "%s", dirname(executable));
+    snprintf(path, size, "%s/amontons_%s.so", given, name);
 cleanup:
     return error_is_clean(err);
+}
+
+// A module that allocates counts where we do.
+static void share_tally(void *handle)
+{
+    void (*share)(MemoryTallyFunction) = NULL;
+    void *address = dlsym(handle, "amontons_module_tally");
+    memcpy(&share, &address, sizeof share);   // POSIX: object to function pointer
+    if (share) share(memory_tally());
 }
 
 // NULL with ERROR_LIBRARY, which has the loader's own words: most often that a library is not
@@ -32,16 +44,15 @@ cleanup:
 ModuleFunction module_function(const char *name, const char *symbol, Error *err)
 {
     ModuleFunction function = NULL;
-    char folder[PATH_MAX] = {0};
-    char path[PATH_MAX + 128];
-    TRY(module_folder(folder, sizeof folder, err));
-    snprintf(path, sizeof path, "%s/amontons_%s.so", folder, name);
+    char path[2 * PATH_MAX + 128];
+    TRY(module_path(name, path, sizeof path, err));
     // Lazy, as programs are linked: to bind all of VTK's functions at once takes 2 ms more.
     void *handle = dlopen(path, RTLD_LAZY | RTLD_LOCAL);
     if (!handle) FAIL(err, ERROR_LIBRARY, "cannot open the module %s: %s", path, dlerror());
     void *address = dlsym(handle, symbol);
     if (!address) FAIL(err, ERROR_LIBRARY, "the module %s has no %s", path, symbol);
-    memcpy(&function, &address, sizeof function);   // POSIX: object to function pointer
+    share_tally(handle);
+    memcpy(&function, &address, sizeof function);
 cleanup:
     return function;
 }

@@ -9,8 +9,9 @@
 
 typedef void (*ModuleFunction)(void);
 
-// Finds `symbol` in the module `amontons_<name>.so` beside the program's executable (tests: in the
-// folder AMONTONS_MODULES). A module stays open until the program ends; a second call is a look-up.
+// Finds `symbol` in the module `amontons_<name>.so` beside the program or library that this is part
+// of, or in the folder `amontons` beside it, as installed (tests: in the folder AMONTONS_MODULES).
+// A module stays open until the program ends; a second call is a look-up.
 // NULL with ERROR_LIBRARY set, naming the file and what the loader said, when it cannot be had.
 ModuleFunction module_function(const char *name, const char *symbol, Error *err);
 

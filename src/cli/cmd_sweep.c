@@ -160,7 +160,7 @@ static int close_sweep(const SweepDisplay *display, const char *folder, const ch
     for (int32_t k = 0; k < display->failures; k++) fprintf(stderr, "  %s\n", display->failed[k]);
     if (summary->failed > display->failures)
         fprintf(stderr, "  ... and more, in %s/sweep.csv\n", folder);
-    return error_exit_status(ERROR_COMPUTE);
+    return amontons_error_exit_status(ERROR_COMPUTE);
 }
 
 // The ranking is gathered in memory while points are reported on standard error, and printed when

@@ -52,6 +52,16 @@ static int print_help(void)
     return 0;
 }
 
+// The exit status.
+static int print_version(void)
+{
+    const char *revision = amontons_revision();
+    printf("amontons %s%s%s%s\n", amontons_version(), *revision ? " (" : "", revision,
+           *revision ? ")" : "");
+    printf("built with %s\n", amontons_libraries());
+    return 0;
+}
+
 // NULL: no command has that name.
 static const Command *find_command(const char *name)
 {
@@ -88,10 +98,7 @@ static int run_command(int argc, char **argv)
 {
     const char *word = argc > 1 ? argv[1] : NULL;
     if (!word) return report_misuse("no command is given; `amontons --help` lists the commands");
-    if (strcmp(word, "--version") == 0 || strcmp(word, "-V") == 0) {
-        printf("amontons %s\n", AMONTONS_VERSION);
-        return 0;
-    }
+    if (strcmp(word, "--version") == 0 || strcmp(word, "-V") == 0) return print_version();
     bool wants_help = strcmp(word, "help") == 0 || strcmp(word, "--help") == 0 ||
                       strcmp(word, "-h") == 0 || strcmp(word, "-?") == 0;
     if (wants_help) return argc > 2 ? help_on(argv[2]) : print_help();

@@ -98,7 +98,7 @@ int options_read(const CommandText *text, const Option *options, int argc, char 
             .flags = (options[k].flag && options[k].word ? OPTION_ARG_OPTIONAL : 0) |
                      (options[k].meaning ? 0 : OPTION_HIDDEN),
             .doc = options[k].meaning};
-    argp_err_exit_status = error_exit_status(ERROR_INPUT);
+    argp_err_exit_status = amontons_error_exit_status(ERROR_INPUT);
     snprintf(name, sizeof name, "amontons %s", text->name);
     argv[0] = name;
     argp_parse(&argp, argc, argv, 0, NULL, &reading);
@@ -134,7 +134,7 @@ int report_error(const Error *err)
 {
     fflush(stdout);
     fprintf(stderr, "amontons: error: %s\n", err->message);
-    return error_exit_status(err->code);
+    return amontons_error_exit_status(err->code);
 }
 
 void report_warnings(const RunWarnings *warnings)
@@ -154,7 +154,7 @@ int report_misuse(const char *format, ...)
     vfprintf(stderr, format, arguments);
     fprintf(stderr, "\n");
     va_end(arguments);
-    return error_exit_status(ERROR_INPUT);
+    return amontons_error_exit_status(ERROR_INPUT);
 }
 
 // --- signals ------------------------------------------------------------------------------------

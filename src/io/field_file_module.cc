@@ -25,6 +25,7 @@ extern "C" {
 #include <vtkZLibDataCompressor.h>
 
 #include <exception>
+#include <mutex>
 #include <string>
 
 namespace
@@ -138,11 +139,14 @@ bool encode(const FieldGrid &grid, const FieldOutput &output, Error *err)
     return write(writer, cells, output, err);
 }
 
+std::mutex encoding;   // VTK's factories and tools are shared by the whole process
+
 }   // namespace
 
 extern "C" __attribute__((visibility("default"))) bool
 amontons_vtk_encode(const FieldGrid *grid, const FieldOutput *output, Error *err)
 {
+    const std::lock_guard<std::mutex> alone(encoding);
     try {
         vtkSMPTools::SetBackend("Sequential");   // its threads wait by spinning, for work too small
         return encode(*grid, *output, err);

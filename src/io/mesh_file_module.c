@@ -7,6 +7,7 @@
 #include <errno.h>
 #include <gmshc.h>
 #include <limits.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -303,11 +304,15 @@ cleanup:
     return error_is_clean(err);
 }
 
+// gmsh has one session a process.
+static pthread_mutex_t session = PTHREAD_MUTEX_INITIALIZER;
+
 __attribute__((visibility("default"))) bool amontons_gmsh_read(const MeshRawRequest *request,
                                                                MeshRaw *raw, Error *err)
 {
     bool begun = false;
     *raw = (MeshRaw){0};
+    pthread_mutex_lock(&session);
     TRY(begun = gmsh_begin(err));
     TRY(gmsh_load(request, err));
     for (int dimension = 0; dimension <= 3; dimension++) TRY(fetch_nodes(dimension, raw, err));
@@ -315,5 +320,6 @@ __attribute__((visibility("default"))) bool amontons_gmsh_read(const MeshRawRequ
     TRY(fetch_groups(request->path, raw, err));
 cleanup:
     if (begun) gmsh_end();
+    pthread_mutex_unlock(&session);
     return error_is_clean(err);
 }

@@ -158,7 +158,7 @@ bool report_write(const char *folder, const RunReport *report, Error *err)
     json_begin_object(json, NULL);
     json_text(json, "status", report->failure ? "failed" : "done");
     if (report->failure) {
-        json_text(json, "failure", error_name(report->failure->code));
+        json_text(json, "failure", amontons_error_name(report->failure->code));
         json_text(json, "message", report->failure->message);
     }
     json_text(json, "version", AMONTONS_VERSION);

@@ -46,7 +46,7 @@ static void test_cache(void **state)
         done = run_once(scene, place, &err);
         memory_fail_after(-1);
         if (!done && err.code != ERROR_MEMORY)
-            fail_msg("allocation %d: %s: %s", cold, error_name(err.code), err.message);
+            fail_msg("allocation %d: %s: %s", cold, amontons_error_name(err.code), err.message);
         assert_int_equal(memory_counters().live, live);
     }
     assert_true(report_says(place, "\"from_cache\": true"));   // kept by a run that failed later

@@ -115,7 +115,7 @@ static int32_t run_at_all_sizes(const char *output)
         bool done = amontons_run(scene, &options, &summary, &err);
         limit_files(0);
         if (!done && err.code != ERROR_FILE)
-            fail_msg("%d bytes: %s: %s", (int)sizes[k], error_name(err.code), err.message);
+            fail_msg("%d bytes: %s: %s", (int)sizes[k], amontons_error_name(err.code), err.message);
         if (!done && !strstr(err.message, place)) fail_msg("where? %s", err.message);
         if (done) assert_true(place_has(place, "run.json"));
         check_place(place);

@@ -33,7 +33,7 @@ static int32_t fail_everywhere(const char *const *more, const char *folder)
         memory_fail_after(-1);
         if (done) continue;
         if (err.code != ERROR_MEMORY)
-            fail_msg("allocation %d: %s: %s", failed, error_name(err.code), err.message);
+            fail_msg("allocation %d: %s: %s", failed, amontons_error_name(err.code), err.message);
         if (memory_counters().live != live)
             fail_msg("allocation %d: %d arrays are not freed", failed,
                      (int)(memory_counters().live - live));

@@ -250,5 +250,5 @@ cleanup:
     memory_free(problem.u);
     if (error_is_clean(&err)) return 0;
     fprintf(stderr, "amontons_manufactured: error: %s\n", err.message);
-    return error_exit_status(err.code);
+    return amontons_error_exit_status(err.code);
 }

@@ -97,7 +97,8 @@ PointStatus point_status(const char *report)
     if (!report || !json_find_text(report, "status", status, sizeof status)) return POINT_PENDING;
     if (strcmp(status, "done") == 0) return POINT_DONE;
     json_find_text(report, "failure", failure, sizeof failure);
-    return strcmp(failure, error_name(ERROR_INTERRUPT)) == 0 ? POINT_PENDING : POINT_FAILED;
+    return strcmp(failure, amontons_error_name(ERROR_INTERRUPT)) == 0 ? POINT_PENDING
+                                                                      : POINT_FAILED;
 }
 
 const char *point_status_name(PointStatus status)

@@ -94,17 +94,17 @@ static void test_long_messages(void **state)
 static void test_exit_statuses(void **state)
 {
     (void)state;
-    assert_int_equal(error_exit_status(ERROR_NONE), 0);
-    assert_int_equal(error_exit_status(ERROR_INPUT), 2);
+    assert_int_equal(amontons_error_exit_status(ERROR_NONE), 0);
+    assert_int_equal(amontons_error_exit_status(ERROR_INPUT), 2);
     const ErrorCode failed[] = {ERROR_FILE, ERROR_MEMORY, ERROR_LIBRARY, ERROR_COMPUTE,
                                 ERROR_INTERRUPT};
     for (size_t k = 0; k < sizeof failed / sizeof failed[0]; k++) {
-        assert_int_equal(error_exit_status(failed[k]), 1);
-        assert_true(strlen(error_name(failed[k])) > 0);
+        assert_int_equal(amontons_error_exit_status(failed[k]), 1);
+        assert_true(strlen(amontons_error_name(failed[k])) > 0);
     }
-    assert_int_equal(error_exit_status((ErrorCode)99), 1);
-    assert_string_equal(error_name((ErrorCode)99), "unknown");
-    assert_string_equal(error_name(ERROR_INPUT), "wrong input");
+    assert_int_equal(amontons_error_exit_status((ErrorCode)99), 1);
+    assert_string_equal(amontons_error_name((ErrorCode)99), "unknown");
+    assert_string_equal(amontons_error_name(ERROR_INPUT), "wrong input");
 }
 
 int main(void)

@@ -226,7 +226,7 @@ static void assert_read_fails(const char *path, ErrorCode code, const char *word
     assert_false(yaml_read(path, &document, &err));
     assert_null(document);
     if (err.code != code || !strstr(err.message, words) || !strstr(err.message, path))
-        fail_msg("%s: %s", error_name(err.code), err.message);
+        fail_msg("%s: %s", amontons_error_name(err.code), err.message);
 }
 
 static void test_files(void **state)
