@@ -37,8 +37,9 @@ void warnings_of_resolution(const Certificate *certificate, double load, RunWarn
     }
     if (unstable > 0)
         warnings_add(warnings,
-                     "friction weakens faster than viscosity can damp at %d of %d contact nodes, "
-                     "each taken alone: slip turns unstable on less than an element, and what "
-                     "comes out depends on the mesh; elements %.2g times as long would do",
+                     "slip is not resolved: friction weakens faster than viscosity can damp at %d "
+                     "of %d contact nodes, each taken alone; slip turns unstable on less than an "
+                     "element, and what comes out depends on the mesh; elements %.2g times as "
+                     "long would do",
                      unstable, interface->contact_count, 1 / worst);
 }

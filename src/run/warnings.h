@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What makes a scene's answer doubtful though it can be computed: what the scene alone tells
 // (amontons_scene_warning), and weakening that is too fast for viscosity and mesh. Written to
-// run.json (warnings), handed to the caller in RunSummary. Called by run/simulation once
-// its model stands.
+// run.json (warnings), handed to the caller in RunSummary. Each says in a few words what is wrong,
+// then a colon and the rest: the legend of a sweep's picture has room for the former. Called by
+// run/simulation once its model stands.
 #ifndef AMONTONS_RUN_WARNINGS_H
 #define AMONTONS_RUN_WARNINGS_H
 
