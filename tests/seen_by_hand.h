@@ -54,6 +54,14 @@ static inline void hand_seen_init(HandSeen *hand)
                                .certified = true};
 }
 
+// Two pads, the second of nodes 3 and 4; or three, nodes 2 and 3 and node 4 apart.
+static inline void hand_split(HandSeen *hand, int32_t pads)
+{
+    static const int32_t pad_of[][SEEN_NODES] = {{0, 0, 0, 0, 0}, {0, 0, 0, 1, 1}, {0, 0, 1, 1, 2}};
+    memcpy(hand->pad, pad_of[pads - 1], sizeof hand->pad);
+    hand->interface.pad_count = pads;
+}
+
 // At time t and U = t/10: nodes slip at these rates, 0 means they stick; front and largest rate as
 // record/observation defines them.
 static inline const Observation *hand_seen(HandSeen *hand, double t, const double rate[SEEN_NODES])
@@ -83,15 +91,13 @@ typedef struct HandRun {
     double time;   // of the next observation
 } HandRun;
 
-// pads: 1, or 2, the second of nodes 3 and 4.
 static inline void hand_run_begin(HandRun *run, int32_t pads)
 {
     Error err = {0};
     *run = (HandRun){.names = {"left", "right"}};
     hand_seen_init(&run->hand);
-    run->hand.interface.pad_count = pads;
+    hand_split(&run->hand, pads);
     run->hand.interface.pad_name = run->names;
-    if (pads == 2) run->hand.pad[3] = run->hand.pad[4] = 1;
     assert_true(events_create(&run->hand.interface, 1, &run->events, &err));
     recorders_add(&run->recorders, &run->events, events_record);
 }

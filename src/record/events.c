@@ -39,14 +39,20 @@ bool events_create(const Interface *interface, double rate_scale, Events *events
                        .room = FIRST_ROOM};
     events->list = NEW_ARRAY(Event, FIRST_ROOM, err);
     events->slipped = NEW_ARRAY(uint8_t, interface->contact_count, err);
-    front_path_create(interface, events->rate_start, &events->path, err);
-    return error_is_clean(err);
+    events->pads = NEW_ARRAY(PadSum, interface->pad_count, err);
+    events->pads_before = NEW_ARRAY(PadSum, interface->pad_count, err);
+    if (!error_is_clean(err)) return false;
+    for (int32_t p = 0; p < interface->pad_count; p++)
+        events->pads[p].slipping = events->pads[p].slipping_cells = NAN;
+    return front_path_create(interface, events->rate_start, &events->path, err);
 }
 
 void events_destroy(Events *events)
 {
     memory_free(events->list);
     memory_free(events->slipped);
+    memory_free(events->pads);
+    memory_free(events->pads_before);
     front_path_destroy(&events->path);
     *events = (Events){0};
 }
@@ -65,7 +71,10 @@ static bool start_event(Events *events, EventKind kind, const Observation *seen,
                                    .t_start = seen->t,
                                    .front_start = events->front_before,
                                    .reach = seen->front,
-                                   .front_speed = NAN};
+                                   .front_speed = NAN,
+                                   .pad = -1,
+                                   .slip_length = NAN,
+                                   .slip_cells = NAN};
     for (int32_t k = 0; k < FRONT_STATIONS; k++) events->list[*index].front_times[k] = NAN;
     return true;
 }
@@ -79,50 +88,119 @@ static void extend_event(Event *event, const Observation *seen, double reach)
     event->peak_slip_rate = fmax(event->peak_slip_rate, seen->max_slip_rate);
 }
 
+// The width of the gaps between pads that lie from one place to another.
+static double gaps_between(const Interface *interface, double from, double to)
+{
+    double width = 0;
+    for (int32_t i = 1; i < interface->contact_count; i++)
+        if (interface->pad[i] != interface->pad[i - 1] && interface->x[i - 1] >= from &&
+            interface->x[i] <= to)
+            width += interface->x[i] - interface->x[i - 1];
+    return width;
+}
+
 // The quasi-static event is over; its mean front speed is proportional to V (a plain mean: the
 // front goes by nodes).
-static void end_slow(Events *events)
+static void end_slow(Events *events, const Interface *interface)
 {
     if (events->slow < 0) return;
     Event *event = &events->list[events->slow];
-    double duration = event->t_stop - event->t_start;
-    if (duration > 0 && event->reach > event->front_start)
-        event->front_speed = (event->reach - event->front_start) / duration;
+    double from = event->front_start, to = event->reach, duration = event->t_stop - event->t_start;
+    if (duration > 0 && to > from)
+        event->front_speed = (to - from - gaps_between(interface, from, to)) / duration;
     events->slow = -1;
 }
 
 // What is known of a rapid event once it is over.
-static void end_rapid(Events *events, const Interface *interface)
+static void end_rapid(Events *events)
 {
     Event *event = &events->list[events->rapid];
-    front_path_stations(&events->path, interface, event->t_start, event->front_times);
+    front_path_stations(&events->path, event->t_start, event->front_times);
     events->rapid = -1;
 }
 
-// The x up to which every node has slipped in this event; all: the last one too.
-static double mark_slipped(Events *events, const Observation *seen, bool *all)
+// Marks who slips in this step; true: by now every node has.
+static bool mark_slipped(Events *events, const Observation *seen)
 {
-    const Interface *interface = seen->interface;
-    double reach = interface->x[0];
-    *all = true;
-    for (int32_t i = 0; i < interface->contact_count; i++) {
+    bool all = true;
+    for (int32_t i = 0; i < seen->interface->contact_count; i++) {
         if (seen->state->status[i] != CONTACT_STICK) events->slipped[i] = 1;
-        if (!events->slipped[i]) *all = false;
-        if (*all) reach = interface->x[i];
+        all = all && events->slipped[i];
+    }
+    return all;
+}
+
+// The x up to which pad p has slipped in the event, from its trailing end on without a gap; the
+// start of the contact where it has not. *takes_part: some node of it was fast; a node or two at
+// the ends of the other pads creep.
+static double pad_reach(const Events *events, const Interface *interface, int32_t p,
+                        bool *takes_part)
+{
+    double reach = interface->x[0];
+    bool whole = true;
+    *takes_part = false;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        if (interface->pad[i] != p) continue;
+        whole = whole && events->slipped[i];
+        if (whole) reach = interface->x[i];
+        *takes_part = *takes_part || !isnan(events->path.arrival[i]);
     }
     return reach;
 }
 
-// The farthest node that slips fast.
+static double farthest_reach(const Events *events, const Interface *interface)
+{
+    double farthest = interface->x[0];
+    for (int32_t p = 0; p < interface->pad_count; p++) {
+        bool takes_part = false;
+        double reach = pad_reach(events, interface, p, &takes_part);
+        if (takes_part) farthest = fmax(farthest, reach);
+    }
+    return farthest;
+}
+
+// The farthest node of a pad that slips fast.
 // NaN: none does, as while a rapid event slows down.
-static double fast_front(const Events *events, const Observation *seen)
+static double fast_front(const Events *events, const Observation *seen, int32_t pad)
 {
     const Interface *interface = seen->interface;
     for (int32_t i = interface->contact_count - 1; i >= 0; i--) {
-        if (fabs(seen->state->slip_rate[interface_tangent(i)]) > events->rate_start)
+        if (interface->pad[i] == pad &&
+            fabs(seen->state->slip_rate[interface_tangent(i)]) > events->rate_start)
             return interface->x[i];
     }
     return NAN;
+}
+
+// Slip has turned fast in this step: where, and how much slipped there before.
+static bool start_rapid(Events *events, const Observation *seen, Error *err)
+{
+    if (!start_event(events, EVENT_BOUNDED, seen, &events->rapid, err)) return false;
+    Event *event = &events->list[events->rapid];
+    event->pad = 0;
+    for (int32_t p = 1; p < seen->interface->pad_count; p++)
+        if (events->pads[p].fastest > events->pads[event->pad].fastest) event->pad = p;
+    event->slip_length = events->pads_before[event->pad].slipping;
+    event->slip_cells = events->pads_before[event->pad].slipping_cells;
+    events->began = true;
+    front_path_restart(seen->interface, &events->path);
+    memset(events->slipped, 0, (size_t)seen->interface->contact_count);
+    events->fast_front_start = fast_front(events, seen, event->pad);
+    events->fast_t_start = seen->t;
+    return true;
+}
+
+// The mean speed on the pad where the event began, from its first step to the last one in which
+// slip has grown there.
+static void follow_front(Events *events, const Observation *seen)
+{
+    Event *event = &events->list[events->rapid];
+    bool takes_part = false;
+    double reach = pad_reach(events, seen->interface, event->pad, &takes_part);
+    double front = fast_front(events, seen, event->pad), elapsed = seen->t - events->fast_t_start;
+    if (front > events->fast_front_start && reach > events->fast_reach && elapsed > 0)
+        event->front_speed = (front - events->fast_front_start) / elapsed;
+    events->fast_reach = reach;
 }
 
 // One step of the rapid event under way. It becomes leading in the step in which the last node has
@@ -130,19 +208,16 @@ static double fast_front(const Events *events, const Observation *seen)
 static void follow_rapid(Events *events, const Observation *seen)
 {
     Event *event = &events->list[events->rapid];
-    bool all = false;
-    double before = event->reach, reach = mark_slipped(events, seen, &all);
-    extend_event(event, seen, reach);
+    bool all = mark_slipped(events, seen);
     front_path_follow(&events->path, seen);
-    double front = fast_front(events, seen), elapsed = seen->t - events->fast_t_start;
-    if (front > events->fast_front_start && event->reach > before && elapsed > 0)
-        event->front_speed = (front - events->fast_front_start) / elapsed;
+    extend_event(event, seen, farthest_reach(events, seen->interface));
+    follow_front(events, seen);
     if (all && event->kind != EVENT_LEADING) {
         events->kinds[event->kind]--;
         events->kinds[EVENT_LEADING]++;
         event->kind = EVENT_LEADING;
         events->crossed = true;
-        end_slow(events);
+        end_slow(events, seen->interface);
     }
 }
 
@@ -150,18 +225,12 @@ static void follow_rapid(Events *events, const Observation *seen)
 static bool follow_step(Events *events, const Observation *seen, Error *err)
 {
     events->began = events->ended = events->crossed = false;
-    if (events->rapid < 0 && seen->max_slip_rate > events->rate_start) {
-        TRY(start_event(events, EVENT_BOUNDED, seen, &events->rapid, err));
-        events->began = true;
-        front_path_restart(seen->interface, &events->path);
-        memset(events->slipped, 0, (size_t)seen->interface->contact_count);
-        events->fast_front_start = fast_front(events, seen);
-        events->fast_t_start = seen->t;
-    }
+    if (events->rapid < 0 && seen->max_slip_rate > events->rate_start)
+        TRY(start_rapid(events, seen, err));
     if (events->rapid >= 0) {
         follow_rapid(events, seen);
         if (seen->max_slip_rate < events->rate_stop) {
-            end_rapid(events, seen->interface);
+            end_rapid(events);
             events->ended = true;
         }
         goto cleanup;
@@ -178,6 +247,10 @@ cleanup:
 bool events_record(void *self, const Observation *seen, Error *err)
 {
     Events *events = self;
+    PadSum *before = events->pads_before;
+    events->pads_before = events->pads;
+    events->pads = before;
+    pad_sums(seen, events->pads);
     bool followed = follow_step(events, seen, err);
     events->front_before = seen->front;
     front_path_keep(&events->path, seen);
@@ -190,9 +263,9 @@ void events_close(Events *events, const Observation *last)
     if (!events->list) return;   // the run failed before they were created
     if (events->rapid >= 0) {
         extend_event(&events->list[events->rapid], last, 0);
-        end_rapid(events, last->interface);
+        end_rapid(events);
     }
-    end_slow(events);
+    end_slow(events, last->interface);
 }
 
 bool events_pad_slid(const Events *events, const Interface *interface, int32_t p)

@@ -9,6 +9,7 @@
 #define AMONTONS_RECORD_EVENTS_H
 
 #include "record/front_path.h"
+#include "record/pad_sums.h"
 
 // symbol, name; the numbers stand in history.h5 (io/result_file)
 #define EVENT_KINDS(X)                                                                             \
@@ -27,9 +28,15 @@ typedef struct Event {
     double U_start, U_stop;   // length
     double t_start, t_stop;   // time
     double front_start;   // front when it began, length
-    double reach;   // largest x that slipped, without a gap, length
+    double reach;   // slow: the farthest front; rapid: largest x up to which a pad that took part
+        // has slipped from its trailing end on, length
     double peak_slip_rate;   // velocity
-    double front_speed;   // mean, of the fast front where rapid; NaN: it did not move
+    double front_speed;   // mean along the contact; rapid: of the fast front on `pad`; NaN: it did
+        // not move
+    // Rapid: the pad on which slow slip turned fast, and how much of it slipped in the step before,
+    // length and cells (PadSum). Slow: -1, NaN; in the first step of all: NaN.
+    int32_t pad;
+    double slip_length, slip_cells;
     double
         front_times[FRONT_STATIONS];   // rapid: when its front came to each station, from t_start
 } Event;
@@ -47,7 +54,9 @@ typedef struct Events {
     uint8_t *slipped;   // [contact_count] in the rapid event under way; owned
     double fast_front_start;   // where and when its fast front was first seen
     double fast_t_start;
+    double fast_reach;   // on the pad where it began, length
     FrontPath path;   // of the rapid event under way
+    PadSum *pads, *pads_before;   // [pad_count] of the step seen last, and before it; owned
 } Events;
 
 const char *event_name(EventKind kind);   // static storage

@@ -8,13 +8,39 @@
 
 #include <math.h>
 
+// At a node its neighbour has no say: the front may have stopped there.
+static const double AT_NODE = 1e-6;   // of the way to the next
+
+static void place_stations(const Interface *interface, FrontPath *path)
+{
+    int32_t last = interface->contact_count - 1, i = 0;
+    const double *x = interface->x;
+    double length = x[last] - x[0];
+    path->spacing = length / (FRONT_STATIONS - 1);
+    for (int32_t k = 0; k < FRONT_STATIONS; k++) {
+        double place = x[0] + length * k / (FRONT_STATIONS - 1);
+        while (i < last - 1 && x[i + 1] <= place) i++;   // place within [x_i, x_i+1]
+        double part = last > 0 ? (place - x[i]) / (x[i + 1] - x[i]) : 0;
+        FrontStation *station = &path->station[k];
+        *station = (FrontStation){.node = i, .part = part, .pad = interface->pad[i]};
+        if (part < AT_NODE) continue;
+        int32_t next = interface->pad[i + 1];
+        if (part > 1 - AT_NODE)
+            station->pad = next;
+        else if (next != station->pad)
+            station->pad = -1;
+    }
+}
+
 bool front_path_create(const Interface *interface, double threshold, FrontPath *path, Error *err)
 {
     *path = (FrontPath){.threshold = threshold, .t_before = NAN};
     path->rate_before = NEW_ARRAY(double, interface->contact_count, err);
     path->arrival = NEW_ARRAY(double, interface->contact_count, err);
-    if (error_is_clean(err)) front_path_restart(interface, path);
-    return error_is_clean(err);
+    if (!error_is_clean(err)) return false;
+    front_path_restart(interface, path);
+    place_stations(interface, path);
+    return true;
 }
 
 void front_path_destroy(FrontPath *path)
@@ -56,28 +82,26 @@ void front_path_keep(FrontPath *path, const Observation *seen)
 }
 
 // Where one of two neighbours was never reached, stations between them are NaN.
-void front_path_stations(const FrontPath *path, const Interface *interface, double origin,
-                         double times[FRONT_STATIONS])
+void front_path_stations(const FrontPath *path, double origin, double times[FRONT_STATIONS])
 {
-    int32_t last = interface->contact_count - 1, i = 0;
-    double start = interface->x[0], length = interface->x[last] - start;
     for (int32_t k = 0; k < FRONT_STATIONS; k++) {
-        double x = start + length * k / (FRONT_STATIONS - 1);
-        while (i < last - 1 && interface->x[i + 1] <= x) i++;   // x within [x_i, x_i+1]
-        double part = last > 0 ? (x - interface->x[i]) / (interface->x[i + 1] - interface->x[i])
-                               : 0;
-        // At a node its neighbour has no say: the front may have stopped there.
-        if (part < 1e-6)
-            times[k] = path->arrival[i] - origin;
-        else if (part > 1 - 1e-6)
-            times[k] = path->arrival[i + 1] - origin;
+        const FrontStation *station = &path->station[k];
+        const double *arrival = path->arrival + station->node;
+        double part = station->part;
+        if (station->pad < 0)
+            times[k] = NAN;
+        else if (part < AT_NODE)
+            times[k] = arrival[0] - origin;
+        else if (part > 1 - AT_NODE)
+            times[k] = arrival[1] - origin;
         else
-            times[k] = (1 - part) * path->arrival[i] + part * path->arrival[i + 1] - origin;
+            times[k] = (1 - part) * arrival[0] + part * arrival[1] - origin;
     }
 }
 
-double front_path_speed(const double times[FRONT_STATIONS], double length, int32_t k)
+double front_path_speed(const FrontPath *path, const double times[FRONT_STATIONS], int32_t k)
 {
     double elapsed = times[k + 1] - times[k];
-    return elapsed != 0 ? length / (FRONT_STATIONS - 1) / elapsed : NAN;
+    bool together = path->station[k].pad == path->station[k + 1].pad;
+    return together && elapsed != 0 ? path->spacing / elapsed : NAN;
 }

@@ -23,6 +23,7 @@ bool history_create(const char *folder, ResultHead *head, const Interface *inter
     history->row = NEW_ARRAY(double, count, err);
     history->pad = NEW_ARRAY(double, count, err);
     history->slip_origin = NEW_ARRAY(double, count, err);
+    history->pad_sums = NEW_ARRAY(PadSum, interface->pad_count, err);
     history->pad_row = NEW_ARRAY(double, interface->pad_count, err);
     history->pad_length = NEW_ARRAY(double, interface->pad_count, err);
     if (!error_is_clean(err)) return false;
@@ -43,6 +44,7 @@ void history_destroy(History *history)
 {
     memory_free(history->row);
     memory_free(history->pad);
+    memory_free(history->pad_sums);
     memory_free(history->pad_row);
     memory_free(history->pad_length);
     memory_free(history->slip_origin);
@@ -111,30 +113,28 @@ static double node_value(const History *history, const Observation *seen, Result
     }
 }
 
-// Sums over the nodes of each pad, into pad_row.
-// pad_row: [pad_count]. Forces are sums of stress times weight; slip is the mean along the pad; the
-// last series, by default, the length of it that slips.
-static void sum_pads(History *history, const Observation *seen, ResultSeries series)
+// Of pad p; mean slip along it: of its nodes by weight.
+static double pad_value(const History *history, const Observation *seen, ResultSeries series,
+                        int32_t p)
 {
+    const PadSum *sum = &history->pad_sums[p];
     const Interface *interface = seen->interface;
-    double *row = history->pad_row;
-    for (int32_t p = 0; p < history->pad_count; p++) row[p] = 0;
-    for (int32_t i = 0; i < interface->contact_count; i++) {
-        int32_t p = interface->pad[i];
-        double weight = interface->weight[i];
-        switch (series) {
-        case SERIES_PAD_NORMAL:
-            row[p] += weight * node_value(history, seen, SERIES_PRESSURE, i);
-            break;
-        case SERIES_PAD_SHEAR:
-            row[p] += weight * node_value(history, seen, SERIES_SHEAR, i);
-            break;
-        case SERIES_PAD_SLIP:
-            row[p] += weight / history->pad_length[p] * node_value(history, seen, SERIES_SLIP, i);
-            break;
-        default:
-            if (status_slips(seen->state->status[i])) row[p] += weight;
-        }
+    double slip = 0;
+    switch (series) {
+    case SERIES_PAD_NORMAL:
+        return sum->normal_force;
+    case SERIES_PAD_SHEAR:
+        return sum->shear;
+    case SERIES_PAD_SLIPPING:
+        return sum->slipping;
+    case SERIES_PAD_SLIP:
+        for (int32_t i = 0; i < interface->contact_count; i++)
+            if (interface->pad[i] == p)
+                slip += interface->weight[i] / history->pad_length[p] *
+                        node_value(history, seen, SERIES_SLIP, i);
+        return slip;
+    default:
+        return NAN;
     }
 }
 
@@ -152,7 +152,8 @@ static bool append(History *history, const Observation *seen, ResultSeries serie
             history->row[i] = node_value(history, seen, series, i);
         break;
     case COLUMNS_PADS:
-        sum_pads(history, seen, series);
+        for (int32_t p = 0; p < history->pad_count; p++)
+            history->pad_row[p] = pad_value(history, seen, series, p);
         row = history->pad_row;
         break;
     }
@@ -170,6 +171,7 @@ bool history_record(void *self, const Observation *seen, Error *err)
             history->slip_origin[i] =
                 seen->state->displacement[seen->system->interface_dofs[interface_tangent(i)]];
     }
+    pad_sums(seen, history->pad_sums);
     for (ResultSeries series = 0; series < RESULT_SERIES_COUNT; series++)
         TRY(append(history, seen, series, err));
     history->rows++;

@@ -16,6 +16,7 @@ typedef struct History {
     double *row;   // [contact_count] work; owned
     double *pad;   // [contact_count] the nodes' pads as stored; owned
     int32_t pad_count;
+    PadSum *pad_sums;   // [pad_count] of the step under way; owned
     double *pad_row;   // [pad_count] work; owned
     double *pad_length;   // [pad_count] sum of the nodes' weights, length; owned
     double *slip_origin;   // [contact_count] u_x when the rod started, length; owned

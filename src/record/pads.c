@@ -66,30 +66,13 @@ static void mark_nodes(Pads *pads, const Observation *seen)
     }
 }
 
-typedef struct PadStep {
-    double normal_force, shear;   // force/width
-    double slipping;   // length
-    double fastest;   // |slip rate|, velocity
-    int32_t slipped;   // nodes that have in this cycle
-} PadStep;
-
-// Sums over the nodes of pad p, as the step left them. Shear is positive where the plane holds the
-// block back.
-static PadStep look_at_pad(const Pads *pads, const Observation *seen, int32_t p)
+// How many nodes of pad p have slipped in this cycle.
+static int32_t count_slipped(const Pads *pads, const Interface *interface, int32_t p)
 {
-    PadStep step = {0};
-    const Interface *interface = seen->interface;
-    const State *state = seen->state;
-    for (int32_t i = 0; i < interface->contact_count; i++) {
-        if (interface->pad[i] != p) continue;
-        step.normal_force += state->reaction[interface_normal(i)];
-        step.shear -= state->reaction[interface_tangent(i)];
-        step.slipped += pads->slipped[i];
-        if (!status_slips(state->status[i])) continue;
-        step.slipping += interface->weight[i];
-        step.fastest = fmax(step.fastest, fabs(state->slip_rate[interface_tangent(i)]));
-    }
-    return step;
+    int32_t slipped = 0;
+    for (int32_t i = 0; i < interface->contact_count; i++)
+        if (interface->pad[i] == p) slipped += pads->slipped[i];
+    return slipped;
 }
 
 // now: loads where mu was largest so far, and the first U of what happens once. *detaching: one
@@ -98,26 +81,26 @@ static void follow_pad(Pads *pads, const Observation *seen, int32_t p, int32_t *
 {
     Pad *pad = &pads->list[p];
     PadCycle *now = &pad->now;
-    PadStep step = look_at_pad(pads, seen, p);
-    if (!pads->started) pad->normal_force_start = step.normal_force;
+    const PadSum *sum = &pads->events->pads[p];
+    int32_t slipped = count_slipped(pads, seen->interface, p);
+    if (!pads->started) pad->normal_force_start = sum->normal_force;
     if (seen->mu > pads->mu) {
-        now->normal_force = step.normal_force;
-        now->shear = step.shear;
+        now->normal_force = sum->normal_force;
+        now->shear = sum->shear;
     }
-    if (step.slipped > 0 && isnan(now->U_first_slip)) now->U_first_slip = seen->U;
-    if (step.slipped == pad->nodes && isnan(now->U_detached)) {
+    if (slipped > 0 && isnan(now->U_first_slip)) now->U_first_slip = seen->U;
+    if (slipped == pad->nodes && isnan(now->U_detached)) {
         now->U_detached = seen->U;
         now->order = pads->detached + 1;
         ++*detaching;
     }
-    if (!pad->rapid && step.fastest > pads->events->rate_start) {
+    if (!pad->rapid && sum->fastest > pads->events->rate_start) {
         pad->rapid = true;
         now->U_rapid = seen->U;
         now->t_rapid = seen->t;
-        now->slow_length = pad->slipping;
+        now->slow_length = pads->events->pads_before[p].slipping;
     }
-    if (step.fastest < pads->events->rate_stop) pad->rapid = false;
-    pad->slipping = step.slipping;
+    if (sum->fastest < pads->events->rate_stop) pad->rapid = false;
 }
 
 // All is forgotten but `last`; called in every step of a sliding, so that a cycle begins with its

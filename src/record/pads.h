@@ -28,7 +28,6 @@ typedef struct Pad {
     double normal_force_start;   // when the rod starts, force/width
     PadCycle now, last;   // of the cycle under way; of the last one that ended in sliding
     int32_t slidings;   // rapid events in which all of it slipped
-    double slipping;   // how much of it slips in the step seen last, length
     bool rapid;   // in the step seen last
 } Pad;
 

@@ -83,20 +83,20 @@ static void write_model(JsonWriter *json, const Model *model, int64_t relaxation
     json_end(json);
 }
 
-// When the front of a rapid event came to x = 0, L/20, ..., L, and how fast it went in between.
-static void write_front(JsonWriter *json, const Event *event, double length)
+// When the front of a rapid event came to each station, and how fast it went in between.
+static void write_front(JsonWriter *json, const Event *event, const FrontPath *path)
 {
     json_begin_list(json, "front_times");
     for (int32_t k = 0; k < FRONT_STATIONS; k++) json_number(json, NULL, event->front_times[k]);
     json_end(json);
     json_begin_list(json, "front_speeds");
     for (int32_t k = 0; k < FRONT_STATIONS - 1; k++)
-        json_number(json, NULL, front_path_speed(event->front_times, length, k));
+        json_number(json, NULL, front_path_speed(path, event->front_times, k));
     json_end(json);
 }
 
 // In order of time, slow ones too; only rapid ones have a front to follow.
-static void write_events(JsonWriter *json, const Events *events, double length)
+static void write_events(JsonWriter *json, const Events *events)
 {
     json_begin_list(json, "events");
     for (int32_t k = 0; k < events->count; k++) {
@@ -111,7 +111,7 @@ static void write_events(JsonWriter *json, const Events *events, double length)
         json_number(json, "reach", event->reach);
         json_number(json, "peak_slip_rate", event->peak_slip_rate);
         json_number(json, "front_speed", event->front_speed);
-        if (event->kind != EVENT_QUASI_STATIC) write_front(json, event, length);
+        if (event->kind != EVENT_QUASI_STATIC) write_front(json, event, &events->path);
         json_end(json);
     }
     json_end(json);
@@ -130,7 +130,7 @@ static void write_results(JsonWriter *json, const RunReport *report)
     json_begin_object(json, "results");
     answers_write_json(report->answers, report->drops, length, json);
     pads_write_json(report->pads, json);
-    write_events(json, report->events, length);
+    write_events(json, report->events);
     json_end(json);
 }
 

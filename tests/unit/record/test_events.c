@@ -24,6 +24,14 @@ static int teardown(void **state)
     return 0;
 }
 
+static void split(int32_t pads)
+{
+    Error err = {0};
+    events_destroy(&events);
+    hand_split(&hand, pads);
+    assert_true(events_create(&hand.interface, 1, &events, &err));
+}
+
 static void see(double t, double a, double b, double c, double d, double e)
 {
     Error err = {0};
@@ -119,6 +127,45 @@ static void test_front_speed(void **state)
     assert_true(isnan(events.list[2].front_speed));
 }
 
+// On pads of nodes 0 to 2, and 3 and 4: the slow front passes the gap of 0.25, and the fast one is
+// followed on the second pad, where slip turned fast while the first one only creeps.
+static void test_front_speed_on_pads(void **state)
+{
+    (void)state;
+    split(2);
+    see(0, 0, 0, 0, 0, 0);
+    see(10, 0.9, 0.8, 0, 0, 0);
+    see(20, 0.9, 0.8, 0.7, 0.1, 0);
+    see(21, 0.9, 0.8, 0.7, 3, 0);
+    see(23, 0.9, 2.5, 2.5, 3, 4);
+    see(24, 0, 0, 0, 0, 0);
+    expect_kinds(1, 0, 1);
+    assert_near("slow", events.list[0].front_speed, (0.75 - 0.25) / 10, 1e-15);
+    assert_near("fast", events.list[1].front_speed, 0.25 / 2, 1e-15);
+}
+
+// How much slips on the pad where slow slip turns fast: nodes weigh 1/8, 1/4, 1/4, 1/4, 1/8, and an
+// end of a pad is half a cell. On the second pad slip comes from its leading end.
+static void test_slip_length(void **state)
+{
+    (void)state;
+    split(2);
+    see(1, 0.5, 0.5, 0, 0, 0.5);
+    see(2, 3, 0.5, 0.5, 0.5, 0.5);
+    see(3, 0, 0, 0, 0, 0.5);
+    see(4, 0.5, 0.5, 0.5, 2.5, 3);
+    see(5, 0, 0, 0, 0, 0);
+    see(6, 0, 0, 3, 0, 0);   // without slow slip before
+    const Event *left = &events.list[1], *right = &events.list[2], *jump = &events.list[3];
+    assert_true(left->pad == 0 && right->pad == 1 && jump->pad == 0);
+    assert_near("left", left->slip_length, 0.375, 1e-15);
+    assert_near("left", left->slip_cells, 1.5, 1e-15);
+    assert_near("right", right->slip_length, 0.125, 1e-15);
+    assert_near("right", right->slip_cells, 0.5, 1e-15);
+    assert_true(jump->slip_length == 0 && jump->slip_cells == 0);
+    assert_true(events.list[0].pad == -1 && isnan(events.list[0].slip_cells));   // slow
+}
+
 // The front passes node i when its rate rises through 2: times in closed form, from t_start = 2.
 // Station 5 k stands at node k.
 static void test_front_times(void **state)
@@ -134,9 +181,9 @@ static void test_front_times(void **state)
     for (int32_t k = 0; k < 4; k++) assert_near("time", times[5 * k], at_nodes[k], 1e-14);
     for (int32_t k = 16; k < FRONT_STATIONS; k++) assert_true(isnan(times[k]));
     assert_near("between nodes", times[7], -0.25 + 0.4 * 0.75, 1e-14);
-    assert_near("speed", front_path_speed(times, 1, 3), 0.25 / 0.25, 1e-12);
-    assert_near("speed", front_path_speed(times, 1, 12), 0.25 / 2, 1e-12);
-    assert_true(isnan(front_path_speed(times, 1, 15)));
+    assert_near("speed", front_path_speed(&events.path, times, 3), 0.25 / 0.25, 1e-12);
+    assert_near("speed", front_path_speed(&events.path, times, 12), 0.25 / 2, 1e-12);
+    assert_true(isnan(front_path_speed(&events.path, times, 15)));
     for (int32_t k = 0; k < FRONT_STATIONS; k++) assert_true(isnan(events.list[0].front_times[k]));
     see(7, 0, 0, 5, 0, 0);   // the next event knows nothing of this one
     see(8, 0.5, 0, 0, 0, 0);
@@ -194,6 +241,23 @@ static void test_gap(void **state)
     expect_event(0, EVENT_BOUNDED, 1, 3, 0.25);
 }
 
+// Nodes 3 and 4 are a pad of their own, and slide while the trailing pad holds. A third pad, whose
+// first node only creeps, has no part in the event.
+static void test_pad_behind_one_that_sticks(void **state)
+{
+    (void)state;
+    split(2);
+    see(1, 0.1, 0, 0, 0, 0);
+    see(2, 0.1, 0, 0, 9, 9);
+    see(3, 0, 0, 0, 0, 0);
+    expect_kinds(0, 1, 0);
+    expect_event(0, EVENT_BOUNDED, 2, 3, 1);
+    split(3);
+    see(4, 0, 0, 0.1, 9, 0.1);
+    see(5, 0, 0, 0, 0, 0);
+    expect_event(0, EVENT_BOUNDED, 4, 5, 0.75);
+}
+
 // A node that has lifted off counts as let go.
 static void test_open_node(void **state)
 {
@@ -240,7 +304,7 @@ static void test_memory_faults(void **state)
     (void)state;
     Error err = {0};
     int64_t live = memory_counters().live;
-    for (int32_t k = 0; k < 4; k++) {
+    for (int32_t k = 0; k < 6; k++) {
         Events made;
         memory_fail_after(k);
         assert_false(events_create(&hand.interface, 1, &made, &err));
@@ -270,10 +334,13 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_slow, setup, teardown),
         cmocka_unit_test_setup_teardown(test_bounded, setup, teardown),
         cmocka_unit_test_setup_teardown(test_front_speed, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_front_speed_on_pads, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_slip_length, setup, teardown),
         cmocka_unit_test_setup_teardown(test_front_times, setup, teardown),
         cmocka_unit_test_setup_teardown(test_leading, setup, teardown),
         cmocka_unit_test_setup_teardown(test_first_step, setup, teardown),
         cmocka_unit_test_setup_teardown(test_gap, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_pad_behind_one_that_sticks, setup, teardown),
         cmocka_unit_test_setup_teardown(test_open_node, setup, teardown),
         cmocka_unit_test_setup_teardown(test_run_ends_within, setup, teardown),
         cmocka_unit_test_setup_teardown(test_many, setup, teardown),

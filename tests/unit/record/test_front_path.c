@@ -28,14 +28,41 @@ static void test_a_steady_front(void **state)
     hand_seen_init(&hand);
     assert_true(front_path_create(&hand.interface, THRESHOLD, &path, &err));
     for (double t = 0.3; t <= 12; t += 1) see_front(&hand, &path, t, c);
-    front_path_stations(&path, &hand.interface, 0, times);
+    front_path_stations(&path, 0, times);
     for (int32_t k = 0; k < FRONT_STATIONS; k++)
         assert_near("arrival", times[k], THRESHOLD + k / 20.0 / c, 1e-12);
     for (int32_t k = 0; k + 1 < FRONT_STATIONS; k++)
-        assert_near("speed", front_path_speed(times, 1, k), c, 1e-12);
-    front_path_stations(&path, &hand.interface, 1.5, times);
+        assert_near("speed", front_path_speed(&path, times, k), c, 1e-12);
+    front_path_stations(&path, 1.5, times);
     assert_near("after its origin", times[0], 0.5, 1e-12);
     front_path_destroy(&path);
+    front_path_destroy(&path);
+}
+
+// Between nodes 2 and 3, at x = 0.5 and 0.75, there is no contact: no time there, and no speed
+// across. On either side all is as without a gap.
+static void test_a_gap(void **state)
+{
+    (void)state;
+    Error err = {0};
+    HandSeen hand;
+    FrontPath path;
+    double times[FRONT_STATIONS], c = 0.125;
+    hand_seen_init(&hand);
+    hand_split(&hand, 2);
+    assert_true(front_path_create(&hand.interface, THRESHOLD, &path, &err));
+    for (double t = 0.3; t <= 12; t += 1) see_front(&hand, &path, t, c);
+    front_path_stations(&path, 0, times);
+    for (int32_t k = 0; k < FRONT_STATIONS; k++) {
+        bool in_gap = k > 10 && k < 15;
+        assert_int_equal(isnan(times[k]), in_gap);
+        if (!in_gap) assert_near("arrival", times[k], THRESHOLD + k / 20.0 / c, 1e-12);
+    }
+    for (int32_t k = 0; k + 1 < FRONT_STATIONS; k++) {
+        bool over_gap = k >= 10 && k < 15;
+        assert_int_equal(isnan(front_path_speed(&path, times, k)), over_gap);
+        if (!over_gap) assert_near("speed", front_path_speed(&path, times, k), c, 1e-12);
+    }
     front_path_destroy(&path);
 }
 
@@ -52,16 +79,16 @@ static void test_a_front_that_stops(void **state)
     assert_true(front_path_create(&hand.interface, THRESHOLD, &path, &err));
     front_path_keep(&path, hand_seen(&hand, 10, rest));
     front_path_follow(&path, hand_seen(&hand, 11, fast));
-    front_path_stations(&path, &hand.interface, 10, times);
+    front_path_stations(&path, 10, times);
     assert_near("0 to 4 passes 2 half way", times[0], 0.5, 1e-12);
     assert_near("so does 0 to -4", times[5], 0.5, 1e-12);
     assert_near("0 to 3", times[10], 2.0 / 3, 1e-12);
     for (int32_t k = 11; k < FRONT_STATIONS; k++) assert_true(isnan(times[k]));
-    assert_true(isnan(front_path_speed(times, 1, 0)));   // both stations at once
-    assert_true(isnan(front_path_speed(times, 1, 10)));
-    assert_near("speed", front_path_speed(times, 1, 9), 0.05 / (times[10] - times[9]), 1e-12);
+    assert_true(isnan(front_path_speed(&path, times, 0)));   // both stations at once
+    assert_true(isnan(front_path_speed(&path, times, 10)));
+    assert_near("speed", front_path_speed(&path, times, 9), 0.05 / (times[10] - times[9]), 1e-12);
     front_path_restart(&hand.interface, &path);
-    front_path_stations(&path, &hand.interface, 0, times);
+    front_path_stations(&path, 0, times);
     for (int32_t k = 0; k < FRONT_STATIONS; k++) assert_true(isnan(times[k]));
     front_path_destroy(&path);
 }
@@ -107,7 +134,8 @@ static void test_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_steady_front), cmocka_unit_test(test_a_front_that_stops),
-        cmocka_unit_test(test_no_step_before), cmocka_unit_test(test_memory)};
+        cmocka_unit_test(test_a_steady_front), cmocka_unit_test(test_a_gap),
+        cmocka_unit_test(test_a_front_that_stops), cmocka_unit_test(test_no_step_before),
+        cmocka_unit_test(test_memory)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "record/pad_sums.h"
+
+#include <math.h>
+#include <string.h>
+
+// Neighbours along the contact belong to the same pad where there is contact between them.
+static double cells_of(const Interface *interface, int32_t i)
+{
+    int32_t pad = interface->pad[i], last = interface->contact_count - 1;
+    double before = i > 0 && interface->pad[i - 1] == pad ? 0.5 : 0;
+    double after = i < last && interface->pad[i + 1] == pad ? 0.5 : 0;
+    return before + after;
+}
+
+void pad_sums(const Observation *seen, PadSum *sums)
+{
+    const Interface *interface = seen->interface;
+    const State *state = seen->state;
+    memset(sums, 0, (size_t)interface->pad_count * sizeof *sums);
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        PadSum *sum = &sums[interface->pad[i]];
+        sum->normal_force += state->reaction[interface_normal(i)];
+        sum->shear -= state->reaction[interface_tangent(i)];
+        if (!status_slips(state->status[i])) continue;
+        sum->slipping += interface->weight[i];
+        sum->slipping_cells += cells_of(interface, i);
+        sum->fastest = fmax(sum->fastest, fabs(state->slip_rate[interface_tangent(i)]));
+    }
+}

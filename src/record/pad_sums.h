@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What one accepted step shows of each pad: forces and slip, summed over its nodes. Asked by
+// record/events, record/pads and record/history.
+#ifndef AMONTONS_RECORD_PAD_SUMS_H
+#define AMONTONS_RECORD_PAD_SUMS_H
+
+#include "record/observation.h"
+
+typedef struct PadSum {
+    double normal_force;   // force/width
+    double shear;   // positive where the plane holds the block back, force/width
+    double slipping;   // how much of the pad slips, length
+    double slipping_cells;   // the same counted in nodes, an end of the pad as half a one: cells of
+        // the contact, halves of them where elements are of order 2
+    double fastest;   // largest |slip rate|, velocity
+} PadSum;
+
+// sums: [pad_count], overwritten. Open nodes carry nothing and do not count as slipping.
+void pad_sums(const Observation *seen, PadSum *sums);
+
+#endif
