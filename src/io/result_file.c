@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The tables of the header, expanded once into arrays of rows; everything else loops over those.
 //
-// A name, a unit or a shape stands in io/result_tables.h and nowhere else: the writer, the readers
-// and the table of docs/results.md are loops over the same rows. Which array has which index is the
-// enum made from the same table.
+// A name, a unit or a shape stands in io/result_tables.h and nowhere else: writer and readers
+// are loops over the same rows. Which array has which index is the enum made from the same table.
 #include "io/result_file.h"
 
 #include "base/memory.h"
@@ -65,11 +64,6 @@ const char *result_number_name(ResultNumber number)
 ResultColumns result_series_columns(ResultSeries series)
 {
     return series_rows[series].columns;
-}
-
-bool result_series_is_per_node(ResultSeries series)
-{
-    return series_rows[series].columns == COLUMNS_NODES;
 }
 
 // FOLDER/history.h5.
@@ -230,65 +224,4 @@ double result_file_number(ArrayFile *file, ResultNumber number)
 bool result_file_text(ArrayFile *file, const char *name, char *value, int32_t size, Error *err)
 {
     return array_file_get_text(file, name, value, size, err);
-}
-
-// --- the table of docs/results.md ---------------------------------------------------------------
-
-// As numpy calls it, for those who read with h5py.
-static const char *type_name(ArrayType type)
-{
-    switch (type) {
-    case ARRAY_FLOAT64:
-        return "float64";
-    case ARRAY_FLOAT32:
-        return "float32";
-    case ARRAY_UINT8:
-        return "uint8";
-    case ARRAY_INT32:
-        return "int32";
-    }
-    return "?";
-}
-
-// Ends a row of a Markdown table; a bar inside a cell would end the cell.
-static void put_last_cell(FILE *out, const char *text)
-{
-    for (const char *c = text; *c; c++) {
-        if (*c == '|') fputc('\\', out);
-        fputc(*c, out);
-    }
-    fputs(" |\n", out);
-}
-
-// shape: of all rows, where it does not depend on the row.
-static void describe_rows(FILE *out, const ResultRow *rows, int32_t count, const char *shape)
-{
-    static const char *const shapes[] = {
-        [COLUMNS_ONE] = "steps", [COLUMNS_NODES] = "steps, nodes", [COLUMNS_PADS] = "steps, pads"};
-    for (int32_t k = 0; k < count; k++) {
-        fprintf(out, "| `%s` | %s | %s | %s | ", rows[k].name,
-                shape ? shape : shapes[rows[k].columns], type_name(rows[k].type), rows[k].unit);
-        put_last_cell(out, rows[k].description);
-    }
-}
-
-// Copied to docs/results.md once a table changes; a test compares them.
-void result_file_describe(FILE *out)
-{
-    fputs("| array | shape | type | unit | what it holds |\n|---|---|---|---|---|\n", out);
-    describe_rows(out, series_rows, RESULT_SERIES_COUNT, NULL);
-    describe_rows(out, nodes_rows, RESULT_NODES_COUNT, "nodes");
-    for (int32_t k = 0; k < RESULT_TABLES_COUNT; k++)
-        describe_rows(out, &table_rows[k], 1,
-                      strncmp(table_rows[k].name, "peaks/", 6) == 0 ? "peaks" : "events");
-    fputs("\n| attribute of the file | unit | what it holds |\n|---|---|---|\n", out);
-    fputs("| `title` | text | of the scene |\n| `units` | text | normalised or si |\n"
-          "| `version` | text | of amontons |\n"
-          "| `pads` | text | names of the contact curves by their numbers in `nodes/pad`, a line "
-          "each |\n",
-          out);
-    for (int32_t k = 0; k < RESULT_NUMBERS_COUNT; k++) {
-        fprintf(out, "| `%s` | %s | ", number_rows[k].name, number_rows[k].unit);
-        put_last_cell(out, number_rows[k].description);
-    }
 }

@@ -12,14 +12,10 @@
 #include "io/array_file.h"
 #include "io/result_tables.h"
 
-#include <stdio.h>
-
 const char *result_series_name(ResultSeries series);
 const char *result_table_name(ResultTable table);
 const char *result_number_name(ResultNumber number);
 ResultColumns result_series_columns(ResultSeries series);
-bool result_series_is_per_node(ResultSeries series);
-void result_file_describe(FILE *out);   // all of the above as Markdown, for docs/results.md
 
 // Writing: creates RESULT/history.h5(.part) with every series of the table, empty, and the fixed
 // arrays. `nodes[k]`: [contact_count] for each ResultNodes; nodes[NODES_PAD] says how many pads.

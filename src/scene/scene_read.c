@@ -254,9 +254,12 @@ cleanup:
     return error_is_clean(err);
 }
 
-// What the file gives, when reader->file stands.
+// What the file gives. *scene is overwritten, and of no use after a failure.
 static bool begin_reading(Reader *reader, const char *path, Scene *scene, Error *err)
 {
+    *scene = (Scene){0};
+    reader->keys = scene_keys(&reader->key_count);
+    TRY(yaml_read(path, &reader->file, err));
     if (strlen(path) >= SCENE_TEXT_SIZE)
         FAIL(err, ERROR_INPUT, "%.80s...: a path of more than 511 bytes", path);
     memcpy(scene->path, path, strlen(path) + 1);
@@ -289,14 +292,10 @@ static void destroy_reader(Reader *reader)
     yaml_destroy(reader->defaults);
 }
 
-// *scene is overwritten, and of no use after a failure.
 bool scene_read(const char *path, const char *const *overrides, int32_t override_count,
                 Scene *scene, Error *err)
 {
-    *scene = (Scene){0};
     Reader reader = {0};
-    reader.keys = scene_keys(&reader.key_count);
-    TRY(yaml_read(path, &reader.file, err));
     TRY(begin_reading(&reader, path, scene, err));
     TRY((reader.overrides = NEW_ARRAY(YamlDocument *, override_count, err)));
     for (int32_t i = 0; i < override_count; i++) TRY(gather_override(&reader, overrides[i], err));
@@ -309,10 +308,7 @@ cleanup:
 bool scene_read_settings(const char *path, const SceneSetting *settings, int32_t setting_count,
                          Scene *scene, Error *err)
 {
-    *scene = (Scene){0};
     Reader reader = {0};
-    reader.keys = scene_keys(&reader.key_count);
-    TRY(yaml_read(path, &reader.file, err));
     TRY(begin_reading(&reader, path, scene, err));
     for (int32_t i = 0; i < setting_count; i++) {
         SceneValue value = {.document = settings[i].document, .node = settings[i].node};

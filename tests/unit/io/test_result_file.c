@@ -88,14 +88,14 @@ static void a_result_comes_back(void **state)
     file = result_file_open(folder, &err);
     assert_clean(&err);
     double *values = NULL;
+    static const int32_t widths[] = {
+        [COLUMNS_ONE] = 1, [COLUMNS_NODES] = NODES, [COLUMNS_PADS] = PADS};
     for (int32_t s = 0; s < RESULT_SERIES_COUNT; s++) {
         int64_t rows;
         int32_t width;
         assert_true(result_file_read_series(file, s, &values, &rows, &width, &err));
         assert_int_equal(rows, STEPS);
-        assert_int_equal(width, result_series_is_per_node(s)               ? NODES
-                                : result_series_columns(s) == COLUMNS_PADS ? PADS
-                                                                           : 1);
+        assert_int_equal(width, widths[result_series_columns(s)]);
         for (int32_t step = 0; step < STEPS; step++)
             for (int32_t i = 0; i < width; i++)
                 assert_true(values[step * width + i] == value_at(s, step, i));
@@ -186,49 +186,12 @@ static void every_path_frees_when_memory_is_short(void **state)
     assert_int_equal(rmdir(place), 0);
 }
 
-static void the_description_has_a_line_for_every_name(void **state)
-{
-    (void)state;
-    char *text = NULL, row[80];
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    result_file_describe(out);
-    fclose(out);
-    for (int32_t k = 0; k < RESULT_SERIES_COUNT; k++) {
-        const char *const columns[] = {"", ", nodes", ", pads"};
-        snprintf(row, sizeof row, "\n| `%s` | steps%s |", result_series_name(k),
-                 columns[result_series_columns(k)]);
-        assert_non_null(strstr(text, row));
-    }
-    for (int32_t k = 0; k < RESULT_TABLES_COUNT; k++) {
-        snprintf(row, sizeof row, "\n| `%s` |", result_table_name(k));
-        assert_non_null(strstr(text, row));
-    }
-    for (int32_t k = 0; k < RESULT_NUMBERS_COUNT; k++) {
-        snprintf(row, sizeof row, "\n| `%s` |", result_number_name(k));
-        assert_non_null(strstr(text, row));
-    }
-    // A bar inside a cell would end it: every row of a table has as many as its head.
-    int32_t bars = text[0] == '|', bars_of_head = 0;
-    bool head = true;
-    for (const char *c = text + 1; *c; c++) {
-        bars += *c == '|' && c[-1] != '\\';
-        if (*c != '\n') continue;
-        if (head) bars_of_head = bars;
-        assert_true(bars == 0 || bars == bars_of_head);
-        head = bars == 0;
-        bars = 0;
-    }
-    free(text);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_result_comes_back),
         cmocka_unit_test(what_is_missing_is_named),
         cmocka_unit_test(every_path_frees_when_memory_is_short),
-        cmocka_unit_test(the_description_has_a_line_for_every_name),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

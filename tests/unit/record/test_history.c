@@ -111,8 +111,9 @@ static void check_series(ArrayFile *file)
         int32_t width = 0;
         assert_true(result_file_read_series(file, series, &values, &rows, &width, &err));
         assert_int_equal(rows, STEPS);
-        bool of_pads = result_series_columns(series) == COLUMNS_PADS;
-        assert_int_equal(width, of_pads ? 2 : result_series_is_per_node(series) ? SEEN_NODES : 1);
+        ResultColumns columns = result_series_columns(series);
+        bool of_pads = columns == COLUMNS_PADS;
+        assert_int_equal(width, of_pads ? 2 : columns == COLUMNS_NODES ? SEEN_NODES : 1);
         for (int32_t k = 0; k < STEPS; k++) {
             show(k);
             for (int32_t i = 0; i < width; i++) {

@@ -27,7 +27,8 @@ static bool steps_write(ArrayFile *file, Error *err)
     for (int32_t k = 0; k < STEPS; ++k) {
         double row[NODES], U = k / 100.0;
         for (int32_t s = 0; s < RESULT_SERIES_COUNT; ++s) {
-            int32_t width = result_series_is_per_node((ResultSeries)s) ? NODES : 2;   // pads
+            bool of_nodes = result_series_columns((ResultSeries)s) == COLUMNS_NODES;
+            int32_t width = of_nodes ? NODES : 2;   // pads
             for (int32_t i = 0; i < width; ++i) row[i] = i < U * NODES ? 0.01 : 0;
             if (s == SERIES_ROD || s == SERIES_TIME) row[0] = U;
             if (s == SERIES_MU) row[0] = 0.1 + 0.2 * (U < 1 ? U : U - 1);
