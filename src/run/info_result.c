@@ -14,7 +14,8 @@
 
 enum { PATH_SIZE = 1100, EVENTS_SHOWN_MAX = 200 };
 
-// "  label   value" for each of these entries of run.json that is there.
+// "  label   value +- error" for each of these entries of run.json that is there; the error is that
+// of `path`_error.
 static const struct {
     const char *path, *label;
 } entries[] = {
@@ -23,6 +24,8 @@ static const struct {
     {"message", "message"},
     {"results.mu_M", "mu_M"},
     {"results.mu_M_spread", "mu_M spread"},
+    {"results.mu_hold", "mu_hold"},
+    {"results.mu_max", "mu_max"},
     {"results.l_c_over_L", "l_c / L"},
     {"results.l_sc_over_L", "l_sc / L"},
     {"steps.accepted", "accepted steps"},
@@ -32,6 +35,17 @@ static const struct {
     {"errors.complementarity", "complementarity"},
     {"errors.moment", "moment error"},
 };
+
+// A number with a point to six digits; all else as it stands.
+static void write_value(const char *text, FILE *out)
+{
+    char *end = NULL;
+    double number = strtod(text, &end);
+    if (strchr(text, '.') && *end == 0)
+        fprintf(out, "%.6g", number);
+    else
+        fputs(text, out);
+}
 
 // What is missing in run.json (a failed run has no mu_M) is left out.
 static bool write_run(const char *folder, FILE *out, Error *err)
@@ -47,9 +61,13 @@ static bool write_run(const char *folder, FILE *out, Error *err)
     for (size_t k = 0; k < sizeof entries / sizeof entries[0]; k++) {
         YamlNode node = yaml_look_up(run, entries[k].path);
         if (node == YAML_NO_NODE) continue;
-        YamlKind kind = yaml_kind(run, node);
-        fprintf(out, "  %-18s %s\n", entries[k].label,
-                kind == YAML_SCALAR ? yaml_text(run, node) : "none");
+        fprintf(out, "  %-18s ", entries[k].label);
+        write_value(yaml_kind(run, node) == YAML_SCALAR ? yaml_text(run, node) : "none", out);
+        snprintf(path, sizeof path, "%s_error", entries[k].path);
+        node = yaml_look_up(run, path);
+        if (node != YAML_NO_NODE && yaml_kind(run, node) == YAML_SCALAR)
+            fprintf(out, " +- %.1g", strtod(yaml_text(run, node), NULL));
+        fputc('\n', out);
     }
 cleanup:
     yaml_destroy(run);

@@ -192,7 +192,8 @@ class Run(InFolder):
         self.assertIn("--overwrite", again.stderr)
         info = amontons("info", result)
         self.assertEqual((info.returncode, info.stderr), (0, ""))
-        self.assertIn(f"mu_M               {run['results']['mu_M']}", info.stdout)
+        for name in ("mu_M", "mu_hold", "mu_max"):
+            self.assertRegex(info.stdout, rf"\n  {name} +{run['results'][name]:.6g}\b")
         self.assertEqual(info.stdout.count("\n  leading rapid"),
                          sum(e["kind"].startswith("leading") for e in run["results"]["events"]))
 

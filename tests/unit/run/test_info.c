@@ -84,8 +84,11 @@ static void test_result(void **state)
     static const char *const unfinished[] = {"no run.json", "By hand", NULL};
     static const char *const whole[] = {
         "status             done",
-        "mu_M               0.25",
+        "mu_M               0.25 +- 0.0003\n",
         "mu_M spread        none",
+        "mu_hold            0.234568\n",
+        "mu_max             0.375\n",
+        "accepted steps     12345678\n",
         "3 states at 2 contact nodes, U from 0 to 0.5, largest mu 0.375",
         "quasi-static            0.1          0.1          0.1            0.1",
         "bounded rapid           0.2",
@@ -100,7 +103,9 @@ static void test_result(void **state)
                            "\"message\": \"the ledger does not close\"}");
     assert_info_holds(folder, failed);
     write_text("run.json", "{\"status\": \"done\", \"results\": {\"mu_M\": 0.25, "
-                           "\"mu_M_spread\": null}}");
+                           "\"mu_M_error\": 3.1e-4, \"mu_M_spread\": null, "
+                           "\"mu_hold\": 0.2345678, \"mu_hold_error\": null, "
+                           "\"mu_max\": 0.375}, \"steps\": {\"accepted\": 12345678}}");
     assert_info_holds(folder, whole);
     assert_faults_are_clean(folder);
 }
