@@ -26,7 +26,8 @@ DefineConstant[
                             // "free": unstructured; nx and nz cells on the sides only, which
                             // must be even for quads
     grade_x = 1,            // length of the middle cell over that of the end cells, about
-    grade_z = 1             // height of the top cell over that of the cell at the contact
+    grade_z = 1,            // height of the top cell over that of the cell at the contact
+    refine = 1              // so many times as many cells along each side, for a study of the mesh
 ];
 
 // --- what is allowed ----------------------------------------------------------------------------
@@ -36,6 +37,10 @@ If (length <= 0 || height <= 0)
 EndIf
 If (nx < 1 || nz < 1 || nx != Floor(nx) || nz != Floor(nz))
     Error("nx and nz must be whole numbers from 1 on, found %g and %g", nx, nz);
+    Abort;
+EndIf
+If (refine <= 0)
+    Error("refine must be above 0 (1: as told), found %g", refine);
     Abort;
 EndIf
 If (order != 1 && order != 2)
@@ -59,6 +64,8 @@ If (StrCmp(layout, "regular") != 0 && StrCmp(layout, "alternate") != 0 &&
     Error(StrCat("layout must be regular, alternate or free, found ", layout));
     Abort;
 EndIf
+nx = refine * nx < 1 ? 1 : Floor(refine * nx + 0.5);
+nz = refine * nz < 1 ? 1 : Floor(refine * nz + 0.5);
 If (StrCmp(layout, "free") == 0 && StrCmp(shape, "quad") == 0 &&
     (nx != 2 * Floor(nx / 2) || nz != 2 * Floor(nz / 2)))
     Error("nx and nz must be even for a free layout of quads, found %g and %g", nx, nz);

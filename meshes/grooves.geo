@@ -28,6 +28,10 @@ DefineConstant[
     depth = 0.03,           // of the grooves
     size_contact = 0.02,    // of the cells at the contact and in the grooves
     size_bulk = 0.05,       // of the cells at the top
+    grade_contact = 1,      // length of a contact's middle cell over that of its end cells, where
+                            // stress is singular; their mean is size_contact
+    refine = 1,             // sizes are divided and grade_contact is multiplied by this, for a
+                            // study of the mesh
     shape = "quad",         // "quad" or "triangle"
     order = 1,              // 1: Q4, T3; 2: Q9, T6
     incomplete = 0          // 1: order 2 gives Q8 in place of Q9
@@ -55,6 +59,11 @@ If (depth <= 0 || depth >= height)
     Error("depth must be above 0 and below height = %g, found %g", height, depth);
     Abort;
 EndIf
+If (grade_contact < 1 || refine <= 0)
+    Error("grade_contact must be from 1 on and refine above 0, found %g and %g", grade_contact,
+          refine);
+    Abort;
+EndIf
 If (size_contact <= 0 || size_bulk <= 0)
     Error("size_contact and size_bulk must be above 0, found %g and %g", size_contact, size_bulk);
     Abort;
@@ -72,6 +81,9 @@ If (StrCmp(shape, "quad") != 0 && StrCmp(shape, "triangle") != 0)
     Abort;
 EndIf
 
+size_contact = size_contact / refine;
+size_bulk = size_bulk / refine;
+grade = refine * grade_contact > 1 ? refine * grade_contact : 1;
 If (floor > 0 && size_contact > floor)
     Error("size_contact must be at most floor = %g (or floor = 0: pointed grooves), found %g", floor,
           size_contact);
@@ -85,17 +97,27 @@ If (size_contact > contact_length / 2)
           size_contact);
     Abort;
 EndIf
+// The end cells of a contact of cells that follow a parabola (Bump) with a mean of size_contact.
+size_end = size_contact;
+If (grade > 1)
+    bend = Sqrt(1 - 1 / grade);
+    size_end = size_contact / grade * Log((1 + bend) / (1 - bend)) / (2 * bend);
+EndIf
+cells = Floor(contact_length / size_contact + 0.5);
 walk[] = {};
 first = newp;
-Point(first) = {0, 0, 0, size_contact};
+Point(first) = {0, 0, 0, size_end};
 here = first;
 For k In {0 : grooves}
     left = k * (contact_length + width);
     right = k < grooves ? left + contact_length : length;
     edge = newp;
-    Point(edge) = {right, 0, 0, size_contact};
+    Point(edge) = {right, 0, 0, size_end};
     base = newl;
     Line(base) = {here, edge};
+    If (grade > 1)
+        Transfinite Curve{base} = cells + 1 Using Bump 1 / grade;
+    EndIf
     walk[] += base;
     Physical Curve(Sprintf("contact_%g", k + 1)) = {base};
     here = edge;
@@ -116,7 +138,7 @@ For k In {0 : grooves}
             here = over;
         EndIf
         down = newp;
-        Point(down) = {right + width, 0, 0, size_contact};
+        Point(down) = {right + width, 0, 0, size_end};
         wall = newl;
         Line(wall) = {here, down};
         walk[] += wall;

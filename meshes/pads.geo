@@ -40,6 +40,10 @@ DefineConstant[
     cells_pad_height = 3,   // cells up each pad
     nz = 20,                // cells up the block
     grade_z = 1,            // height of the top cell of the block over that of its lowest
+    grade_contact = 1,      // length of a pad's middle cell over that of its end cells, where stress
+                            // is singular; height of its top cell over that of its lowest
+    refine = 1,             // sizes are divided, numbers of cells and grade_contact multiplied by
+                            // this, for a study of the mesh
     shape = "quad",         // "quad" or "triangle"
     order = 1,              // 1: Q4, T3; 2: Q9, T6
     incomplete = 0          // 1: order 2 gives Q8 in place of Q9
@@ -98,6 +102,11 @@ If (grade_z <= 0)
     Error("grade_z must be above 0 (1: even), found %g", grade_z);
     Abort;
 EndIf
+If (grade_contact < 1 || refine <= 0)
+    Error("grade_contact must be from 1 on and refine above 0, found %g and %g", grade_contact,
+          refine);
+    Abort;
+EndIf
 If (order != 1 && order != 2)
     Error("order must be 1 or 2, found %g", order);
     Abort;
@@ -122,6 +131,9 @@ If (fillet > 0 && StrCmp(layout, "regular") == 0)
     Error("a fillet needs the layout free or auto, found regular with fillet = %g", fillet);
     Abort;
 EndIf
+
+size_contact = size_contact / refine;
+size_bulk = size_bulk / refine;
 
 // --- lengths ------------------------------------------------------------------------------------
 touching = contact_length > 0 ? contact_length : fill * length;
@@ -204,7 +216,18 @@ columns = #solid[] - 1;
 solid[] += 0;
 
 // --- sizes of cells -----------------------------------------------------------------------------
+cells_pad = refine * cells_pad < 1 ? 1 : Floor(refine * cells_pad + 0.5);
+cells_gap = refine * cells_gap < 1 ? 1 : Floor(refine * cells_gap + 0.5);
+cells_pad_height = refine * cells_pad_height < 1 ? 1 : Floor(refine * cells_pad_height + 0.5);
+nz = refine * nz < 1 ? 1 : Floor(refine * nz + 0.5);
+grade = refine * grade_contact > 1 ? refine * grade_contact : 1;
 fine = size_contact > 0 ? size_contact : touching / n / cells_pad;
+// The end cells of a pad of cells that follow a parabola (Bump) with a mean of `fine`.
+finest = fine;
+If (grade > 1)
+    bend = Sqrt(1 - 1 / grade);
+    finest = fine / grade * Log((1 + bend) / (1 - bend)) / (2 * bend);
+EndIf
 up_pad = size_contact > 0 ? Ceil(pad_height / fine - 1e-6) : cells_pad_height;
 coarse = size_bulk;
 up_block = nz;
@@ -251,7 +274,12 @@ If (!is_free)
         If (solid[k] || solid[k + 1])
             Point(1 * bank + k) = {xs[k], 0, 0};
             Line(21 * bank + k) = {1 * bank + k, 2 * bank + k};
-            Transfinite Curve{21 * bank + k} = up_pad + 1;
+            If (grade > 1 && up_pad > 1)
+                Transfinite Curve{21 * bank + k} = up_pad + 1 Using Progression
+                    grade ^ (1 / (up_pad - 1));
+            Else
+                Transfinite Curve{21 * bank + k} = up_pad + 1;
+            EndIf
         EndIf
     EndFor
     number = 0;
@@ -263,7 +291,11 @@ If (!is_free)
         EndIf
         Line(12 * bank + k) = {2 * bank + k, 2 * bank + k + 1};
         Line(13 * bank + k) = {3 * bank + k, 3 * bank + k + 1};
-        Transfinite Curve{12 * bank + k, 13 * bank + k} = cells + 1;
+        If (solid[k + 1] && grade > 1)
+            Transfinite Curve{12 * bank + k, 13 * bank + k} = cells + 1 Using Bump 1 / grade;
+        Else
+            Transfinite Curve{12 * bank + k, 13 * bank + k} = cells + 1;
+        EndIf
         Curve Loop(2 * bank + k) = {12 * bank + k, 22 * bank + k + 1, -(13 * bank + k),
                                     -(22 * bank + k)};
         Plane Surface(2 * bank + k) = {2 * bank + k};
@@ -272,7 +304,11 @@ If (!is_free)
         If (solid[k + 1])
             number = number + 1;
             Line(11 * bank + k) = {1 * bank + k, 1 * bank + k + 1};
-            Transfinite Curve{11 * bank + k} = cells + 1;
+            If (grade > 1)
+                Transfinite Curve{11 * bank + k} = cells + 1 Using Bump 1 / grade;
+            Else
+                Transfinite Curve{11 * bank + k} = cells + 1;
+            EndIf
             Curve Loop(bank + k) = {11 * bank + k, 21 * bank + k + 1, -(12 * bank + k),
                                     -(21 * bank + k)};
             Plane Surface(bank + k) = {bank + k};
@@ -301,7 +337,7 @@ If (is_free)
         If (solid[k + 1])
             number = number + 1;
             bottom = newp;
-            Point(bottom) = {xs[k], 0, 0, fine};
+            Point(bottom) = {xs[k], 0, 0, finest};
             If (k > 0 && fillet > 0)
                 centre = newp;
                 Point(centre) = {xs[k] - fillet, pad_height - fillet, 0, at_root};
@@ -316,10 +352,14 @@ If (is_free)
             Line(side) = {here, bottom};
             walk[] += side;
             corner = newp;
-            Point(corner) = {xs[k + 1], 0, 0, fine};
+            Point(corner) = {xs[k + 1], 0, 0, finest};
             base = newl;
             Line(base) = {bottom, corner};
             walk[] += base;
+            If (grade > 1)
+                Transfinite Curve{base} = Floor((xs[k + 1] - xs[k]) / fine + 1.5) Using Bump
+                    1 / grade;
+            EndIf
             Physical Curve(Sprintf("contact_%g", number)) = {base};
             root = newp;
             rounded = k < columns - 1 ? fillet : 0;

@@ -156,6 +156,68 @@ static void test_sizes(void **state)
     drawn_destroy(&drawn);
 }
 
+static double edge_of(const Drawn *drawn, int32_t pad, int32_t edge)
+{
+    const MeshCurve *curve = &drawn->contact.curves[pad];
+    return drawn->mesh.position[2 * curve->nodes[edge + 1]] -
+           drawn->mesh.position[2 * curve->nodes[edge]];
+}
+
+// Cells of a graded contact: as many as without, the middle ones about `grade` times the end ones,
+// the same from both ends (cells of a parabola: within 1 part in 8 at 20 of them). `refine` halves
+// sizes and doubles the grade.
+static void test_graded(void **state)
+{
+    (void)state;
+    for (int32_t k = 0; k < 3; k++) {
+        MeshParameter of_pads[PARAMETERS_MAX] = {{"n", 2, ""},
+                                                 {"fill", 0.8, ""},
+                                                 {"pad_height", 0.05, ""},
+                                                 {"refine", 2, ""},
+                                                 {"size_contact", 0.04, ""},
+                                                 {"size_bulk", 0.1, ""},
+                                                 {"grade_contact", 2, ""},
+                                                 {"layout", 0, "regular"}};
+        MeshParameter of_grooves[PARAMETERS_MAX] = {
+            {"grooves", 1, ""},      {"width", 0.2, ""},         {"floor", 0.1, ""},
+            {"refine", 2, ""},       {"size_contact", 0.04, ""}, {"size_bulk", 0.1, ""},
+            {"grade_contact", 2, ""}};
+        if (k == 1) snprintf(of_pads[7].text, GROUP_NAME_SIZE, "free");
+        Drawn drawn;
+        draw(k < 2 ? "pads.geo" : "grooves.geo", k < 2 ? of_pads : of_grooves, &drawn);
+        for (int32_t pad = 0; pad < 2; pad++) {
+            assert_int_equal(drawn.contact.curves[pad].node_count, 21);
+            assert_near("alike", edge_of(&drawn, pad, 0), edge_of(&drawn, pad, 19), 1e-9);
+            assert_near("grade", edge_of(&drawn, pad, 10) / edge_of(&drawn, pad, 0), 4, 0.5);
+        }
+        drawn_destroy(&drawn);
+    }
+}
+
+// The mesh that `refine` says is the one that its sizes and counts say.
+static void test_refined(void **state)
+{
+    (void)state;
+    MeshParameter twice[PARAMETERS_MAX] = {{"cells_pad", 4, ""}, {"refine", 2, ""}};
+    MeshParameter told[PARAMETERS_MAX] = {{"cells_pad", 8, ""},
+                                          {"cells_gap", 12, ""},
+                                          {"cells_pad_height", 6, ""},
+                                          {"nz", 40, ""},
+                                          {"grade_contact", 2, ""}};
+    MeshParameter half[PARAMETERS_MAX] = {{"nx", 20, ""}, {"nz", 10, ""}, {"refine", 0.5, ""}};
+    Drawn one, other;
+    draw("pads.geo", twice, &one);
+    draw("pads.geo", told, &other);
+    assert_int_equal(one.mesh.node_count, other.mesh.node_count);
+    for (int32_t k = 0; k < 2 * one.mesh.node_count; k++)
+        assert_near("position", one.mesh.position[k], other.mesh.position[k], 1e-12);
+    drawn_destroy(&one);
+    drawn_destroy(&other);
+    draw("block.geo", half, &one);
+    assert_int_equal(one.mesh.node_count, 11 * 6);
+    drawn_destroy(&one);
+}
+
 // Each root gains r^2 (1 - pi/4), and up to a tenth more: chords stand for arcs.
 static void test_fillet(void **state)
 {
@@ -261,6 +323,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_flush),   cmocka_unit_test(test_one_pad_whole),
         cmocka_unit_test(test_placing), cmocka_unit_test(test_sizes),
+        cmocka_unit_test(test_graded),  cmocka_unit_test(test_refined),
         cmocka_unit_test(test_fillet),  cmocka_unit_test(test_grooves),
         cmocka_unit_test(test_refused),
     };
