@@ -41,12 +41,13 @@ static int print_help(void)
     printf("\n"
            "  amontons help COMMAND     more about a command (also: amontons COMMAND --help)\n"
            "  amontons info keys        every key that a scene may have\n"
-           "  amontons --version        the version\n"
+           "  amontons --version        the version, and where meshes and example scenes lie\n"
            "\n"
-           "A first simulation, with a coarse mesh so that it ends soon:\n"
+           "A first simulation, in the folder that --version names, with a coarse mesh so that it "
+           "ends soon:\n"
            "\n"
            "  amontons run validation/paper/fig1.yaml --set mesh.set.nx=20 --set mesh.set.nz=20 "
-           "-o first\n"
+           "-o ~/first\n"
            "\n"
            "Exit status: 0 done, 1 the computation failed, 2 the input is wrong.\n");
     return 0;
@@ -56,9 +57,11 @@ static int print_help(void)
 static int print_version(void)
 {
     const char *revision = amontons_revision();
+    char folder[AMONTONS_PATH_SIZE];
     printf("amontons %s%s%s%s\n", amontons_version(), *revision ? " (" : "", revision,
            *revision ? ")" : "");
     printf("built with %s\n", amontons_libraries());
+    if (amontons_data_folder(folder)) printf("meshes and example scenes: %s\n", folder);
     return 0;
 }
 

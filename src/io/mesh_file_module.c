@@ -7,6 +7,7 @@
 #include <errno.h>
 #include <gmshc.h>
 #include <limits.h>
+#include <locale.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,7 +16,7 @@
 #include <unistd.h>
 
 // SCRIPT_NAME_SIZE: "/proc/self/fd/" and an int. MESH_ADAPT_QUADS: a value of Mesh.Algorithm.
-enum { SCRIPT_NAME_SIZE = 40, MESH_ADAPT_QUADS = 8 };
+enum { SCRIPT_NAME_SIZE = 40, MESH_ADAPT_QUADS = 8, LOCALE_SIZE = 200 };
 
 // gmsh's first error of this session, NULL: none. `log`: what gmshLoggerGet gave.
 static const char *first_error(char **log, size_t count)
@@ -307,12 +308,21 @@ cleanup:
 // gmsh has one session a process.
 static pthread_mutex_t session = PTHREAD_MUTEX_INITIALIZER;
 
+// gmsh sets LC_NUMERIC to "C" and leaves it so. before: setlocale's answer before it started.
+static void restore_numeric_locale(const char *before)
+{
+    const char *now = setlocale(LC_NUMERIC, NULL);
+    if (now && strcmp(now, before) != 0) setlocale(LC_NUMERIC, before);
+}
+
 __attribute__((visibility("default"))) bool amontons_gmsh_read(const MeshRawRequest *request,
                                                                MeshRaw *raw, Error *err)
 {
     bool begun = false;
+    char locale[LOCALE_SIZE];
     *raw = (MeshRaw){0};
     pthread_mutex_lock(&session);
+    snprintf(locale, sizeof locale, "%s", setlocale(LC_NUMERIC, NULL));
     TRY(begun = gmsh_begin(err));
     TRY(gmsh_load(request, err));
     for (int dimension = 0; dimension <= 3; dimension++) TRY(fetch_nodes(dimension, raw, err));
@@ -320,6 +330,7 @@ __attribute__((visibility("default"))) bool amontons_gmsh_read(const MeshRawRequ
     TRY(fetch_groups(request->path, raw, err));
 cleanup:
     if (begun) gmsh_end();
+    restore_numeric_locale(locale);
     pthread_mutex_unlock(&session);
     return error_is_clean(err);
 }

@@ -4,7 +4,10 @@
 #include "base/place.h"
 #include "build_record.h"
 
-#include <string.h>
+#include <libgen.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
 
 const char *amontons_version(void)
 {
@@ -26,8 +29,8 @@ bool amontons_data_folder(char folder[AMONTONS_PATH_SIZE])
 {
     static const char *const places[] = {AMONTONS_DATA_FROM_LIBRARY "/meshes/block.geo",
                                          "../../meshes/block.geo"};
-    enum { BEHIND = sizeof "/meshes/block.geo" - 1 };
-    if (!place_find(places, 2, folder, AMONTONS_PATH_SIZE)) return false;
-    folder[strlen(folder) - BEHIND] = 0;
-    return true;
+    char found[AMONTONS_PATH_SIZE], whole[PATH_MAX];
+    if (!place_find(places, 2, found, sizeof found) || !realpath(found, whole)) return false;
+    int length = snprintf(folder, AMONTONS_PATH_SIZE, "%s", dirname(dirname(whole)));
+    return length < AMONTONS_PATH_SIZE;
 }

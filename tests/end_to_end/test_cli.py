@@ -43,7 +43,8 @@ class Help(unittest.TestCase):
         done = amontons("--version")
         self.assertEqual(done.returncode, 0)
         self.assertRegex(done.stdout, r"^amontons \d+\.\d+\.\d+( \([0-9a-f]{7,}(, changed)?\))?\n"
-                                      r"built with gmsh 4\.\S+, HDF5 1\.\S+, VTK 9\.\S+, .*xxHash \S+\n$")
+                                      r"built with gmsh 4\.\S+, HDF5 1\.\S+, VTK 9\.\S+, .*xxHash \S+\n"
+                                      rf"meshes and example scenes: {re.escape(str(SOURCE))}\n$")
 
     def test_main_help_names_every_command(self):
         for words in (["--help"], ["help"], ["-h"]):

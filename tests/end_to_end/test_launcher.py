@@ -381,7 +381,8 @@ class Packages(unittest.TestCase):
 
     @unittest.skipUnless(shutil.which("shellcheck"), "no shellcheck here")
     def test_shellcheck(self):
-        done = subprocess.run(["shellcheck", SOURCE / "amontons", SOURCE / ".ci/run"],
+        done = subprocess.run(["shellcheck", "-s", "bash", SOURCE / "amontons", SOURCE / ".ci/run",
+                               *(SOURCE / "packaging").glob("*sh")],
                               capture_output=True, text=True)
         self.assertEqual(done.stdout, "")
 

@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# Removes what the last `cmake --install` wrote (DESTDIR is respected, as there), and folders that are empty then.
+cmake_minimum_required(VERSION 3.25)
+if(NOT EXISTS ${MANIFEST})
+    message(FATAL_ERROR "${MANIFEST} is not there: nothing was installed from this build folder")
+endif()
+file(STRINGS ${MANIFEST} files)
+set(folders "")
+foreach(file ${files})
+    set(path "$ENV{DESTDIR}${file}")
+    if(EXISTS ${path} OR IS_SYMLINK ${path})
+        message(STATUS "removing ${path}")
+        file(REMOVE ${path})
+    endif()
+    cmake_path(GET path PARENT_PATH folder)
+    while(folder MATCHES "amontons" AND NOT folder IN_LIST folders)
+        list(APPEND folders ${folder})
+        cmake_path(GET folder PARENT_PATH folder)
+    endwhile()
+endforeach()
+# Ours alone: those with our name somewhere below the prefix. The deepest first.
+list(SORT folders ORDER DESCENDING)
+foreach(folder ${folders})
+    execute_process(COMMAND rmdir ${folder} ERROR_QUIET)   # refuses a folder that holds anything
+endforeach()

@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What `cmake --install` leaves works from wherever it is put, with no variable set: the program, the library for C
+programs that are built outside of the tree, manual pages, completion. And it can be removed again."""
+import json
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
+BUILD = Path(os.environ.get("AMONTONS_BIN", SOURCE / "build" / "bin")).resolve().parent
+EXAMPLES = SOURCE / "packaging" / "examples"
+SMALL = ["mesh.set.nx=8", "mesh.set.nz=8", "time.until={U: 0.004}", "output.fields=none", "output.figures=[]"]
+PLAIN = {name: os.environ[name] for name in ("PATH", "LSAN_OPTIONS", "TMPDIR") if name in os.environ}
+# What a library that is a guest never calls: it prints, ends or changes the process.
+HOSTS_OWN = {"printf", "puts", "putchar", "perror", "exit", "abort", "setlocale", "uselocale", "sigaction", "stdout",
+             "stderr", "setenv", "unsetenv", "putenv", "umask", "__printf_chk", "__fprintf_chk"}
+
+
+def run(*words, check=True, **more):
+    done = subprocess.run([str(word) for word in words], text=True, capture_output=True,
+                          env=dict(PLAIN, **more.pop("env", {})), **more)
+    if check and done.returncode != 0:
+        raise AssertionError(f"{words}: status {done.returncode}\n{done.stdout}{done.stderr}")
+    return done
+
+
+def commands(program):
+    """Every command that the program lists."""
+    return re.findall(r"(?m)^  ([a-z0-9]+)  .*", run(program, "--help").stdout)
+
+
+class Installed(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = Path(tempfile.mkdtemp(prefix="amontons-installed-"))
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        run("cmake", "--install", BUILD, "--prefix", "/opt/first", env={"DESTDIR": str(cls.folder / "stage")})
+        cls.prefix = cls.folder / "moved elsewhere"
+        shutil.copytree(cls.folder / "stage/opt/first", cls.prefix, symlinks=True)
+        cls.program = cls.prefix / "bin" / "amontons"
+        cls.home = {"HOME": str(cls.folder / "home")}
+        cls.scene = cls.prefix / "share/amontons/validation/paper/fig1.yaml"
+
+    def flags(self, name):
+        return [word for pair in SMALL for word in (name, pair)]
+
+    def test_program_finds_what_is_its_own(self):
+        """Mesh, modules of all kinds, pictures; from a folder that has nothing to do with it."""
+        version = run(self.program, "--version", cwd="/").stdout
+        self.assertIn(f"scenes: {self.prefix}/share/amontons\n", version)
+        result = self.folder / "result"
+        run(self.program, "run", self.scene, *self.flags("--set"), "--set", "output.figures=[force]", "--set",
+            "output.fields={every_U: 2e-3}", "-o", result, cwd="/", env=self.home)
+        self.assertTrue((result / "figures/force.png").is_file())
+        self.assertTrue((result / "fields.pvd").is_file())
+        maps = run("ldd", self.program).stdout
+        self.assertIn(f"libamontons.so.0.1 => {self.prefix}/", re.sub(r"/bin/\.\./", "/", maps))
+
+    def test_library_shows_what_its_headers_declare(self):
+        library = self.prefix / "lib/libamontons.so"
+        listing = run("nm", "-D", "--defined-only", library).stdout
+        shown = {line.split()[-1] for line in listing.splitlines()}
+        declared = set()
+        for header in (self.prefix / "include/amontons").glob("*.h"):
+            declared |= set(re.findall(r"\b(amontons_\w+)\(", header.read_text()))
+        self.assertEqual({s for s in shown if not re.match(r"_|__gcov", s)}, declared)
+        self.assertIn("SONAME               libamontons.so.0.1\n", run("objdump", "-p", library).stdout)
+
+    def test_library_is_a_guest(self):
+        for library in [self.prefix / "lib/libamontons.so", self.prefix / "lib/amontons/amontons_hdf5.so",
+                        self.prefix / "lib/amontons/amontons_render.so"]:
+            listing = run("nm", "-D", "--undefined-only", library).stdout
+            used = {line.split()[-1].split("@")[0] for line in listing.splitlines()}
+            self.assertEqual(used & HOSTS_OWN, set(), library.name)
+
+    def test_headers_stand_alone(self):
+        headers = sorted(path.name for path in (self.prefix / "include/amontons").iterdir())
+        self.assertIn("amontons.h", headers)
+        for header in headers:
+            for compiler in (["gcc", "-std=c11", "-x", "c"], ["g++", "-std=c++11", "-x", "c++"]):
+                run(*compiler, "-Wall", "-Wextra", "-pedantic", "-Werror", "-fsyntax-only", "-I",
+                    self.prefix / "include", "-", input=f"#include <amontons/{header}>\n#include <amontons/{header}>\n")
+
+    def check_program(self, program):
+        """It prints what `amontons run` finds at the three pressures."""
+        said = run(program, self.scene, *SMALL, cwd="/", env=self.home).stdout
+        found = re.findall(r"load.pressure=(\S+): largest F_T/F_N (\S+), (\d+) steps", said)
+        self.assertEqual([pressure for pressure, *_ in found], ["0.002", "0.003", "0.006"])
+        pressure, mu, steps = found[2]
+        result = self.folder / "the same"
+        run(self.program, "run", self.scene, *self.flags("--set"), "--set", f"load.pressure={pressure}", "-o", result,
+            "--overwrite", env=self.home)
+        report = json.loads((result / "run.json").read_text())
+        self.assertAlmostEqual(report["results"]["mu_max"], float(mu), delta=1e-6)
+        self.assertEqual(report["steps"]["accepted"], int(steps))
+        self.assertGreater(float(found[0][1]), float(mu))   # mu falls with the load
+
+    def test_program_by_pkg_config(self):
+        found = {"PKG_CONFIG_PATH": str(self.prefix / "lib/pkgconfig")}
+        flags = run("pkg-config", "--cflags", "--libs", "amontons", env=found).stdout.replace("\\ ", "\0").split()
+        program = self.folder / "by-pkg-config"
+        run("gcc", "-Wall", "-Wextra", "-Werror", EXAMPLES / "pressures.c", "-o", program,
+            *[flag.replace("\0", " ") for flag in flags], f"-Wl,-rpath,{self.prefix}/lib")
+        self.check_program(program)
+        self.assertLess(len((EXAMPLES / "pressures.c").read_text().splitlines()), 40)
+
+    def test_program_by_find_package(self):
+        build = self.folder / "by find_package"
+        run("cmake", "-S", self.prefix / "share/doc/amontons/examples", "-B", build,
+            f"-DCMAKE_PREFIX_PATH={self.prefix}")
+        run("cmake", "--build", build)
+        self.check_program(build / "pressures")
+
+    @unittest.skipUnless(shutil.which("help2man") and shutil.which("man"), "no help2man or no man here")
+    def test_manual_pages(self):
+        pages = self.prefix / "share/man/man1"
+        names = {"amontons", *(f"amontons-{command}" for command in commands(self.program))}
+        self.assertEqual({page.stem for page in pages.iterdir()}, names)
+        for page in pages.iterdir():
+            shown = run("man", "--warnings", "-l", page, env={"MANWIDTH": "80", "LC_ALL": "C.UTF-8"})
+            self.assertEqual(shown.stderr, "", page.name)
+            self.assertIn("NAME", shown.stdout)
+        shown = run("man", "-l", pages / "amontons-run.1").stdout
+        self.assertIn("--overwrite", shown)
+        self.assertNotIn(str(BUILD), shown)
+
+    def completions(self, *words):
+        """What bash would offer behind `amontons WORDS`."""
+        script = self.prefix / "share/bash-completion/completions/amontons"
+        line = " ".join(f"'{word}'" for word in words)
+        return run("bash", "-c", f"source '{script}'; COMP_WORDS=({line}); COMP_CWORD=$((${{#COMP_WORDS[@]}} - 1)); "
+                   "_amontons; printf '%s\\n' \"${COMPREPLY[@]}\"", cwd=self.folder,
+                   env={"PATH": f"{self.prefix}/bin:{PLAIN['PATH']}"}).stdout.split()
+
+    def test_completion(self):
+        self.assertEqual(self.completions("amontons", "st"), ["static", "stability"])
+        self.assertEqual(self.completions("amontons", "run", "--over"), ["--overwrite"])
+        self.assertEqual(self.completions("amontons", "run", "--set", "load.pr"), ["load.pressure="])
+        (self.folder / "mine.yaml").touch()
+        (self.folder / "mine.txt").touch()
+        self.assertEqual(self.completions("amontons", "run", "mi"), ["mine.yaml"])
+
+    def test_uninstall(self):
+        """Removes what was installed, and leaves what was not."""
+        stage = {"DESTDIR": str(self.folder / "second")}
+        run("cmake", "--install", BUILD, "--prefix", "/opt/first", env=stage)
+        other = self.folder / "second/opt/first/share/amontons/of the user"
+        other.touch()
+        run("cmake", "--build", BUILD, "--target", "uninstall", env=stage)
+        left = [path for path in (self.folder / "second").rglob("*") if not path.is_dir()]
+        self.assertEqual(left, [other])
+        self.assertFalse((self.folder / "second/opt/first/include/amontons").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
