@@ -14,7 +14,8 @@ typedef struct StabilityPoint {
     double front;   // l, length
     int32_t slipping;   // contact nodes that slip: more than front says where slip has
         // begun in several places
-    double U, mu;   // displacement of the rod, length; F_T / F_N
+    double U, mu;   // displacement of the rod, length; F_T / F_N for V -> 0
+    double mu_at_V;   // the same at the scene's V, at which slow slip already weakens friction
     double rate_re, rate_im;   // the rightmost lambda of exp(lambda t), 1/time
     double real_rate;   // the largest real one above 0, 1/time; 0: none
     double load;   // weakening over the resistance of viscosity, inertia and elasticity, pressure
@@ -22,9 +23,7 @@ typedef struct StabilityPoint {
     bool certified;   // viscosity alone outweighs the weakening
 } StabilityPoint;
 
-// Where something is first lost, over L, between two positions of the front; NaN: nowhere. l_c and
-// l_c_rod are 1 where the front crosses the block before.
-enum { STABILITY_PADS_MAX = 64 };
+enum { STABILITY_PADS_MAX = 64, STABILITY_WHY_MAX = 6, STABILITY_WHY_SIZE = 400 };
 
 // Resistance of a contact curve (pad) to slip in the state where slip runs away at the scene's V;
 // l, drag and stiffness of the pad alone, everything else held.
@@ -39,11 +38,16 @@ typedef struct StabilityPad {
         // cannot run away alone
     double l_c;   // how much of it, from its trailing edge on, may slip before it
         // runs away alone, length; NaN: all of it
+    double mu_fall;   // what F_T / F_N loses when the pad slides alone, down to mu_K, and the
+        // others hold; NaN: nothing else holds the block
     double drag;   // viscous shear of its softest slip over the slip rate,
         // stress / velocity: eta1/2 over H for a layer of height H
     double stiffness;   // elastic shear of its softest slip over the slip, stress/length
 } StabilityPad;
 
+// Lengths: where something is first lost, over L, between two positions of the front; NaN: nowhere.
+// l_c and l_c_rod are 1 where the front crosses the block before. mu_c is that of V -> 0, all other
+// mu are those at the scene's V (StabilityPoint.mu_at_V).
 typedef struct StabilitySummary {
     double l_sc_certificate;   // the certificate of time stepping; at a contact node
     double l_sc;   // Re lambda > 0: oscillations grow
@@ -60,6 +64,12 @@ typedef struct StabilitySummary {
     int32_t points;
     int32_t pad_count;
     StabilityPad pads[STABILITY_PADS_MAX];   // [pad_count] by number of the contact curve
+    int32_t pad;   // the one that takes part most where slip runs away
+    double steady_contact;   // how long a contact of that pad may be, at its mean pressure and with
+        // the rest of its face free, so that no disturbance of slip on it grows, length; the pad's
+        // own length: all of it; 0: however short it is one grows; NaN: nothing runs away
+    int32_t why_count;
+    char why[STABILITY_WHY_MAX][STABILITY_WHY_SIZE];   // [why_count] sentences on the above
     int64_t path_steps;
     double seconds_before, seconds_path, seconds_growth;   // dynamic run; path; growth rates
     char folder[AMONTONS_PATH_SIZE];

@@ -101,9 +101,24 @@ static void print_pads(const StabilitySummary *summary)
         "others.\n");
 }
 
-// `none`: the path ended before.
+// Lines of at most 80 columns, from the second on indented.
+static void print_wrapped(const char *sentence)
+{
+    size_t column = 0;
+    for (const char *word = sentence; *word;) {
+        size_t length = strcspn(word, " ");
+        if (column + 1 + length > 80) column = (size_t)printf("\n   ") - 1;
+        column += (size_t)printf(" %.*s", (int)length, word);
+        word += length + strspn(word + length, " ");
+    }
+    printf("\n");
+}
+
+// The sentences, then the numbers. `none`: the path ended before.
 static void print_answers(const StabilitySummary *summary)
 {
+    printf("\n");
+    for (int32_t k = 0; k < summary->why_count; k++) print_wrapped(summary->why[k]);
     printf("\n");
     point_table_answer("l_sc/L", summary->l_sc, "an oscillation grows");
     point_table_answer("l_sc/L (certificate)", summary->l_sc_certificate,
@@ -113,12 +128,11 @@ static void print_answers(const StabilitySummary *summary)
     point_table_answer("l_c/L at V", summary->l_c_rod,
                        "a disturbance grows from V to v_c in half an oscillation");
     point_table_answer("l_c/L (scan)", summary->l_c_scan, "as l_c, pressures held fixed");
-    point_table_answer("mu at l_sc", summary->mu_sc,
-                       "oscillations grow: the block may slide from here on");
-    point_table_answer("mu at a jump", summary->mu_snap,
-                       "a node jumps: the block may slide there too");
+    point_table_answer("mu at l_sc", summary->mu_sc, "oscillations grow; at V");
+    point_table_answer("mu at a jump", summary->mu_snap, "a node jumps; at V");
     point_table_answer("mu_M, V -> 0", summary->mu_c, "mu at l_c");
-    point_table_answer("mu_M at V", summary->mu_rod, "mu at l_c at V");
+    point_table_answer("mu_M at V", summary->mu_rod,
+                       "mu at l_c at V, less what slow slip at V weakens friction");
     printf("  (the front moves from node to node, %.4f L apart)\n", summary->element);
     print_pads(summary);
     printf("  time taken             %.1f s (before the path %.1f, path %.1f, growth rates %.1f)\n",

@@ -195,6 +195,7 @@ NOT_A_CHOICE = {
         "FULL_STAGE": "the same", "REDUCTION": "the same", "STAGES": "of a run",
         "REDUCTION_BYTES": "counted", "REDUCTION_BYTES_MAX": "memory"},
     "study/stability/stability.c": {"POINTS_BEYOND": "shown"},
+    "study/stability/why.c": {"TAKES_PART": "words", "EARLIER": "words"},
 }
 
 

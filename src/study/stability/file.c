@@ -28,6 +28,11 @@ static void write_results(JsonWriter *json, const StabilitySummary *summary)
     json_number(json, "mu_M", summary->mu_rod);
     json_number(json, "U_adiabatic", summary->U_c);
     json_number(json, "U", summary->U_rod);
+    json_text(json, "pad", summary->pads[summary->pad].name);
+    json_number(json, "steady_contact", summary->steady_contact);
+    json_begin_list(json, "why");
+    for (int32_t k = 0; k < summary->why_count; k++) json_text(json, NULL, summary->why[k]);
+    json_end(json);
     json_end(json);
 }
 
@@ -43,6 +48,7 @@ static void write_points(JsonWriter *json, const StabilityPath *path)
         json_integer(json, "slipping", point->slipping);
         json_number(json, "U", point->U);
         json_number(json, "mu", point->mu);
+        json_number(json, "mu_at_V", point->mu_at_V);
         json_number(json, "rate_re", point->rate_re);
         json_number(json, "rate_im", point->rate_im);
         json_number(json, "real_rate", point->real_rate);
@@ -67,6 +73,7 @@ static void write_pads(JsonWriter *json, const StabilitySummary *summary)
         json_number(json, "mode", pad->mode);
         json_number(json, "load", pad->load);
         json_number(json, "l_c_over_length", pad->l_c / pad->length);
+        json_number(json, "mu_fall", pad->mu_fall);
         json_number(json, "drag", pad->drag);
         json_number(json, "stiffness", pad->stiffness);
         json_end(json);

@@ -9,6 +9,13 @@
 //     load(J)    largest weakening over the resistance S(s) = s M + C + K/s of J, over s
 //                (stepping/growth, growth_scan); it rises with J, and l_c is where it reaches 1
 //
+// Shorter contacts resist more. Of the pad that takes part most, a part in the middle alone is put
+// in contact, the rest of its face free; the longest part at which no disturbance grows
+// (stepping/growth, growth_rates, at its mean pressure) is the steady contact.
+//
+// A pad that slides alone lets its shear fall to mu_K p. With S_K its tangents then move by
+// S_K[T,T]^-1 (shear - mu_K p w), and the rod's force falls by what S_K hands on to it: mu_fall.
+//
 // Drag is what a geometry has of viscosity against slip: eta1/2 over H for a layer of height H that
 // shears, about eta over the length for a short pad on a large block. Weakening over drag,
 // (mu_S - mu_K) p / (v_c drag), decides where slip begins to oscillate; elasticity and inertia
@@ -28,6 +35,8 @@ typedef struct PadWork {
     State trial;   // slips on J only
     int32_t *nodes;   // [contact_count] of the pad, ascending x
     int32_t count;
+    double pressure;   // mean of the pad's, stress
+    int32_t *pivots;   // [contact_count]
     double *matrix, *values, *work;   // [contact_count^2], [contact_count], dense_eigen_work
 } PadWork;
 
@@ -42,6 +51,7 @@ static bool work_create(StabilityPath *path, PadWork *work, Error *err)
     if (!work->stiffness) goto cleanup;
     TRY(state_create(&model->system, work->interface, &work->trial, err));
     work->nodes = NEW_ARRAY(int32_t, count, err);
+    work->pivots = NEW_ARRAY(int32_t, count, err);
     work->matrix = NEW_ARRAY(double, count *count, err);
     work->values = NEW_ARRAY(double, count, err);
     work->work = NEW_ARRAY(double, dense_eigen_work((int32_t)count), err);
@@ -55,6 +65,7 @@ static void work_destroy(PadWork *work)
     interface_operator_destroy(work->stiffness);
     state_destroy(&work->trial);
     memory_free(work->nodes);
+    memory_free(work->pivots);
     memory_free(work->matrix);
     memory_free(work->values);
     memory_free(work->work);
@@ -86,13 +97,20 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The load when the first `slipping` nodes of the pad slip forward, slowly, and all else is held.
-static double load_of(PadWork *work, int32_t slipping)
+// The trial state: the one in which slip runs away, but nothing moves.
+static void hold_all(PadWork *work)
 {
     State *trial = &work->trial;
     state_copy(&work->path->runaway, trial);
     for (int32_t i = 0; i < trial->contact_count; i++) trial->status[i] = CONTACT_STICK;
     for (int32_t j = 0; j < trial->rod_count; j++) trial->rod_touches[j] = 1;
+}
+
+// The load when the first `slipping` nodes of the pad slip forward, slowly, and all else is held.
+static double load_of(PadWork *work, int32_t slipping)
+{
+    State *trial = &work->trial;
+    hold_all(work);
     for (int32_t a = 0; a < slipping; a++) {
         int32_t i = work->nodes[a];
         trial->status[i] = CONTACT_SLIP_FORWARD;
@@ -124,6 +142,79 @@ static double critical_length(PadWork *work)
     return length + part * work->interface->weight[work->nodes[holds]];
 }
 
+// The fastest growth, Re lambda, when `touching` nodes in the middle of the pad are all of it that
+// is in contact, at the pad's mean pressure, its others free and the other pads held. A contact
+// ends at its outer nodes: half a weight.
+static bool growth_of_contact(PadWork *work, int32_t touching, double *rate, Error *err)
+{
+    State *trial = &work->trial;
+    int32_t first = (work->count - touching) / 2, last = first + touching - 1;
+    GrowthRates rates;
+    hold_all(work);
+    for (int32_t a = 0; a < work->count; a++) {
+        int32_t i = work->nodes[a];
+        bool inside = a >= first && a <= last, end = a == first || a == last;
+        trial->status[i] = inside ? CONTACT_SLIP_FORWARD : CONTACT_OPEN;
+        trial->slip_rate[interface_tangent(i)] = 0;
+        trial->reaction[interface_normal(i)] = work->pressure * work->interface->weight[i] *
+                                               (end ? 0.5 : 1);
+    }
+    TRY(growth_rates(work->path->growth, trial, &rates, err));
+    *rate = rates.count > 0 ? rates.rate[0].re : -INFINITY;
+cleanup:
+    return error_is_clean(err);
+}
+
+// The longest contact at which nothing grows, length; 0: none, as where the block then rocks.
+// Linear in Re lambda between the last number of elements that is steady and the next.
+static bool steady_contact(PadWork *work, double length, double *contact, Error *err)
+{
+    int32_t holds = 1, fails = work->count;
+    double below = -INFINITY, above = 0;
+    *contact = length;
+    TRY(growth_of_contact(work, fails, &above, err));
+    if (!(above > 0)) goto cleanup;
+    while (fails - holds > 1) {
+        int32_t middle = (holds + fails) / 2;
+        double rate = 0;
+        TRY(growth_of_contact(work, middle, &rate, err));
+        *(rate > 0 ? &fails : &holds) = middle;
+        *(rate > 0 ? &above : &below) = rate;
+    }
+    double part = isfinite(below) ? below / (below - above) : 0;
+    *contact = length * (holds - 1 + part) / fmax(work->count - 1, 1);
+cleanup:
+    return error_is_clean(err);
+}
+
+// How far mu falls when the shear of all of the pad falls to mu_K p and everything else holds.
+static double fall_of_mu(PadWork *work)
+{
+    const StabilityPath *path = work->path;
+    const Interface *interface = work->interface;
+    const FrictionLaw *law = &path->model->law;
+    const double *schur = interface_operator_schur(work->stiffness);
+    int64_t size = interface->count;
+    double kinetic = law->mu_static - friction_drop(law), fall = 0, load = 0;
+    for (int32_t a = 0; a < work->count; a++) {
+        int32_t i = work->nodes[a];
+        work->values[a] = fabs(path->runaway.reaction[interface_tangent(i)]) -
+                          kinetic * path->runaway.reaction[interface_normal(i)];
+        for (int32_t b = 0; b < work->count; b++)
+            work->matrix[(int64_t)work->count * b + a] =
+                schur[size * interface_tangent(work->nodes[b]) + interface_tangent(i)];
+    }
+    if (!dense_lu(work->matrix, work->count, work->pivots)) return NAN;   // it floats
+    dense_lu_solve(work->matrix, work->count, work->pivots, work->values);
+    for (int32_t a = 0; a < work->count; a++)
+        for (int32_t j = 0; j < interface->rod_count; j++)
+            fall -= schur[size * interface_tangent(work->nodes[a]) + interface_rod(interface, j)] *
+                    work->values[a];
+    for (int32_t i = 0; i < interface->contact_count; i++)
+        load += path->runaway.reaction[interface_normal(i)];
+    return fall / load;
+}
+
 // Loads, lengths and the mode's share; a mean over the nodes by their weights.
 static void sum_pad(const PadWork *work, StabilityPad *pad)
 {
@@ -144,13 +235,20 @@ static void sum_pad(const PadWork *work, StabilityPad *pad)
     pad->mode /= pad->length;
 }
 
-// All of one pad, p; nodes of the others stay out. ERROR_COMPUTE: no eigenvalue was found.
-static bool measure_pad(PadWork *work, int32_t p, StabilityPad *pad, Error *err)
+// The work is on pad p from here on.
+static void take_pad(PadWork *work, int32_t p)
 {
     const Interface *interface = work->interface;
     work->count = 0;
     for (int32_t i = 0; i < interface->contact_count; i++)
         if (interface->pad[i] == p) work->nodes[work->count++] = i;
+}
+
+// All of one pad, p; nodes of the others stay out. ERROR_COMPUTE: no eigenvalue was found.
+static bool measure_pad(PadWork *work, int32_t p, StabilityPad *pad, Error *err)
+{
+    const Interface *interface = work->interface;
+    take_pad(work, p);
     *pad = (StabilityPad){0};
     snprintf(pad->name, sizeof pad->name, "%s", interface->pad_name[p]);
     sum_pad(work, pad);
@@ -158,6 +256,7 @@ static bool measure_pad(PadWork *work, int32_t p, StabilityPad *pad, Error *err)
     TRY(softest_slip(work, work->stiffness, &pad->stiffness, err));
     pad->load = load_of(work, work->count);
     pad->l_c = critical_length(work);
+    pad->mu_fall = fall_of_mu(work);
 cleanup:
     return error_is_clean(err);
 }
@@ -167,17 +266,26 @@ bool stability_measure_pads(StabilityPath *path, StabilitySummary *summary, Erro
     const Interface *interface = &path->model->interface;
     PadWork work = {0};
     double most = 0;
-    if (path->at_rod < 0) {   // it slides because all of it slips, nothing grows before
+    path->grows = path->at_rod >= 0;
+    if (!path->grows) {   // it slides because all of it slips, nothing grows before
         path->at_rod = path->count - 1;
         state_copy(&path->last, &path->runaway);
     }
+    summary->steady_contact = NAN;
     TRY(work_create(path, &work, err));
     for (int32_t p = 0; p < interface->pad_count && p < STABILITY_PADS_MAX; p++) {
         TRY(measure_pad(&work, p, &summary->pads[p], err));
+        if (summary->pads[p].mode > most) summary->pad = p;
         most = fmax(most, summary->pads[p].mode);
         summary->pad_count = p + 1;
     }
     for (int32_t p = 0; p < summary->pad_count && most > 0; p++) summary->pads[p].mode /= most;
+    if (path->grows && !path->options->at_end) {
+        take_pad(&work, summary->pad);
+        work.pressure = summary->pads[summary->pad].pressure;
+        double length = summary->pads[summary->pad].length;
+        TRY(steady_contact(&work, length, &summary->steady_contact, err));
+    }
 cleanup:
     work_destroy(&work);
     return error_is_clean(err);

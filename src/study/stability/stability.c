@@ -141,22 +141,30 @@ static int32_t count_slipping(const State *state)
     return count;
 }
 
-// Half a period's growth against v_c/V: pi Re/Im - ln(v_c/V). From 0 on a disturbance of the rod's
-// size comes to v_c, where friction no longer weakens, before its oscillation turns it back: slip
-// then runs away although the pair is still complex.
-static double half_period(const StabilityPath *path, int32_t k)
+// F_T/F_N at the scene's V, of a state of the path, whose mu is for V -> 0. Slip at a rate v meets
+// mu(v), as if mu_S were smaller; the path gives v over that of the rod. What the load has gained
+// since slip set out goes with mu_S - mu_K, so it is smaller by the same part, a mean over the
+// pressure behind the front. (Without it the path's mu was 0.1 to 2 % above that of runs.)
+static double mu_at_V(const StabilityPath *path, const State *state, double mu)
 {
-    const StabilityPoint *point = &path->points[k];
-    double ratio = path->model->law.critical_velocity / path->model->scene->rod.velocity;
-    if (!(point->rate_re > 0)) return -INFINITY;
-    if (!(point->rate_im > 0)) return INFINITY;
-    return M_PI * point->rate_re / point->rate_im - log(ratio);
+    const FrictionLaw *law = &path->model->law;
+    double start = path->count > 0 ? path->points[0].mu : mu, lost = 0, pressed = 0;
+    if (path->options->at_end || !(friction_drop(law) > 0)) return mu;
+    double speed = path->model->scene->rod.velocity / path->rod.velocity;
+    for (int32_t i = 0; i < state->contact_count; i++) {
+        double pressure = state->reaction[interface_normal(i)];
+        if (!status_slips(state->status[i])) continue;
+        double rate = speed * fabs(state->slip_rate[interface_tangent(i)]);
+        lost += pressure * (law->mu_static - friction_coefficient(law, rate));
+        pressed += pressure;
+    }
+    return pressed > 0 ? mu - (mu - start) * lost / (pressed * friction_drop(law)) : mu;
 }
 
-// At the scene's V: by the above, or for certain because a real rate has been found.
+// At the scene's V: by half a period's growth, or for certain: a real rate has been found.
 static bool runs_away(const StabilityPath *path, int32_t k)
 {
-    return path->critical >= 0 || half_period(path, k) >= 0;
+    return path->critical >= 0 || stability_half_period(path, k) >= 0;
 }
 
 // One more point: the growth rates of `last`, as it was seen. Keeps the shape of the fastest mode,
@@ -173,6 +181,7 @@ static bool add_point(StabilityPath *path, const Observation *seen, Error *err)
                          .slipping = count_slipping(&path->last),
                          .U = path->U_start + seen->U,
                          .mu = seen->mu,
+                         .mu_at_V = mu_at_V(path, &path->last, seen->mu),
                          .rate_re = rates.count > 0 ? rates.rate[0].re : NAN,
                          .rate_im = rates.count > 0 ? rates.rate[0].im : NAN,
                          .real_rate = rates.real.re,
@@ -217,6 +226,17 @@ cleanup:
     return error_is_clean(err);
 }
 
+// A node has jumped in the newest step, from `last` on.
+static void note_snap(StabilityPath *path, double mu)
+{
+    const State *now = &path->control.now;
+    path->mu_snap = mu_at_V(path, &path->last, mu);
+    for (int32_t i = 0; i < now->contact_count; i++)
+        if (fabs(now->slip_rate[interface_tangent(i)]) >
+            fabs(now->slip_rate[interface_tangent(path->snap_node)]))
+            path->snap_node = i;
+}
+
 // Steps until the front has reached the end (whose own state is the last point), or is some
 // positions beyond l_c. A node that goes SNAP times as far in one step as the rod has jumped: where
 // a pad rests on its leading edge, slow slip has no state to go on to once the edge reaches mu_S.
@@ -234,7 +254,7 @@ static bool follow_path(StabilityPath *path, Error *err)
         Observation seen = observe(&path->control, &path->model->scales);
         int32_t slipping = count_slipping(&path->control.now);
         bool snaps = seen.max_slip_rate > SNAP * path->rod.velocity;
-        if (snaps && step > 0 && isnan(path->mu_snap)) path->mu_snap = before.mu;
+        if (snaps && step > 0 && isnan(path->mu_snap)) note_snap(path, before.mu);
         if (step > 0 && slipping > most) TRY(add_point(path, &before, err));
         if (slipping > most) most = slipping;
         before = seen;
@@ -249,129 +269,6 @@ static bool follow_path(StabilityPath *path, Error *err)
 cleanup:
     if (!error_is_clean(err)) error_context(err, "on the quasi-static path");
     return error_is_clean(err);
-}
-
-// --- where something is lost --------------------------------------------------------------------
-
-// A measure of a point that is below 0 where it is stable and reaches 0 where that is lost. Between
-// two points of which the second has one more slipping node, it is taken as linear in l.
-typedef double (*Margin)(const StabilityPath *path, int32_t k);
-
-// Point k slips at one node more than the one before, and that is the next one along the front
-// (where two slipping parts meet, the front jumps).
-static bool is_next(const StabilityPath *path, int32_t k)
-{
-    const StabilityPoint *point = &path->points[k];
-    const Interface *interface = &path->model->interface;
-    int32_t passed = 0;
-    for (int32_t i = 0; i < interface->contact_count; i++)
-        passed += interface->x[i] > point[-1].front && interface->x[i] <= point->front;
-    return point->slipping == point[-1].slipping + 1 && passed == 1;
-}
-
-// The certificate is yes or no: lost at the point itself.
-static double certificate_margin(const StabilityPath *path, int32_t k)
-{
-    return path->points[k].certified ? -INFINITY : 0;
-}
-
-// Of the oscillating pair: the overdamped rates, which stay near -E/eta, say nothing about it.
-static double real_part(const StabilityPath *path, int32_t k)
-{
-    const StabilityPoint *point = &path->points[k];
-    return point->rate_im > 0 || point->rate_re > 0 ? point->rate_re : -INFINITY;
-}
-
-// Weakening over the resistance of M, C and K at the worst s, less 1 (growth_scan; pressure kept).
-static double overload(const StabilityPath *path, int32_t k)
-{
-    return path->points[k].load - 1;
-}
-
-// Near the birth of the real pair (Im lambda)^2 is linear through 0; the first point of the
-// real pair has none, and is replaced by the extrapolation of the two before it.
-static double frequency_square(const StabilityPath *path, int32_t k)
-{
-    const StabilityPoint *point = &path->points[k];
-    if (!(point->rate_re > 0)) return -INFINITY;
-    if (point->rate_im > 0) return -point->rate_im * point->rate_im;
-    if (k < 2 || !(point[-1].rate_im > 0) || !(point[-2].rate_re > 0) || !is_next(path, k) ||
-        !is_next(path, k - 1))
-        return 0;
-    double square = point[-1].rate_im * point[-1].rate_im;
-    double fall = (point[-2].rate_im * point[-2].rate_im - square) /
-                  (point[-1].front - point[-2].front);
-    return fmax(fall * (point->front - point[-1].front) - square, 0);
-}
-
-// Where the margin is lost first: l, U and mu there. Where the margin jumps, the set of slipping
-// nodes that has lost it slips ever since its last node began to: since the point before, whose U
-// and mu are taken (its own are those at which one more node is about to slip: in set B 4 % more).
-static StabilityPoint first_loss(const StabilityPath *path, Margin margin)
-{
-    StabilityPoint lost = {.front = NAN, .U = NAN, .mu = NAN, .rate_im = NAN};
-    int32_t count = path->options->at_end ? 0 : path->count;   // one state has no path
-    for (int32_t k = 0; k < count; k++) {
-        double after = margin(path, k), before = k > 0 ? margin(path, k - 1) : 0;
-        if (!(after >= 0)) continue;
-        lost = path->points[k];
-        if (k == 0) break;
-        const StabilityPoint *last = &path->points[k - 1];
-        if (!isfinite(before) || before >= 0 || !is_next(path, k)) {
-            lost.U = last->U;
-            lost.mu = last->mu;
-            break;
-        }
-        double part = isfinite(after) ? before / (before - after) : 1;
-        lost.front = last->front + part * (lost.front - last->front);
-        lost.U = last->U + part * (lost.U - last->U);
-        lost.mu = last->mu + part * (lost.mu - last->mu);
-        break;
-    }
-    return lost;
-}
-
-// The same, or the end of the block: there it slides, whether or not anything grows, at the largest
-// mu of the path (that of the end itself is what is left while it slides).
-static StabilityPoint first_sliding(const StabilityPath *path, Margin margin)
-{
-    StabilityPoint lost = first_loss(path, margin);
-    if (!isnan(lost.front) || !path->at_end) return lost;
-    lost = path->points[path->count - 1];
-    for (int32_t k = 0; k < path->count - 1; k++) {
-        if (path->points[k].mu < lost.mu) continue;
-        lost.mu = path->points[k].mu;
-        lost.U = path->points[k].U;
-    }
-    return lost;
-}
-
-// l_sc, l_c and mu there. At the scene's V slip cannot run away later than for V -> 0.
-static void summarise(const StabilityPath *path, StabilitySummary *summary)
-{
-    const Interface *interface = &path->model->interface;
-    double length = path->model->length;
-    StabilityPoint oscillates = first_loss(path, real_part);
-    StabilityPoint slides = first_sliding(path, frequency_square);
-    StabilityPoint rod = first_sliding(path, half_period);
-    if (slides.front < rod.front) rod = slides;
-    *summary =
-        (StabilitySummary){.l_sc_certificate = first_loss(path, certificate_margin).front / length,
-                           .l_sc = oscillates.front / length,
-                           .l_c_scan = first_loss(path, overload).front / length,
-                           .l_c = slides.front / length,
-                           .l_c_rod = rod.front / length,
-                           .mu_sc = oscillates.mu,
-                           .mu_snap = path->mu_snap,
-                           .mu_c = slides.mu,
-                           .mu_rod = rod.mu,
-                           .U_c = slides.U,
-                           .U_rod = rod.U,
-                           .frequency = oscillates.rate_im,
-                           .element = 1.0 / fmax(interface->contact_count - 1, 1),
-                           .points = path->count,
-                           .path_steps = path->control.counters.accepted,
-                           .seconds_growth = path->seconds_growth};
 }
 
 // Zeroed and half-built paths too.
@@ -410,8 +307,9 @@ bool amontons_stability(const Scene *scene, const StabilityOptions *options,
         TRY(open_path(&path, err));
         TRY(follow_path(&path, err));
     }
-    summarise(&path, summary);
+    stability_summarise(&path, summary);
     TRY(stability_measure_pads(&path, summary, err));
+    stability_explain(&path, summary);
     summary->seconds_before = before - started;
     summary->seconds_path = clock_seconds() - before - path.seconds_growth;
     TRY(result_folder_clear(&folder, err));

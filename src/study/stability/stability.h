@@ -28,14 +28,25 @@ typedef struct StabilityPath {
     bool at_end;   // the front has crossed the block
     int32_t critical;   // point where l_c was found; -1: not yet
     int32_t at_rod;   // point where slip first runs away at the scene's V; -1: not yet
-    State runaway;   // the state of that point; owned
-    double mu_snap;   // before the first step in which a node jumped; NaN: none did
+    State runaway;   // the state of that point, the last one where none is; owned
+    bool grows;   // it was found
+    double mu_snap;   // at V, before the first step in which a node jumped; NaN: none did
+    int32_t snap_node;   // that node
     double seconds_growth;
 } StabilityPath;
+
+// pi Re/Im - ln(v_c/V) of point k: from 0 on slip runs away at the scene's V.
+double stability_half_period(const StabilityPath *path, int32_t k);
+
+// l_sc, l_c and the rest that the points tell, as a new summary (loss.c).
+void stability_summarise(const StabilityPath *path, StabilitySummary *summary);
 
 // The resistance of each pad in path->runaway, and how much it takes part in the mode of point
 // at_rod (pad_growth.c). ERROR_COMPUTE: a small eigenproblem was not solved.
 bool stability_measure_pads(StabilityPath *path, StabilitySummary *summary, Error *err);
+
+// Sentences on what decides, and on what a run may do otherwise, into summary->why (why.c).
+void stability_explain(const StabilityPath *path, StabilitySummary *summary);
 
 // stability.json and stability.h5 in the options' folder.
 bool stability_write(const StabilityPath *path, const StabilitySummary *summary, Error *err);

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Where on the path stability is lost first: l, U and mu of each way to lose it, into the summary.
+#include "study/stability/stability.h"
+
+#include <math.h>
+
+// Half a period's growth against v_c/V: pi Re/Im - ln(v_c/V). From 0 on a disturbance of the rod's
+// size comes to v_c, where friction no longer weakens, before its oscillation turns it back: slip
+// then runs away although the pair is still complex.
+double stability_half_period(const StabilityPath *path, int32_t k)
+{
+    const StabilityPoint *point = &path->points[k];
+    double ratio = path->model->law.critical_velocity / path->model->scene->rod.velocity;
+    if (!(point->rate_re > 0)) return -INFINITY;
+    if (!(point->rate_im > 0)) return INFINITY;
+    return M_PI * point->rate_re / point->rate_im - log(ratio);
+}
+
+// A measure of a point that is below 0 where it is stable and reaches 0 where that is lost. Between
+// two points of which the second has one more slipping node, it is taken as linear in l.
+typedef double (*Margin)(const StabilityPath *path, int32_t k);
+
+// Point k slips at one node more than the one before, and that is the next one along the front
+// (where two slipping parts meet, the front jumps).
+static bool is_next(const StabilityPath *path, int32_t k)
+{
+    const StabilityPoint *point = &path->points[k];
+    const Interface *interface = &path->model->interface;
+    int32_t passed = 0;
+    for (int32_t i = 0; i < interface->contact_count; i++)
+        passed += interface->x[i] > point[-1].front && interface->x[i] <= point->front;
+    return point->slipping == point[-1].slipping + 1 && passed == 1;
+}
+
+// The certificate is yes or no: lost at the point itself.
+static double certificate_margin(const StabilityPath *path, int32_t k)
+{
+    return path->points[k].certified ? -INFINITY : 0;
+}
+
+// Of the oscillating pair: the overdamped rates, which stay near -E/eta, say nothing about it.
+static double real_part(const StabilityPath *path, int32_t k)
+{
+    const StabilityPoint *point = &path->points[k];
+    return point->rate_im > 0 || point->rate_re > 0 ? point->rate_re : -INFINITY;
+}
+
+// Weakening over the resistance of M, C and K at the worst s, less 1 (growth_scan; pressure kept).
+static double overload(const StabilityPath *path, int32_t k)
+{
+    return path->points[k].load - 1;
+}
+
+// Near the birth of the real pair (Im lambda)^2 is linear through 0; the first point of the
+// real pair has none, and is replaced by the extrapolation of the two before it.
+static double frequency_square(const StabilityPath *path, int32_t k)
+{
+    const StabilityPoint *point = &path->points[k];
+    if (!(point->rate_re > 0)) return -INFINITY;
+    if (point->rate_im > 0) return -point->rate_im * point->rate_im;
+    if (k < 2 || !(point[-1].rate_im > 0) || !(point[-2].rate_re > 0) || !is_next(path, k) ||
+        !is_next(path, k - 1))
+        return 0;
+    double square = point[-1].rate_im * point[-1].rate_im;
+    double fall = (point[-2].rate_im * point[-2].rate_im - square) /
+                  (point[-1].front - point[-2].front);
+    return fmax(fall * (point->front - point[-1].front) - square, 0);
+}
+
+// Where the margin is lost first: l, U and mu there. Where the margin jumps, the set of slipping
+// nodes that has lost it slips ever since its last node began to: since the point before, whose U
+// and mu are taken (its own are those at which one more node is about to slip: in set B 4 % more).
+static StabilityPoint first_loss(const StabilityPath *path, Margin margin)
+{
+    StabilityPoint lost = {.front = NAN, .U = NAN, .mu = NAN, .mu_at_V = NAN, .rate_im = NAN};
+    int32_t count = path->options->at_end ? 0 : path->count;   // one state has no path
+    for (int32_t k = 0; k < count; k++) {
+        double after = margin(path, k), before = k > 0 ? margin(path, k - 1) : 0;
+        if (!(after >= 0)) continue;
+        lost = path->points[k];
+        if (k == 0) break;
+        const StabilityPoint *last = &path->points[k - 1];
+        if (!isfinite(before) || before >= 0 || !is_next(path, k)) {
+            lost.U = last->U;
+            lost.mu = last->mu;
+            lost.mu_at_V = last->mu_at_V;
+            break;
+        }
+        double part = isfinite(after) ? before / (before - after) : 1;
+        lost.front = last->front + part * (lost.front - last->front);
+        lost.U = last->U + part * (lost.U - last->U);
+        lost.mu = last->mu + part * (lost.mu - last->mu);
+        lost.mu_at_V = last->mu_at_V + part * (lost.mu_at_V - last->mu_at_V);
+        break;
+    }
+    return lost;
+}
+
+// The same, or the end of the block: there it slides, whether or not anything grows, at the largest
+// mu of the path (that of the end itself is what is left while it slides).
+static StabilityPoint first_sliding(const StabilityPath *path, Margin margin)
+{
+    StabilityPoint lost = first_loss(path, margin);
+    if (!isnan(lost.front) || !path->at_end) return lost;
+    lost = path->points[path->count - 1];
+    for (int32_t k = 0; k < path->count - 1; k++) {
+        if (path->points[k].mu < lost.mu) continue;
+        lost.mu = path->points[k].mu;
+        lost.mu_at_V = path->points[k].mu_at_V;
+        lost.U = path->points[k].U;
+    }
+    return lost;
+}
+
+// l_sc, l_c and mu there. At the scene's V slip cannot run away later than for V -> 0.
+void stability_summarise(const StabilityPath *path, StabilitySummary *summary)
+{
+    const Interface *interface = &path->model->interface;
+    double length = path->model->length;
+    StabilityPoint oscillates = first_loss(path, real_part);
+    StabilityPoint slides = first_sliding(path, frequency_square);
+    StabilityPoint rod = first_sliding(path, stability_half_period);
+    if (slides.front < rod.front) rod = slides;
+    *summary =
+        (StabilitySummary){.l_sc_certificate = first_loss(path, certificate_margin).front / length,
+                           .l_sc = oscillates.front / length,
+                           .l_c_scan = first_loss(path, overload).front / length,
+                           .l_c = slides.front / length,
+                           .l_c_rod = rod.front / length,
+                           .mu_sc = oscillates.mu_at_V,
+                           .mu_snap = path->mu_snap,
+                           .mu_c = slides.mu,
+                           .mu_rod = rod.mu_at_V,
+                           .U_c = slides.U,
+                           .U_rod = rod.U,
+                           .frequency = oscillates.rate_im,
+                           .element = 1.0 / fmax(interface->contact_count - 1, 1),
+                           .points = path->count,
+                           .path_steps = path->control.counters.accepted,
+                           .seconds_growth = path->seconds_growth};
+}

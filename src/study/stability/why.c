@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What the numbers of a path say, in sentences: which pad decides and at which mu, whether it does
+// so alone, what would hold it, and why a run of the same scene may differ.
+#include "study/stability/stability.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+static const double TAKES_PART = 0.1;   // in the mode, over the pad that does most
+static const double EARLIER = 1e-3;   // mu, relative: less is the same moment
+
+__attribute__((format(printf, 2, 3))) static void say(StabilitySummary *summary, const char *format,
+                                                      ...)
+{
+    if (summary->why_count == STABILITY_WHY_MAX) return;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(summary->why[summary->why_count++], STABILITY_WHY_SIZE, format, arguments);
+    va_end(arguments);
+}
+
+// "contact_2", or "the contact" where there is one.
+static const char *name_of(const StabilitySummary *summary, int32_t pad)
+{
+    return summary->pad_count > 1 ? summary->pads[pad].name : "the contact";
+}
+
+// Names of all that take part in the mode but the one that decides: "contact_1, contact_3".
+static void name_others(const StabilitySummary *summary, char *names, size_t size)
+{
+    size_t used = 0;
+    *names = 0;
+    for (int32_t p = 0; p < summary->pad_count && used < size; p++) {
+        if (p == summary->pad || summary->pads[p].mode < TAKES_PART) continue;
+        used += (size_t)snprintf(names + used, size - used, "%s%s", used > 0 ? ", " : "",
+                                 summary->pads[p].name);
+    }
+}
+
+static void say_what_decides(StabilitySummary *summary)
+{
+    const StabilityPad *pad = &summary->pads[summary->pad];
+    double slips = pad->slipping / pad->length;
+    if (summary->pad_count == 1)
+        say(summary, "Slip runs away when its front has come to %.3f L, at mu %.4f.",
+            summary->l_c_rod, summary->mu_rod);
+    else if (slips > 1 - 1e-9)
+        say(summary, "Slip runs away once all of %s slips, at mu %.4f.",
+            name_of(summary, summary->pad), summary->mu_rod);
+    else
+        say(summary, "Slip runs away on %s when %.2f of it slips, at mu %.4f.",
+            name_of(summary, summary->pad), slips, summary->mu_rod);
+}
+
+// Of a pad that runs away by itself: the contact on which it would not.
+static void say_what_would_hold(StabilitySummary *summary)
+{
+    const StabilityPad *pad = &summary->pads[summary->pad];
+    double steady = summary->steady_contact;
+    if (steady >= pad->length)
+        say(summary,
+            "With its load spread evenly, slip on this pad would be steady: a part of it carries "
+            "more than its mean pressure of %.3g.",
+            pad->pressure);
+    else if (steady > 0)
+        say(summary,
+            "A contact shorter than %.2g (%.2f of this pad) at the same mean pressure, %.3g, would "
+            "not run away: nothing grows on it.",
+            steady, steady / pad->length, pad->pressure);
+}
+
+static void say_whether_alone(StabilitySummary *summary)
+{
+    const StabilityPad *pad = &summary->pads[summary->pad];
+    char others[160];
+    name_others(summary, others, sizeof others);
+    if (pad->load >= 1)
+        say_what_would_hold(summary);
+    else if (*others)
+        say(summary,
+            "It cannot run away alone (weakening is %.2f of what it resists): slip of %s takes "
+            "part.",
+            pad->load, others);
+    else
+        say(summary,
+            "With pressures held weakening would be only %.2f of what it resists: it runs away as "
+            "slip takes pressure off it.",
+            pad->load);
+}
+
+// What a run may show before: oscillations, and jumps.
+static void say_what_comes_before(const StabilityPath *path, StabilitySummary *summary)
+{
+    const Interface *interface = &path->model->interface;
+    double same = summary->mu_rod * (1 - EARLIER);
+    if (summary->mu_sc < same)
+        say(summary,
+            "From mu %.4f on (l_sc) oscillations grow, at first too slowly for this V: precursors "
+            "may "
+            "come in bursts, and a run may slide somewhat earlier.",
+            summary->mu_sc);
+    if (summary->mu_snap < summary->mu_rod * (1 + EARLIER)) {
+        int32_t pad = interface->pad[path->snap_node];
+        say(summary,
+            "At mu %.4f a node of %s, at x = %.4g, reaches mu_S and jumps, whatever grows: a run "
+            "may "
+            "slide there.",
+            summary->mu_snap, name_of(summary, pad), interface->x[path->snap_node]);
+    }
+}
+
+// A pad that slides alone need not be a drop of the load, and no sliding of the block.
+static void say_what_follows(StabilitySummary *summary)
+{
+    double fall = summary->pads[summary->pad].mu_fall;
+    bool alone = summary->pad_count > 1 && summary->pads[summary->pad].load >= 1;
+    if (!alone || !(fall < LEAST_DROP * summary->mu_rod)) return;
+    say(summary,
+        "If the other pads hold, mu falls by %.1f %% at most, less than the %.0f %% of a load "
+        "drop: "
+        "then the load rises on, and mu_M and mu_hold of a run are higher than this mu.",
+        100 * fall / summary->mu_rod, 100 * LEAST_DROP);
+}
+
+void stability_explain(const StabilityPath *path, StabilitySummary *summary)
+{
+    if (path->options->at_end) return;
+    if (!path->grows && path->at_end)
+        say(summary,
+            "Nothing runs away before all of the contact slips: it then slides, at mu %.4f.",
+            summary->mu_rod);
+    else if (!path->grows)
+        say(summary, "The path ended before anything ran away.");
+    else
+        say_what_decides(summary);
+    if (path->grows) say_whether_alone(summary);
+    say_what_comes_before(path, summary);
+    if (path->grows) say_what_follows(summary);
+    if (summary->l_c_scan < summary->l_sc - summary->element)
+        say(summary, "l_c (scan) is shorter than l_sc as it leaves out that slip shifts pressure, "
+                     "which here "
+                     "steadies it.");
+}
