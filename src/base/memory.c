@@ -6,6 +6,7 @@
 // nothing of their length: who has one keeps it.
 #include "base/memory.h"
 
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,7 +23,7 @@ static _Atomic(MemoryTallyFunction) tally_function = tally_of_thread;
 
 static MemoryTally *tally_now(void)
 {
-    return tally_function();
+    return atomic_load_explicit(&tally_function, memory_order_relaxed)();
 }
 
 // Counts down to the failure that a test asked for, and stays at 0 from then on: what fails once
@@ -124,11 +125,11 @@ void memory_fail_after(int64_t allocations)
 
 MemoryTallyFunction memory_tally(void)
 {
-    return tally_function;
+    return atomic_load_explicit(&tally_function, memory_order_relaxed);
 }
 
 // Exported by modules, by this name: base/module calls it when it has opened one.
 void amontons_module_tally(MemoryTallyFunction tally)
 {
-    tally_function = tally;
+    atomic_store_explicit(&tally_function, tally, memory_order_relaxed);
 }
