@@ -104,6 +104,7 @@ bool shape_key(const Scene *scene, double tolerance, char key[HASH_TEXT_SIZE], E
     hash_number(&hash, scene->material.plane);
     hash_number(&hash, scene->material.eta2 / eta);
     hash_number(&hash, tolerance);
+    hash_number(&hash, scene->reduction.use);   // or auto would take what always alone makes
     if (whole) hash_write(&hash, key);
 cleanup:
     return error_is_clean(err);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The interface and sizes of a shape as a scene describes it (mesh file and its parameters, groups,
-// rod strip, Poisson's ratio, eta2/eta1, the pattern of the loads, tolerance), kept on disk
+// rod strip, Poisson's ratio, eta2/eta1, the pattern of the loads, reduction), kept on disk
 // together with the name of its basis (model/basis_cache): the second run needs neither gmsh nor a
 // factorisation. Pressure, velocities, density, friction law and units of stress are not in the
 // key. Called by model/obtain.

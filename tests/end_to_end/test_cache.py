@@ -132,6 +132,16 @@ class SameBits(Cached):
             self.assertFalse(self.model(*PLAIN, setting)["from_cache"], setting)
             self.assertEqual(self.files(), [], setting)
 
+    def test_what_another_run_left_does_not_decide(self):
+        """Where reducing does not pay `auto` does not take a basis that `always` has made."""
+        wide = [*PLAIN, "mesh.set.nx=40", "time.until.U=1e-4"]
+        none, _ = self.run_scene(*wide, cache="")
+        _, made = self.run_scene(*wide, "reduction.use=always")
+        cached, report = self.run_scene(*wide)
+        self.assertFalse(report["model"]["from_cache"])
+        self.assertNotEqual(report["model"]["reduced_dofs"], made["model"]["reduced_dofs"])
+        self.assert_same_history(none, cached)
+
     def test_moving_start(self):
         """It moves the interface, which the cache has: no mesh, and the same bits."""
         moves = [*PLAIN, "start.velocity_x=1e-5"]

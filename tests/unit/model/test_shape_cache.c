@@ -107,6 +107,7 @@ static void test_what_changes_the_key(void **state)
         {6, "rod: {velocity: 1e-4, height: 0.2, width: 0.05}"},
         {6, "rod: {velocity: 1e-4, height: 0.2}"},
         {6, "rod: {kind: none}"},
+        {LINES, "reduction: {use: always}"},
     };
     enum { COUNT = sizeof changes / sizeof *changes };
     write_text("other.geo", "Point(1) = {0, 0, 1};\n");
