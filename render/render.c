@@ -3,6 +3,7 @@
 #include "render/render.h"
 
 #include "base/memory.h"
+#include "io/folder.h"
 #include "render/context.h"
 #include "render/figures.h"
 #include "render/png_file.h"
@@ -113,15 +114,13 @@ cleanup:
     return error_is_clean(err);
 }
 
-// result/figures; fine when it is there.
-static bool folder_make(const char *result, Error *err)
+static bool make_figures_folder(const char *result, Error *err)
 {
     char folder[PATH_MAX];
     int length = snprintf(folder, sizeof folder, "%s/figures", result);
     if (length < 0 || length >= (int)sizeof folder)
         FAIL(err, ERROR_INPUT, "the result folder's path is too long");
-    if (mkdir(folder, 0777) != 0 && errno != EEXIST)
-        FAIL(err, ERROR_FILE, "cannot make the folder %s: %s", folder, strerror(errno));
+    TRY(folder_make(folder, err));
 cleanup:
     return error_is_clean(err);
 }
@@ -150,7 +149,7 @@ __attribute__((visibility("default"))) bool amontons_render(const RenderRequest 
     int32_t count = request->figure_count > 0 ? request->figure_count : FIGURE_COUNT;
     TRY(request_check(request, err));
     TRY(result_view_open(request->folder, &view, err));
-    TRY(folder_make(request->folder, err));
+    TRY(make_figures_folder(request->folder, err));
     context = context_create(err);
     TRY(context);
     for (int32_t k = 0; k < count; ++k) {

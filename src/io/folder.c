@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <limits.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -22,4 +23,19 @@ bool folder_make(const char *path, Error *err)
         FAIL(err, ERROR_FILE, "cannot make the folder %s: %s", path, strerror(errno));
 cleanup:
     return error_is_clean(err);
+}
+
+// Both by their real paths: one ".." for each name of the folder's that is not the file's too.
+void folder_relative(const char *folder, const char *file, char *path, int32_t size)
+{
+    char from[PATH_MAX + 1], to[PATH_MAX];
+    snprintf(path, (size_t)size, "%s", file);
+    if (!realpath(folder, from) || !realpath(file, to)) return;
+    size_t shared = 0, used = 0;   // bytes, up to the last slash behind which names differ
+    if (from[1]) strcat(from, "/");
+    for (size_t k = 0; from[k] && from[k] == to[k]; k++)
+        if (from[k] == '/') shared = k + 1;
+    for (const char *rest = from + shared; (rest = strchr(rest, '/')); rest++)
+        if (used + 3 < (size_t)size) used += (size_t)sprintf(path + used, "../");
+    snprintf(path + used, (size_t)size - used, "%s", to + shared);
 }

@@ -163,7 +163,7 @@ bool report_write(const char *folder, const RunReport *report, Error *err)
     }
     json_text(json, "version", AMONTONS_VERSION);
     write_warnings(json, report->warnings);
-    scene_write_json(report->scene, json, "scene");
+    scene_write_json(report->scene, json, "scene", folder);
     write_steps(json, report->counters);
     write_rungs(json, report->ladder);
     write_timing(json, report->model, report->timing);

@@ -25,7 +25,7 @@ static bool write_json(const char *folder, const Model *model, const StaticSumma
     json_begin_object(json, NULL);
     json_text(json, "status", "done");
     json_text(json, "version", AMONTONS_VERSION);
-    scene_write_json(model->scene, json, "scene");
+    scene_write_json(model->scene, json, "scene", folder);
     json_begin_object(json, "model");
     json_integer(json, "nodes", summary->nodes);
     json_integer(json, "contact_nodes", summary->contact_nodes);

@@ -4,6 +4,8 @@
 // never needed again. What is written can be read as a scene, JSON being YAML.
 #include "scene/keys.h"
 
+#include "io/folder.h"
+
 #include <string.h>
 
 enum { LEVELS_MAX = 4 };
@@ -58,6 +60,15 @@ static void write_names(const SceneNames *names, JsonWriter *json, const char *n
     json_end(json);
 }
 
+// A reader of the document finds it whatever folder the run was started in.
+static void write_mesh_file(const Scene *scene, JsonWriter *json, const char *name,
+                            const char *folder)
+{
+    char file[SCENE_TEXT_SIZE];
+    folder_relative(folder, scene->mesh.file, file, sizeof file);
+    json_text(json, name, file);
+}
+
 // name: the last word of the key. An output.fields that is a map never comes here: its keys follow
 // by themselves.
 static void write_value(const SceneKey *key, const Scene *scene, JsonWriter *json, const char *name)
@@ -105,7 +116,7 @@ static bool is_absent(const SceneKey *key, const Scene *scene, bool given)
 
 // Goes through the keys with a stack of the maps that are open: those the next key does not share
 // are closed, those it has more are opened.
-void scene_write_json(const Scene *scene, JsonWriter *json, const char *name)
+void scene_write_json(const Scene *scene, JsonWriter *json, const char *name, const char *folder)
 {
     int32_t count = 0, depth = 0;
     const SceneKey *keys = scene_keys(&count);
@@ -127,7 +138,10 @@ void scene_write_json(const Scene *scene, JsonWriter *json, const char *name)
             json_begin_object(json, open[depth++]);
             rest = dot + 1;
         }
-        write_value(&keys[k], scene, json, rest);
+        if (strcmp(keys[k].name, "mesh.file") == 0)
+            write_mesh_file(scene, json, rest, folder);
+        else
+            write_value(&keys[k], scene, json, rest);
     }
     for (; depth >= 0; depth--) json_end(json);
 }

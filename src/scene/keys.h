@@ -65,8 +65,9 @@ void scene_key_allowed(const SceneKey *key, char *words, int32_t size);
 void scene_key_value(const SceneKey *key, const Scene *scene, char *words, int32_t size);
 
 // Every parameter after defaults, as the object `name` of the document: the scene's own keys,
-// nested as in YAML, so that it can be read again as a scene.
-void scene_write_json(const Scene *scene, JsonWriter *json, const char *name);
+// nested as in YAML, so that it can be read again as a scene. mesh.file as seen from `folder`, in
+// which the document stands.
+void scene_write_json(const Scene *scene, JsonWriter *json, const char *name, const char *folder);
 
 // The reference: one Markdown table row a key.
 void scene_write_reference(FILE *out);

@@ -175,6 +175,7 @@ class Run(InFolder):
         run = json.loads((result / "run.json").read_text())
         self.assertEqual(run["status"], "done")
         self.assertEqual(run["scene"]["mesh"]["set"]["nx"], 10)
+        self.assertTrue((result / run["scene"]["mesh"]["file"]).samefile(SOURCE / "meshes/block.geo"))
         shown = float(re.search(r"mu_M +([\d.]+)", done.stdout)[1])
         self.assertAlmostEqual(shown, run["results"]["mu_M"], delta=6e-5)
         accepted = int(re.search(r"steps +(\d+) accepted", done.stdout)[1])

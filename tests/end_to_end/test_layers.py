@@ -35,7 +35,7 @@ def allowed(folder, include):
         return include.startswith(("base/", "amontons"))   # the public header and its parts
     if folder == "render":
         return include.startswith(("base/", "render/")) or include in (
-            "io/mesh_file.h", "io/result_file.h", "io/yaml_document.h")
+            "io/mesh_file.h", "io/folder.h", "io/result_file.h", "io/yaml_document.h")
     if folder == "cli":
         return include in PUBLIC or include.startswith("cli/")
     if include in (*PUBLIC, "render/render.h"):

@@ -98,7 +98,7 @@ static bool write_numbers(const Model1dSimulation *simulation, const Model1dSumm
     json_begin_object(json, NULL);
     json_text(json, "status", "done");
     json_text(json, "version", AMONTONS_VERSION);
-    scene_write_json(simulation->scene, json, "scene");
+    scene_write_json(simulation->scene, json, "scene", simulation->options->folder);
     write_model(json, simulation);
     write_theory(json, summary);
     if (summary->simulated) write_simulation(json, simulation, summary);

@@ -91,7 +91,7 @@ static bool write_numbers(const StabilityPath *path, const StabilitySummary *sum
     json_begin_object(json, NULL);
     json_text(json, "status", "done");
     json_text(json, "version", AMONTONS_VERSION);
-    scene_write_json(path->model->scene, json, "scene");
+    scene_write_json(path->model->scene, json, "scene", path->options->folder);
     json_integer(json, "slidings_before", path->options->slidings);
     write_results(json, summary);
     write_pads(json, summary);

@@ -136,13 +136,13 @@ cleanup:
 bool point_write_failure(const Sweep *sweep, int32_t point, const char *failure,
                          const char *message, Error *err)
 {
-    char path[POINT_PATH_SIZE + 16];
+    char folder[POINT_PATH_SIZE], path[POINT_PATH_SIZE + 16];
     Scene *scene = NEW_ARRAY(Scene, 1, err);
     JsonWriter *json = NULL;
     TRY(scene);
     TRY(study_point_scene(&sweep->study, point, scene, err));
-    point_folder(sweep, point, path);
-    mkdir(path, 0777);   // a failure shows when the report is written
+    point_folder(sweep, point, folder);
+    mkdir(folder, 0777);   // a failure shows when the report is written
     report_path(sweep, point, path);
     TRY((json = json_create(path, err)));
     json_begin_object(json, NULL);
@@ -150,7 +150,7 @@ bool point_write_failure(const Sweep *sweep, int32_t point, const char *failure,
     json_text(json, "failure", failure);
     json_text(json, "message", message);
     json_text(json, "version", AMONTONS_VERSION);
-    scene_write_json(scene, json, "scene");
+    scene_write_json(scene, json, "scene", folder);
     json_end(json);
     TRY(json_finish(json, err));
 cleanup:

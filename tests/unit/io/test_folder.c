@@ -47,8 +47,44 @@ static void test_folders(void **state)
     assert_int_equal(system(path), 0);
 }
 
+static void assert_seen(const char *folder, const char *file, const char *wanted)
+{
+    char path[PATH_MAX];
+    folder_relative(folder, file, path, sizeof path);
+    assert_string_equal(path, wanted);
+}
+
+// A path as a reader in the folder would type it; links and detours are gone.
+static void test_files_seen_from_a_folder(void **state)
+{
+    (void)state;
+    char root[] = "/tmp/amontons-folder-XXXXXX", path[256];
+    assert_non_null(mkdtemp(root));
+    assert_int_equal(chdir(root), 0);
+    assert_makes("scenes");
+    assert_makes("results/fig1");
+    assert_makes("results/fig10");
+    fclose(fopen("scenes/m.geo", "w"));
+    fclose(fopen("results/fig1/m.geo", "w"));
+    assert_int_equal(symlink("scenes", "link"), 0);
+    assert_seen("results/fig1", "scenes/m.geo", "../../scenes/m.geo");
+    assert_seen("results/fig1", "link/../scenes/m.geo", "../../scenes/m.geo");
+    assert_seen("results/fig1/", "link/m.geo", "../../scenes/m.geo");
+    assert_seen("results/fig1", "results/fig1/m.geo", "m.geo");
+    assert_seen("results/fig10", "results/fig1/m.geo", "../fig1/m.geo");
+    assert_seen(".", "scenes/m.geo", "scenes/m.geo");
+    snprintf(path, sizeof path, "%s/scenes/m.geo", root + 1);
+    assert_seen("/", "scenes/m.geo", path);
+    assert_seen("results", "none.geo", "none.geo");
+    assert_seen("none", "scenes/m.geo", "scenes/m.geo");
+    assert_int_equal(chdir("/"), 0);
+    snprintf(path, sizeof path, "rm -rf %s", root);
+    assert_int_equal(system(path), 0);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_folders)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_folders),
+                                       cmocka_unit_test(test_files_seen_from_a_folder)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

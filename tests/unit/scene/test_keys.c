@@ -123,7 +123,7 @@ static char *scene_as_json(const Scene *scene, const char *path)
     JsonWriter *json = json_create(path, &err);
     assert_non_null(json);
     json_begin_object(json, NULL);
-    scene_write_json(scene, json, "scene");
+    scene_write_json(scene, json, "scene", ".");
     json_integer(json, "after", 1);
     json_end(json);
     if (!json_finish(json, &err)) fail_msg("%s", err.message);
