@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The public header of amontons: when and how an elastic block starts to slide. The command line
-// includes nothing else of ours but the two beside it, amontons_stability.h (growth rates) and
-// amontons_model1d.h (the 1D model).
+// includes nothing else of ours but those beside it: amontons_stability.h (growth rates),
+// amontons_model1d.h (the 1D model); amontons_simulation.h is for callers who step by themselves.
 //
 //   Error err = {0};
 //   Scene *scene = NULL;
@@ -30,9 +30,29 @@ extern "C" {
 #endif
 
 typedef struct Scene Scene;   // what to compute; opaque here
-typedef struct Simulation Simulation;   // one computation on its way; opaque
 
 enum { AMONTONS_PATH_SIZE = 1024 };
+
+enum {
+    NODE_OPEN,
+    NODE_STICKS,
+    NODE_WEAKENS,
+    NODE_SLIPS
+};   // weakens: slips, and friction falls
+    // with the slip rate
+
+// The contact nodes. The arrays belong to the simulation, stay where they are, and hold the last
+// accepted step.
+typedef struct ContactView {
+    int32_t count;   // contact nodes
+    int32_t tangents;   // directions of slip: 1, along x; the fastest index of [count][tangents]
+    const double *x;   // [count] position, ascending, length
+    const double *slip_rate;   // [count][tangents] velocity
+    const double *slip;   // [count][tangents] since t = 0, length
+    const double *pressure;   // [count] stress
+    const double *shear;   // [count][tangents] positive where the floor drags the block back
+    const uint8_t *status;   // [count] NODE_...
+} ContactView;
 
 // One accepted step, as shown to the caller.
 typedef struct StepView {
@@ -44,6 +64,7 @@ typedef struct StepView {
     double fraction;   // of the way to `time.until`, 0 to 1
     bool certified;   // the slip set cannot grow on its own: large steps are allowed
     int32_t events, slidings;   // seen so far: rapid ones; those that crossed the interface
+    ContactView contact;
 } StepView;
 
 // What was done, counted: a benchmark prints these, run.json holds them.
@@ -110,6 +131,8 @@ typedef struct RunOptions {
     void *context;   // handed to on_step
     const volatile sig_atomic_t *stop;   // non-zero: finish the step, keep what is there, return
         // ERROR_INTERRUPT; NULL: never
+    bool whole_block;   // amontons_simulation_block will be called: the mesh is made, also where
+        // the cache could do without
 } RunOptions;
 
 // --- the library --------------------------------------------------------------------------------
@@ -134,14 +157,6 @@ bool amontons_scene_reference(FILE *out, Error *err);   // every key, as Markdow
 // Everything: mesh, relax, time loop, results, pictures, run.json. On failure what was computed
 // stays in the folder and run.json says why.
 bool amontons_run(const Scene *scene, const RunOptions *options, RunSummary *summary, Error *err);
-
-// The same in pieces. `create` meshes, assembles and relaxes to t = 0; `step` does one accepted
-// step and says whether the scene's end is reached; `finish` writes results and pictures.
-bool amontons_simulation_create(const Scene *scene, const RunOptions *options,
-                                Simulation **simulation, Error *err);
-bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *finished, Error *err);
-bool amontons_simulation_finish(Simulation *simulation, RunSummary *summary, Error *err);
-void amontons_simulation_destroy(Simulation *simulation);   // NULL is fine
 
 // --- statics ------------------------------------------------------------------------------------
 // Equilibrium under the scene's load, rod displacement and supports; friction is Coulomb's with

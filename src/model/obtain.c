@@ -18,6 +18,12 @@
 static const double REDUCTION_TOLERANCES[] = {
     [ACCURACY_DRAFT] = 5e-2, [ACCURACY_STANDARD] = 2e-2, [ACCURACY_FINE] = 2e-3};
 
+// What happens inside of the block is asked for, not the interface alone.
+static bool wants_mesh(const Scene *scene)
+{
+    return scene->output.fields || scene->output.whole;
+}
+
 // A reduced bulk follows what the interface does: not a load put on at once, nor a velocity that
 // supports stop.
 static bool starts_at_interface(const Scene *scene)
@@ -90,7 +96,7 @@ static bool obtain_basis(Model *model, const ReductionBlock *block, Shape *shape
                         .material = block->material,
                         .scales = {.stiffness = 1, .damping = 1, .mass = 1, .load = 1}};
     bool *found = &model->from_cache;
-    bool with_modes = scene->output.fields;
+    bool with_modes = wants_mesh(scene);
     char *note = model->cache_note;
     FileLock lock = {0};
     if (scene->reduction.cache) {
@@ -230,7 +236,7 @@ static bool find_shape(Model *model, const char *key, Shape *shape, bool *found,
     if (!key[0]) return true;
     TRY(shape_cache_load(key, shape, found, model->cache_note, err));
     if (*found)
-        TRY(basis_cache_load(shape->basis, model->scene->output.fields, &model->reduced, found,
+        TRY(basis_cache_load(shape->basis, wants_mesh(model->scene), &model->reduced, found,
                              model->cache_note, err));
     *found = *found && model->reduced.interface_count == shape->interface.count;
     model->from_cache = *found;
@@ -266,8 +272,8 @@ bool model_obtain(const Scene *scene, Model *model, Error *err)
     *model = model_of(scene);
     TRY(find_key(model, key, err));
     TRY(find_shape(model, key, &shape, &found, err));
-    if (!found || scene->output.fields) TRY(model_read_mesh(model, err));
-    if (found && scene->output.fields && 2 * model->mesh.node_count != model->reduced.full_dofs)
+    if (!found || wants_mesh(scene)) TRY(model_read_mesh(model, err));
+    if (found && wants_mesh(scene) && 2 * model->mesh.node_count != model->reduced.full_dofs)
         found = forget_shape(model, &shape);
     if (!found) TRY(model_build_bulk(model, err));
     // What a scene may ask of a shape is checked here, wherever the shape comes from.

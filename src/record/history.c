@@ -13,16 +13,15 @@
 static const double FLUSH_EVERY = 2.0;   // s; what a kill -9 may cost
 
 // head: title, units and numbers are set; what belongs to the nodes is added here and points into
-// `history` and `interface`, which must outlive the call. law is borrowed for good.
+// `history` and `interface`, which must outlive the call. contact is borrowed for good.
 bool history_create(const char *folder, ResultHead *head, const Interface *interface,
-                    const FrictionLaw *law, History *history, Error *err)
+                    const ContactArrays *contact, History *history, Error *err)
 {
     int32_t count = interface->contact_count;
-    *history =
-        (History){.law = law, .flushed_at = clock_seconds(), .pad_count = interface->pad_count};
+    *history = (History){
+        .contact = contact, .flushed_at = clock_seconds(), .pad_count = interface->pad_count};
     history->row = NEW_ARRAY(double, count, err);
     history->pad = NEW_ARRAY(double, count, err);
-    history->slip_origin = NEW_ARRAY(double, count, err);
     history->pad_sums = NEW_ARRAY(PadSum, interface->pad_count, err);
     history->pad_row = NEW_ARRAY(double, interface->pad_count, err);
     history->pad_length = NEW_ARRAY(double, interface->pad_count, err);
@@ -47,7 +46,6 @@ void history_destroy(History *history)
     memory_free(history->pad_sums);
     memory_free(history->pad_row);
     memory_free(history->pad_length);
-    memory_free(history->slip_origin);
     array_file_abandon(history->file);
     *history = (History){0};
 }
@@ -81,35 +79,22 @@ static double series_value(const Observation *seen, ResultSeries series)
     }
 }
 
-// Stored statuses: 0 open, 1 stick, 2 slip where friction weakens, 3 slip where it does not.
-static double stored_status(const History *history, const State *state, int32_t i)
+// Of all contact nodes; status as numbers, in history->row.
+static const double *node_values(const History *history, ResultSeries series)
 {
-    if (!status_slips(state->status[i])) return state->status[i];
-    double speed = fabs(state->slip_rate[interface_tangent(i)]);
-    return friction_weakens(history->law, speed) ? 2 : 3;
-}
-
-// At contact node i. Forces of nodes become stresses by the node's weight (contact/interface): p =
-// r_n / w, and shear positive where the plane drags the block back, tau = -r_t / w. Slip is counted
-// from the first row, so that it is 0 when the rod starts.
-static double node_value(const History *history, const Observation *seen, ResultSeries series,
-                         int32_t i)
-{
-    const State *state = seen->state;
-    int32_t t = interface_tangent(i), n = interface_normal(i);
+    const ContactArrays *contact = history->contact;
     switch (series) {
     case SERIES_SLIP_RATE:
-        return state->slip_rate[t];
+        return contact->slip_rate;
     case SERIES_SLIP:
-        return state->displacement[seen->system->interface_dofs[t]] - history->slip_origin[i];
+        return contact->slip;
     case SERIES_PRESSURE:
-        return state->reaction[n] / seen->interface->weight[i];
+        return contact->pressure;
     case SERIES_SHEAR:
-        return -state->reaction[t] / seen->interface->weight[i];
-    case SERIES_STATUS:
-        return stored_status(history, state, i);
+        return contact->shear;
     default:
-        return NAN;
+        for (int32_t i = 0; i < contact->count; i++) history->row[i] = contact->status[i];
+        return history->row;
     }
 }
 
@@ -130,8 +115,7 @@ static double pad_value(const History *history, const Observation *seen, ResultS
     case SERIES_PAD_SLIP:
         for (int32_t i = 0; i < interface->contact_count; i++)
             if (interface->pad[i] == p)
-                slip += interface->weight[i] / history->pad_length[p] *
-                        node_value(history, seen, SERIES_SLIP, i);
+                slip += interface->weight[i] / history->pad_length[p] * history->contact->slip[i];
         return slip;
     default:
         return NAN;
@@ -148,8 +132,7 @@ static bool append(History *history, const Observation *seen, ResultSeries serie
         history->row[0] = series_value(seen, series);
         break;
     case COLUMNS_NODES:
-        for (int32_t i = 0; i < seen->interface->contact_count; i++)
-            history->row[i] = node_value(history, seen, series, i);
+        row = node_values(history, series);
         break;
     case COLUMNS_PADS:
         for (int32_t p = 0; p < history->pad_count; p++)
@@ -165,12 +148,6 @@ bool history_record(void *self, const Observation *seen, Error *err)
 {
     History *history = self;
     double started = clock_seconds();
-    int32_t count = seen->interface->contact_count;
-    if (history->rows == 0) {
-        for (int32_t i = 0; i < count; i++)
-            history->slip_origin[i] =
-                seen->state->displacement[seen->system->interface_dofs[interface_tangent(i)]];
-    }
     pad_sums(seen, history->pad_sums);
     for (ResultSeries series = 0; series < RESULT_SERIES_COUNT; series++)
         TRY(append(history, seen, series, err));

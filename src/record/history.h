@@ -4,9 +4,9 @@
 #ifndef AMONTONS_RECORD_HISTORY_H
 #define AMONTONS_RECORD_HISTORY_H
 
-#include "contact/friction_law.h"
 #include "io/result_file.h"
 #include "record/answers.h"
+#include "record/contact_arrays.h"
 
 typedef struct History {
     ArrayFile *file;   // NULL: no history is kept; owned
@@ -19,13 +19,12 @@ typedef struct History {
     PadSum *pad_sums;   // [pad_count] of the step under way; owned
     double *pad_row;   // [pad_count] work; owned
     double *pad_length;   // [pad_count] sum of the nodes' weights, length; owned
-    double *slip_origin;   // [contact_count] u_x when the rod started, length; owned
-    const FrictionLaw *law;   // not owned
+    const ContactArrays *contact;   // of the step under way; not owned
 } History;
 
 // head: numbers and texts of the file; its node arrays are filled here from `interface`.
 bool history_create(const char *folder, ResultHead *head, const Interface *interface,
-                    const FrictionLaw *law, History *history, Error *err);
+                    const ContactArrays *contact, History *history, Error *err);
 // Closes what is open and leaves the .part file when the history was not finished.
 void history_destroy(History *history);
 bool history_record(void *self, const Observation *seen, Error *err);   // a Recorder

@@ -45,7 +45,7 @@ bool output_open_history(Simulation *simulation, Error *err)
     head.pads = pads;
     TRY(error_is_clean(err));
     TRY(history_create(simulation->folder.path, &head, &simulation->model.interface,
-                       &simulation->model.law, &simulation->history, err));
+                       &simulation->contact, &simulation->history, err));
     recorders_add(&simulation->recorders, &simulation->history, history_record);
 cleanup:
     memory_free(pads);

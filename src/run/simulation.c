@@ -33,7 +33,7 @@ static bool report_step(void *self, const Observation *seen, Error *err)
     (void)err;
     Simulation *simulation = self;
     if (!simulation->options.on_step) return true;
-    StepView view = step_view(seen, &simulation->events, simulation->t_end);
+    StepView view = step_view(seen, &simulation->events, &simulation->contact, simulation->t_end);
     simulation->options.on_step(&view, simulation->options.context);
     return true;
 }
@@ -49,6 +49,9 @@ static bool open_recorders(Simulation *simulation, Error *err)
     recorders_add(&simulation->recorders, &simulation->drops, drops_record);
     TRY(pads_create(&simulation->model.interface, &simulation->events, &simulation->pads, err));
     recorders_add(&simulation->recorders, &simulation->pads, pads_record);
+    TRY(contact_arrays_create(&simulation->model.interface, &simulation->model.law,
+                              &simulation->contact, err));
+    recorders_add(&simulation->recorders, &simulation->contact, contact_arrays_record);
     if (writes_results(simulation) && scene->output.history)
         TRY(output_open_history(simulation, err));
     if (writes_results(simulation) && scene->output.fields)
@@ -115,6 +118,7 @@ bool amontons_simulation_create(const Scene *scene, const RunOptions *options, S
     *out = simulation;   // also when a stage fails: what is there can be reported and destroyed
     simulation->scene = *scene;
     simulation->options = *options;
+    simulation->scene.output.whole = options->whole_block;
     simulation->started = clock_seconds();
     dense_use_one_thread();
     TRY(result_folder_claim(options->folder, options->overwrite, &simulation->folder, err));
@@ -164,7 +168,9 @@ bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *fini
                 (implicit && !step_control_fits(control, remaining));
     if (simulation->scene.time.until_periodic && simulation->events.ended)
         *finished = *finished || answers_are_known(&simulation->drops);
-    if (view) *view = step_view(&simulation->seen, &simulation->events, simulation->t_end);
+    if (view)
+        *view = step_view(&simulation->seen, &simulation->events, &simulation->contact,
+                          simulation->t_end);
 cleanup:
     return error_is_clean(err);
 }
@@ -218,6 +224,7 @@ void amontons_simulation_destroy(Simulation *simulation)
     if (!simulation) return;
     fields_destroy(&simulation->fields);
     history_destroy(&simulation->history);
+    contact_arrays_destroy(&simulation->contact);
     pads_destroy(&simulation->pads);
     drops_destroy(&simulation->drops);
     events_destroy(&simulation->events);
@@ -226,6 +233,7 @@ void amontons_simulation_destroy(Simulation *simulation)
     rod_destroy(&simulation->rod);
     model_destroy(&simulation->model);
     result_folder_release(&simulation->folder);
+    memory_free(simulation->block_motion);
     memory_free(simulation);
 }
 

@@ -5,7 +5,9 @@
 #define AMONTONS_RUN_SIMULATION_STATE_H
 
 #include "amontons.h"
+#include "amontons_simulation.h"
 #include "model/model.h"
+#include "record/contact_arrays.h"
 #include "record/fields.h"
 #include "record/history.h"
 #include "run/pace.h"
@@ -29,9 +31,12 @@ struct Simulation {
     Events events;
     Drops drops;
     Pads pads;
+    ContactArrays contact;
     History history;
     Fields fields;
     Recorders recorders;
+    double
+        *block_motion;   // [nodes * 4] displacement, velocity of the mesh; NULL: not asked; owned
     double t_end;   // time
     RunTiming timing;
     RunErrors errors;

@@ -8,7 +8,20 @@
 #include <math.h>
 #include <stdio.h>
 
-StepView step_view(const Observation *seen, const Events *events, double t_end)
+static ContactView contact_view(const Interface *interface, const ContactArrays *contact)
+{
+    return (ContactView){.count = contact->count,
+                         .tangents = 1,
+                         .x = interface->x,
+                         .slip_rate = contact->slip_rate,
+                         .slip = contact->slip,
+                         .pressure = contact->pressure,
+                         .shear = contact->shear,
+                         .status = contact->status};
+}
+
+StepView step_view(const Observation *seen, const Events *events, const ContactArrays *contact,
+                   double t_end)
 {
     const int32_t *kinds = events->kinds;
     return (StepView){.t = seen->t,
@@ -20,7 +33,8 @@ StepView step_view(const Observation *seen, const Events *events, double t_end)
                       .fraction = fmin(seen->t / t_end, 1),
                       .certified = seen->certified,
                       .events = kinds[EVENT_BOUNDED] + kinds[EVENT_LEADING],
-                      .slidings = kinds[EVENT_LEADING]};
+                      .slidings = kinds[EVENT_LEADING],
+                      .contact = contact_view(seen->interface, contact)};
 }
 
 // There are fewer phases than RUN_PHASES_MAX: the list below is fixed. A note that is too long is

@@ -8,7 +8,8 @@
 #include "run/simulation_state.h"
 
 // t_end: when the scene ends, time.
-StepView step_view(const Observation *seen, const Events *events, double t_end);
+StepView step_view(const Observation *seen, const Events *events, const ContactArrays *contact,
+                   double t_end);
 RunCounters summary_count(const Simulation *simulation);
 void summary_fill(const Simulation *simulation, const RunCounters *counters, const Answers *answers,
                   RunSummary *summary);

@@ -115,6 +115,7 @@ typedef struct Scene {
         bool fields;   // output.fields: none, or {every_U, every_t, at_events}
         double fields_every_U, fields_every_t;
         bool fields_at_events;
+        bool whole;   // not a key: the whole mesh is wanted by the caller of the library
         SceneNames figures;   // names of render's RENDER_FIGURES
     } output;
     bool given[SCENE_KEYS_MAX];   // by key of scene_keys(): stands in the file or a --set

@@ -215,6 +215,7 @@ static void summarise_steps(Model1dSimulation *simulation, Model1dSummary *summa
 static void simulation_destroy(Model1dSimulation *simulation)
 {
     history_destroy(&simulation->history);
+    contact_arrays_destroy(&simulation->contact);
     drops_destroy(&simulation->drops);
     events_destroy(&simulation->events);
     step_control_destroy(&simulation->control);

@@ -99,6 +99,7 @@ typedef struct Model1dSimulation {
     ObservationScales scales;
     Events events;
     Drops drops;
+    ContactArrays contact;
     History history;
     double t_end;   // time
     Model1dPoint *points;   // [point_count] theory; the simulation adds what it sees

@@ -36,7 +36,7 @@ static bool open_history(Model1dSimulation *simulation, Error *err)
                                    [NUMBER_MU_M] = NAN,
                                    [NUMBER_L_C] = NAN}};
     return history_create(simulation->options->folder, &head, &simulation->chain.interface,
-                          &simulation->chain.law, &simulation->history, err);
+                          &simulation->contact, &simulation->history, err);
 }
 
 // The end of the run from time.until, the chain at rest in u_0, recorders.
@@ -60,6 +60,8 @@ static bool open_simulation(Model1dSimulation *simulation, Error *err)
     step_control_restart(&simulation->control);
     TRY(events_create(&simulation->chain.interface, model->velocity, &simulation->events, err));
     TRY(drops_create(&simulation->events, scene->time.periodic_tolerance, &simulation->drops, err));
+    TRY(contact_arrays_create(&simulation->chain.interface, &simulation->chain.law,
+                              &simulation->contact, err));
     if (simulation->options->folder) TRY(open_history(simulation, err));
 cleanup:
     return error_is_clean(err);
@@ -101,7 +103,7 @@ static void compare_step(Model1dSimulation *simulation, const Observation *seen)
 static void report_step(const Model1dSimulation *simulation, const Observation *seen)
 {
     const Model1dOptions *options = simulation->options;
-    StepView view = step_view(seen, &simulation->events, simulation->t_end);
+    StepView view = step_view(seen, &simulation->events, &simulation->contact, simulation->t_end);
     if (options->on_step) options->on_step(&view, options->context);
 }
 
@@ -111,6 +113,7 @@ static bool record_step(Model1dSimulation *simulation, Error *err)
     Observation seen = observe(&simulation->control, &simulation->scales);
     TRY(events_record(&simulation->events, &seen, err));
     TRY(drops_record(&simulation->drops, &seen, err));
+    TRY(contact_arrays_record(&simulation->contact, &seen, err));
     if (simulation->history.file) TRY(history_record(&simulation->history, &seen, err));
     compare_step(simulation, &seen);
     report_step(simulation, &seen);

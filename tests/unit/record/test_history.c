@@ -142,6 +142,16 @@ static void check_table(ArrayFile *file, ResultTable table, int32_t count, const
     memory_free(values);
 }
 
+static void record_steps(ContactArrays *contact, History *history)
+{
+    Error err = {0};
+    for (int32_t k = 0; k < STEPS; k++) {
+        show(k);
+        assert_true(contact_arrays_record(contact, &hand.seen, &err));
+        assert_true(history_record(history, &hand.seen, &err));
+    }
+}
+
 static void test_written_and_read_back(void **state)
 {
     (void)state;
@@ -154,11 +164,10 @@ static void test_written_and_read_back(void **state)
     ResultHead head = head_of("made up");
     head.pads = "left\nright";
     History history;
-    assert_true(history_create(place, &head, &hand.interface, &LAW, &history, &err));
-    for (int32_t k = 0; k < STEPS; k++) {
-        show(k);
-        assert_true(history_record(&history, &hand.seen, &err));
-    }
+    ContactArrays contact;
+    assert_true(contact_arrays_create(&hand.interface, &LAW, &contact, &err));
+    assert_true(history_create(place, &head, &hand.interface, &contact, &history, &err));
+    record_steps(&contact, &history);
     assert_int_equal(history.rows, STEPS);
     assert_false(place_has(place, "history.h5"));   // not before it is whole
     Event event_list[] = {{.kind = EVENT_LEADING,
@@ -182,6 +191,7 @@ static void test_written_and_read_back(void **state)
     Answers answers = {.first = 1, .mu_M.value = 0.5, .critical_length = NAN};
     assert_true(history_finish(&history, &drops, &answers, &err));
     history_destroy(&history);
+    contact_arrays_destroy(&contact);
     assert_int_equal(memory_counters().live, live);
     assert_true(place_has(place, "history.h5") && !place_has(place, "history.h5.part"));
 
@@ -227,12 +237,12 @@ static void test_abandoned(void **state)
     two_pads();
     ResultHead head = head_of("given up");
     History history;
-    assert_true(history_create(place, &head, &hand.interface, &LAW, &history, &err));
-    for (int32_t k = 0; k < STEPS; k++) {
-        show(k);
-        assert_true(history_record(&history, &hand.seen, &err));
-    }
+    ContactArrays contact;
+    assert_true(contact_arrays_create(&hand.interface, &LAW, &contact, &err));
+    assert_true(history_create(place, &head, &hand.interface, &contact, &history, &err));
+    record_steps(&contact, &history);
     history_destroy(&history);
+    contact_arrays_destroy(&contact);
     assert_false(place_has(place, "history.h5"));
     ArrayFile *file = result_file_open(place, &err);
     assert_non_null(file);
@@ -258,14 +268,18 @@ static void test_memory_faults(void **state)
     for (int32_t k = 0; !done; k++) {
         Error err = {0};
         ResultHead head = head_of("faults");
-        History history;
+        History history = {0};
+        ContactArrays contact;
         memory_fail_after(k);
-        done = history_create(place, &head, &hand.interface, &LAW, &history, &err) &&
+        done = contact_arrays_create(&hand.interface, &LAW, &contact, &err) &&
+               contact_arrays_record(&contact, &hand.seen, &err) &&
+               history_create(place, &head, &hand.interface, &contact, &history, &err) &&
                history_record(&history, &hand.seen, &err) &&
                history_finish(&history, &drops, &answers, &err);
         memory_fail_after(-1);
         assert_int_equal(err.code, done ? ERROR_NONE : ERROR_MEMORY);
         history_destroy(&history);
+        contact_arrays_destroy(&contact);
         assert_int_equal(memory_counters().live, live);
         assert_int_equal(place_has(place, "history.h5"), done);
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // `time.scheme: explicit` against `sdirk2` on the same scene, the paper's on a coarse mesh: two
 // programs for one answer. How a run counts and bounds explicit steps.
-#include "amontons.h"
+#include "amontons_simulation.h"
 #include "base/memory.h"
 
 #include "near.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The library as a guest in somebody else's process: it leaves locale, signals, folder and output
 // alone, and computes separate simulations in separate threads, each as if it were alone.
+#include "amontons_simulation.h"
 #include "base/memory.h"
 #include "result_place.h"
 #include "small_scene.h"
@@ -148,11 +149,99 @@ static void test_threads_compute_as_if_alone(void **state)
     }
 }
 
+// --- what a caller sees between steps -----------------------------------------------------------
+
+// The arrays against the scalars of the same step, and against what the law and the load say.
+static void check_contact(const StepView *view)
+{
+    const ContactView *contact = &view->contact;
+    double fastest = 0, pressure = 0, shear = 0;
+    for (int32_t i = 0; i < contact->count; i++) {
+        // Nodes of a uniform line: the outer two have half a cell each.
+        double weight = 0.1 * (i == 0 || i == contact->count - 1 ? 0.5 : 1);
+        fastest = fmax(fastest, fabs(contact->slip_rate[i]));
+        pressure += weight * contact->pressure[i];
+        shear += weight * contact->shear[i];
+        assert_near("x", contact->x[i], 0.1 * i, 1e-9);
+        assert_true(fabs(contact->shear[i]) <= 0.38 * contact->pressure[i] + 1e-12);
+        if (contact->status[i] == NODE_STICKS) assert_true(contact->slip_rate[i] == 0);
+        if (contact->status[i] == NODE_OPEN) assert_true(contact->pressure[i] == 0);
+        if (contact->status[i] == NODE_SLIPS) assert_true(fabs(contact->slip_rate[i]) >= 3.4e-4);
+    }
+    assert_near("fastest", fastest, view->max_slip_rate, 0);
+    if (view->certified && view->slidings == 0) {   // slow: inertia has little part
+        assert_near("load", pressure, 0.003, 1e-5);
+        assert_near("shear", shear, view->mu * 0.003, 1e-5);
+    }
+}
+
+static void test_arrays_of_a_step(void **state)
+{
+    (void)state;
+    Error err = {0};
+    Simulation *simulation = NULL;
+    StepView start, view;
+    BlockView block;
+    RunOptions options = {.whole_block = true};
+    const char *const settings[] = {NULL};
+    Scene *scene = small_scene(settings);
+    bool finished = false;
+    double slip = 0, mean_slip = 0;
+    assert_true(amontons_simulation_create(scene, &options, &simulation, &err));
+    amontons_simulation_view(simulation, &start);
+    assert_int_equal(start.contact.count, 11);
+    double x_start = 0;
+    assert_true(amontons_simulation_block(simulation, &block, &err));
+    for (int32_t i = 0; i < block.nodes; i++)
+        if (block.position[2 * i] < 1e-9 && block.position[2 * i + 1] < 1e-9)
+            x_start = block.displacement[2 * i];
+    while (!finished) {
+        double before = start.contact.slip[10], rate = start.contact.slip_rate[10];
+        assert_true(amontons_simulation_step(simulation, &view, &finished, &err));
+        assert_ptr_equal(view.contact.slip, start.contact.slip);   // they stay where they are
+        check_contact(&view);
+        // The slip of the last node is the sum of its rates (trapezia: of second order).
+        slip += 0.5 * view.step_size * (rate + view.contact.slip_rate[10]);
+        mean_slip += view.contact.slip[10] - before;
+    }
+    assert_near("slip", slip, mean_slip, 0.02 * mean_slip);
+    assert_true(amontons_simulation_block(simulation, &block, &err));
+    int32_t found = 0;
+    for (int32_t i = 0; i < block.nodes; i++) {
+        if (block.position[2 * i] > 1e-9 || block.position[2 * i + 1] > 1e-9) continue;
+        assert_near("trailing edge", block.displacement[2 * i] - x_start, view.contact.slip[0],
+                    1e-12);
+        found++;
+    }
+    assert_int_equal(found, 1);
+    assert_int_equal(block.first_node[block.elements], 4 * block.elements);
+    amontons_simulation_destroy(simulation);
+    amontons_scene_destroy(scene);
+}
+
+static void test_block_must_be_asked_for(void **state)
+{
+    (void)state;
+    Error err = {0};
+    Simulation *simulation = NULL;
+    BlockView block;
+    RunOptions options = {0};
+    const char *const settings[] = {NULL};
+    Scene *scene = small_scene(settings);
+    assert_true(amontons_simulation_create(scene, &options, &simulation, &err));
+    assert_false(amontons_simulation_block(simulation, &block, &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+    amontons_simulation_destroy(simulation);
+    amontons_scene_destroy(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_leaves_the_process_alone),
         cmocka_unit_test(test_threads_compute_as_if_alone),
+        cmocka_unit_test(test_arrays_of_a_step),
+        cmocka_unit_test(test_block_must_be_asked_for),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

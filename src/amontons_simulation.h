@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A simulation in pieces, for callers who step by themselves. Public, as amontons.h.
+#ifndef AMONTONS_SIMULATION_H
+#define AMONTONS_SIMULATION_H
+
+#include "amontons.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct Simulation Simulation;   // one computation on its way; opaque
+
+// `create` meshes, assembles and relaxes to t = 0; where it fails *simulation may hold what was
+// made, to be destroyed. `step` does one accepted step and says whether the scene's end is reached.
+// `finish` writes results and pictures.
+bool amontons_simulation_create(const Scene *scene, const RunOptions *options,
+                                Simulation **simulation, Error *err);
+bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *finished, Error *err);
+void amontons_simulation_view(const Simulation *simulation, StepView *view);   // as it is now
+bool amontons_simulation_finish(Simulation *simulation, RunSummary *summary, Error *err);
+void amontons_simulation_destroy(Simulation *simulation);   // NULL is fine
+
+// All nodes of the mesh; dimensions: 2, x and z. The arrays belong to the simulation; displacement
+// and velocity are recovered at each call, and stay until the next.
+typedef struct BlockView {
+    int32_t nodes, dimensions, elements;
+    const double *position;   // [nodes][dimensions] undeformed, length
+    const double *displacement;   // [nodes][dimensions] length
+    const double *velocity;   // [nodes][dimensions]
+    const int32_t *first_node;   // [elements + 1] where the nodes of an element begin in
+        // element_nodes, corners first, in gmsh's order
+    const int32_t *element_nodes;   // node numbers, from 0
+} BlockView;
+// ERROR_INPUT without RunOptions.whole_block.
+bool amontons_simulation_block(Simulation *simulation, BlockView *view, Error *err);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

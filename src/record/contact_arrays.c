@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Forces of nodes become stresses by the node's weight (contact/interface): p = r_n / w, tau =
+// -r_t / w. Slip is counted from the first step, so that it is 0 when the rod starts.
+#include "record/contact_arrays.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+
+// law is borrowed for good.
+bool contact_arrays_create(const Interface *interface, const FrictionLaw *law,
+                           ContactArrays *arrays, Error *err)
+{
+    int32_t count = interface->contact_count;
+    *arrays = (ContactArrays){.law = law, .count = count};
+    arrays->slip_rate = NEW_ARRAY(double, count, err);
+    arrays->slip = NEW_ARRAY(double, count, err);
+    arrays->pressure = NEW_ARRAY(double, count, err);
+    arrays->shear = NEW_ARRAY(double, count, err);
+    arrays->status = NEW_ARRAY(uint8_t, count, err);
+    arrays->origin = NEW_ARRAY(double, count, err);
+    return error_is_clean(err);
+}
+
+void contact_arrays_destroy(ContactArrays *arrays)
+{
+    memory_free(arrays->slip_rate);
+    memory_free(arrays->slip);
+    memory_free(arrays->pressure);
+    memory_free(arrays->shear);
+    memory_free(arrays->status);
+    memory_free(arrays->origin);
+    *arrays = (ContactArrays){0};
+}
+
+static uint8_t shown_status(const FrictionLaw *law, uint8_t status, double slip_rate)
+{
+    if (!status_slips(status)) return status;
+    return friction_weakens(law, fabs(slip_rate)) ? 2 : 3;
+}
+
+bool contact_arrays_record(void *self, const Observation *seen, Error *err)
+{
+    (void)err;
+    ContactArrays *arrays = self;
+    const State *state = seen->state;
+    for (int32_t i = 0; i < arrays->count; i++) {
+        int32_t t = interface_tangent(i), n = interface_normal(i);
+        double weight = seen->interface->weight[i];
+        double displacement = state->displacement[seen->system->interface_dofs[t]];
+        if (!arrays->started) arrays->origin[i] = displacement;
+        arrays->slip_rate[i] = state->slip_rate[t];
+        arrays->slip[i] = displacement - arrays->origin[i];
+        arrays->pressure[i] = state->reaction[n] / weight;
+        arrays->shear[i] = -state->reaction[t] / weight;
+        arrays->status[i] = shown_status(arrays->law, state->status[i], state->slip_rate[t]);
+    }
+    arrays->started = true;
+    return true;
+}

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What the contact nodes do in the step seen last, an array a quantity: what record/history writes
+// and a caller of amontons.h sees. The arrays stay where they are. A Recorder, before both.
+#ifndef AMONTONS_RECORD_CONTACT_ARRAYS_H
+#define AMONTONS_RECORD_CONTACT_ARRAYS_H
+
+#include "contact/friction_law.h"
+#include "record/observation.h"
+
+typedef struct ContactArrays {
+    const FrictionLaw *law;   // not owned
+    int32_t count;   // contact nodes
+    bool started;   // the first step was seen
+    double *slip_rate;   // [count] velocity; owned, like all that follows
+    double *slip;   // [count] since the first step, length
+    double *pressure;   // [count] stress
+    double *shear;   // [count] positive where the plane drags the block back, stress
+    uint8_t *status;   // [count] 0 open, 1 sticks, 2 slips where friction weakens, 3 where it does
+        // not
+    double *origin;   // [count] u_x in the first step, length
+} ContactArrays;
+
+bool contact_arrays_create(const Interface *interface, const FrictionLaw *law,
+                           ContactArrays *arrays, Error *err);
+void contact_arrays_destroy(ContactArrays *arrays);
+bool contact_arrays_record(void *self, const Observation *seen, Error *err);   // a Recorder
+
+#endif

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a caller of amontons.h may look at between two steps.
+#include "base/memory.h"
+#include "run/simulation_state.h"
+#include "run/summary.h"
+
+void amontons_simulation_view(const Simulation *simulation, StepView *view)
+{
+    *view =
+        step_view(&simulation->seen, &simulation->events, &simulation->contact, simulation->t_end);
+}
+
+// Recovered at each call: a product with all modes of a reduced bulk.
+bool amontons_simulation_block(Simulation *simulation, BlockView *view, Error *err)
+{
+    const Mesh *mesh = &simulation->model.mesh;
+    const BulkOperator *system = &simulation->model.system;
+    const State *now = &simulation->control.now;
+    *view = (BlockView){0};
+    if (!simulation->options.whole_block)
+        FAIL(err, ERROR_INPUT,
+             "the motion of the whole block is kept only where RunOptions.whole_block asks for it");
+    if (!simulation->block_motion)
+        TRY((simulation->block_motion = NEW_ARRAY(double, 4 * (int64_t)mesh->node_count, err)));
+    double *displacement = simulation->block_motion;
+    double *velocity = displacement + 2 * (int64_t)mesh->node_count;
+    bulk_operator_recover(system, now->displacement, displacement);
+    bulk_operator_recover(system, now->velocity, velocity);
+    *view = (BlockView){.nodes = mesh->node_count,
+                        .dimensions = 2,
+                        .elements = mesh->element_count,
+                        .position = mesh->position,
+                        .displacement = displacement,
+                        .velocity = velocity,
+                        .first_node = mesh->first_node,
+                        .element_nodes = mesh->element_nodes};
+cleanup:
+    return error_is_clean(err);
+}
