@@ -7,7 +7,10 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from contextlib import redirect_stdout
+from io import StringIO
 from pathlib import Path
+from types import SimpleNamespace
 
 import h5py
 import numpy as np
@@ -147,6 +150,27 @@ class Windows(unittest.TestCase):
         self.assertAlmostEqual(found[0].scatter, 0)
         self.assertAlmostEqual(found[2].mu, 0.22)
         self.assertAlmostEqual(found[2].low, 0.18)
+
+    def test_one_mesh_has_one_column(self):
+        """A quick report has no numbers of the finer mesh that it did not compute, and says so."""
+        window = windows.Window([self.row(1, 0.3)])
+        window.centre.update(status="done", folder=Path("nowhere"))
+        pair = refinement.Pair(window, window, 20)
+        self.assertEqual(paper_report.even_table([pair], finer=True).count("| 0.3 |"), 2)
+        one = paper_report.even_table([pair], finer=False)
+        self.assertEqual(one.count("| 0.3 |"), 1)
+        for word in ("twice", "difference"):
+            self.assertNotIn(word, one)
+        parts = {key: "" for key in "critical_a critical_b line words profile readings adiabatic catalogue velocity".split()}
+        parts.update(cells=20, depends="(left out: quick)", even_a=one, even_b=one)
+        with tempfile.TemporaryDirectory() as folder:
+            place = SimpleNamespace(folder=Path(folder), figures=Path(folder), quick=True, jobs=1, pictures=[], seconds={})
+            with redirect_stdout(StringIO()):
+                paper_report.write(place, parts)
+            text = (place.folder / "REPORT.md").read_text()
+        self.assertIn("Not computed: any finer mesh", text)
+        for word in ("twice as many", "difference, %", "80 by 80", "of 2N"):
+            self.assertNotIn(word, text)
 
     def test_reasons(self):
         window = lambda *pairs, l_c=0.5: windows.Window([self.row(P, mu, l_c=l_c) for P, mu in pairs])  # noqa: E731

@@ -33,16 +33,21 @@ def regime(row):
     return f"{row['period']:.0f}" if row["period"] > 0 else "none found"
 
 
-def even_table(pairs):
-    """The pairs of the coarsest mesh, every branch, and why two meshes differ."""
+def even_table(pairs, finer=True):
+    """The pairs of the coarsest mesh, every branch, and why two meshes differ. finer: the second mesh was computed."""
     out = []
     for pair in pairs:
         window, other = pair.coarse, pair.fine
-        out.append((window.length, window.P, window.mu, 100 * window.scatter / window.mu, branch_words(window), regime(window.centre),
-                    window.l_c, pair.cells_in_front(), other.mu, 100 * other.scatter / other.mu, branch_words(other),
-                    100 * pair.difference(), reason(window, other, pair.cells)))
-    return table(["L", "P", "mu_M", "a run's scatter, %", "branches (peaks)", "period", "l_c/L", "l_c, cells", "mu_M, twice as many cells",
-                  "a run's scatter, %", "branches (peaks)", "difference, %", "why more than 1 %"], out)
+        row = (window.length, window.P, window.mu, 100 * window.scatter / window.mu, branch_words(window), regime(window.centre),
+               window.l_c, pair.cells_in_front())
+        if finer:
+            row += (other.mu, 100 * other.scatter / other.mu, branch_words(other), 100 * pair.difference(),
+                    reason(window, other, pair.cells))
+        out.append(row)
+    heads = ["L", "P", "mu_M", "a run's scatter, %", "branches (peaks)", "period", "l_c/L", "l_c, cells"]
+    if finer:
+        heads += ["mu_M, twice as many cells", "a run's scatter, %", "branches (peaks)", "difference, %", "why more than 1 %"]
+    return table(heads, out)
 
 
 def pair_table(pairs):
@@ -204,12 +209,21 @@ for the steady F_T/F_N of slow sliding.
 
 ## Figures 2a and 2b: mu_M against pressure
 
-Each point is computed on N and 2N cells along the contact. N is 40, even, or where these two meshes are more than 1 % apart or l_c
+"""
+
+TWO_MESHES = """Each point is computed on N and 2N cells along the contact. N is 40, even, or where these two meshes are more than 1 % apart or l_c
 is less than 8 cells of N, or sliding waits for the last two nodes to let go, 80 or else 160. Those have 40 rows and are graded to
 the contact and to both its ends (graded: three to one; steep: a hundred to one, for the last nodes). The marks are of 2N, the
 dashed lines of N.
 
-Sliding starts with one of a row of bursts, and the slip front then stands at a node, so that a single run's mu_M is a staircase in
+"""
+
+ONE_MESH = """**Quick: one mesh, {mesh} even cells along the contact.** Not computed: any finer mesh, so the error of this one is unknown; nor
+what mu_M depends on. Without `--quick` each point comes from two meshes, N and 2N cells, at least 40 and 80.
+
+"""
+
+WINDOWS = """Sliding starts with one of a row of bursts, and the slip front then stands at a node, so that a single run's mu_M is a staircase in
 P with steps that lie elsewhere on each mesh. So a point is the mean of three to five runs at pressures within 13 % of P, of one
 where runs scatter by less than 0.25 %. Scatter is what a run departs from the window's trend; bars reach from the lowest to
 the highest branch of a run, less that trend.
@@ -217,7 +231,7 @@ the highest branch of a run, less that trend.
 """
 
 EVEN = """
-### The same points on {mesh} and twice as many even cells
+### {points} on {mesh}{finer} even cells
 
 """
 
@@ -226,7 +240,7 @@ The paper has all points on mu_K + (mu_S - mu_K) l_c/L. Where ours lie off it, t
 the part of the load that lies behind the front l, and tau/p averaged by load behind and ahead of it,
 mu - line = (r_behind - mu_S) f + (r_left - mu_K)(1 - f) + (r_ahead - r_left)(1 - f) + (mu_S - mu_K)(f - l/L), exactly:
 what friction lacks behind the front, what sliding left ahead of it, what was carried ahead of it since, and pressure that
-is not uniform (80 cells).
+is not uniform ({cells} cells).
 
 """
 
@@ -235,14 +249,14 @@ CRITICAL = """
 
 l_sc, where a disturbance first grows swinging, and l_c, where one first grows without, over L. The 1D model (alpha = 0.2): by
 the paper's formula, with all terms of its linear problem, and as its simulation finds them at the first peak. The block:
-by `amontons stability`, for V towards 0 and at V, and by time stepping (the circles: of 2N above).
+by `amontons stability`, for V towards 0 and at V, and by time stepping (the circles: of the {mesh} above).
 
 """
 
 FRONTS = """
 ## Fronts of precursors, set A
 
-How fast the front of a rapid precursor runs along the contact, 80 by 80 cells, steps of at most L/(20 c_L). It sets out within
+How fast the front of a rapid precursor runs along the contact, {cells} by {cells} cells, steps of at most L/(20 c_L). It sets out within
 what slipped slowly before, where slip has only to speed up.
 
 """
@@ -256,19 +270,22 @@ authors later corrected v_c, V and eta1 in the 3D follow-up.
 
 def write(place, parts):
     picture = lambda name, words: f"![{words}](figures/{name}.png)\n" if name in place.pictures else ""  # noqa: E731
-    text = [INTRO.format(mesh=parts["cells"]),
+    finer = not place.quick
+    line_cells = 80 if finer else parts["cells"]
+    text = [INTRO.format(mesh=parts["cells"]), TWO_MESHES if finer else ONE_MESH.format(mesh=parts["cells"]), WINDOWS,
             picture("fig2a", "mu_M against P, set A"), picture("fig2b", "mu_M against P, set B"),
-            "\nSet A:\n\n", parts["a"], "\n", parts["agreement_a"], "\nSet B:\n\n", parts["b"], "\n", parts["agreement_b"],
+            *[part for name in "ab" if finer
+              for part in (f"\nSet {name.upper()}:\n\n", parts[name], "\n", parts[f"agreement_{name}"])],
             "\nThe paper: mu_M falls as P or L grows, and becomes nearly constant at both ends.\n",
-            EVEN.format(mesh=parts["cells"]), "Set A:\n\n", parts["even_a"], "\nSet B:\n\n", parts["even_b"],
-            "\n## Figure 3a\n\n", picture("fig3a", "mu_M against l_c"), LINE, parts["line"], parts["words"],
+            EVEN.format(points="The same points" if finer else "Each point", mesh=parts["cells"], finer=" and twice as many" if finer else ""), "Set A:\n\n", parts["even_a"], "\nSet B:\n\n", parts["even_b"],
+            "\n## Figure 3a\n\n", picture("fig3a", "mu_M against l_c"), LINE.format(cells=line_cells), parts["line"], parts["words"],
             "\n## Figures 3b and 3c\n\n", picture("fig3b", "p over P"), picture("fig3c", "tau over p"), parts["profile"],
-            CRITICAL, picture("critical-a", "critical lengths, set A"), picture("critical-b", "critical lengths, set B"),
+            CRITICAL.format(mesh="2N cells" if finer else "runs"), picture("critical-a", "critical lengths, set A"), picture("critical-b", "critical lengths, set B"),
             picture("growth", "growth rates"), "\nSet A, L = 1:\n\n", parts["critical_a"], "\nSet B, L = 0.04:\n\n", parts["critical_b"],
             "\n## Set B at P L = 2.3e-6: the paper's mu_M = 0.6\n\n", parts["readings"], READINGS,
             "\nAnd V towards 0 (the sweeps above have V / v_c = 0.03):\n\n",
             picture("velocity-b", "mu_M against V/v_c"), parts["adiabatic"],
-            FRONTS, picture("front-path", "where the fronts are"), picture("front-speed", "how fast they run"), parts["catalogue"],
+            FRONTS.format(cells=line_cells), picture("front-path", "where the fronts are"), picture("front-speed", "how fast they run"), parts["catalogue"],
             "\n## Precursors and the rod's velocity, set A, L = 1, P = 0.003\n\n",
             picture("velocity-a", "slip rates against V"), parts["velocity"],
             "\nThe paper: the slip rate of bounded precursors falls with V, that of leading ones does not; their fronts do not "

@@ -122,10 +122,8 @@ def pressure_parts(place, parts):
         even = [refinement.Pair(*pair, cells) for pair in zip(coarse, fine)]
         found[name] = even if place.quick else refinement.refine(even, material, finer(place, study))
         figures.figure_2(place, study, found[name], not place.quick, material, filled)
-        parts[f"even_{key}"] = report.even_table(even)
-        if place.quick:
-            parts[key], parts[f"agreement_{key}"] = "", "(quick: no finer mesh; its columns repeat the coarser's)\n"
-        else:
+        parts[f"even_{key}"] = report.even_table(even, finer=not place.quick)
+        if not place.quick:
             parts[key] = report.pair_table(found[name])
             parts[f"agreement_{key}"] = report.agreement_words(found[name], even)
     figures.figure_3a(place, {name: [pair.fine for pair in pairs] for name, pairs in found.items()})
