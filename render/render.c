@@ -6,6 +6,7 @@
 #include "io/folder.h"
 #include "render/context.h"
 #include "render/figures.h"
+#include "render/foot.h"
 #include "render/png_file.h"
 
 #include <errno.h>
@@ -98,12 +99,16 @@ static bool figure_make(const RenderRequest *request, const Figure *figure, Resu
     int32_t width = request->width > 0 ? request->width : WIDTH_DEFAULT;
     int32_t height = request->height > 0 ? request->height
                                          : (int32_t)lround(width * figure->height_over_width);
+    Foot foot = foot_wrap(view->warnings);
     page.point = width / COLUMN_WIDTH_POINTS;
+    page.foot = foot_height(&foot);
+    if (request->height == 0) height += (int32_t)lround(page.foot * page.point);
     page.canvas = canvas_create(width, height, err);
     TRY(page.canvas);
     page.text = text_create(page.canvas, err);
     TRY(page.text);
     TRY(figure->draw(&page, view, err));
+    foot_draw(&page, &foot);
     TRY(canvas_read(page.canvas, &pixels, err));
     TRY(figure_save(request, figure, page.canvas, pixels, err));
 cleanup:

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { UNITS_SIZE = 32, PAD_NAMES_SIZE = 1 << 16 };   // bytes
+enum { UNITS_SIZE = 32, LINES_SIZE = 1 << 16 };   // bytes
 
 // One value a row; `rows` shrinks to the shortest series: a killed run may have flushed some only.
 static bool scalar_read(ResultView *view, ResultSeries series, double **values, Error *err)
@@ -80,13 +80,12 @@ cleanup:
     return error_is_clean(err);
 }
 
-// A history of before pads had names has none: no error.
-static bool pad_names_read(ResultView *view, Error *err)
+// A text of several lines; "" where the history has none: no error.
+static bool lines_read(ResultView *view, const char *name, char **lines, Error *err)
 {
     Error absent = {0};
-    TRY(view->pad_names = NEW_ARRAY(char, PAD_NAMES_SIZE, err));
-    if (!result_file_text(view->file, "pads", view->pad_names, PAD_NAMES_SIZE, &absent))
-        view->pad_names[0] = '\0';
+    TRY(*lines = NEW_ARRAY(char, LINES_SIZE, err));
+    if (!result_file_text(view->file, name, *lines, LINES_SIZE, &absent)) (*lines)[0] = '\0';
 cleanup:
     return error_is_clean(err);
 }
@@ -156,7 +155,8 @@ bool result_view_open(const char *folder, ResultView *view, Error *err)
     TRY(scalar_read(view, SERIES_FRONT, &view->front, err));
     TRY(range_check(view, err));
     TRY(nodes_read(view, err));
-    TRY(pad_names_read(view, err));
+    TRY(lines_read(view, "pads", &view->pad_names, err));
+    TRY(lines_read(view, "warnings", &view->warnings, err));
     TRY(events_read(view, err));
     TRY(peaks_read(view, err));
     for (int32_t k = 0; k < RESULT_NUMBERS_COUNT; ++k)
@@ -189,6 +189,7 @@ void result_view_close(ResultView *view)
     memory_free(view->x);
     memory_free(view->pad);
     memory_free(view->pad_names);
+    memory_free(view->warnings);
     memory_free(view->slip_rate);
     memory_free(view->status);
     memory_free(view->events);

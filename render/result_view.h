@@ -29,6 +29,7 @@ typedef struct ResultView {
     double *x;   // [nodes] ascending, length; owned
     double *pad;   // [nodes] number of the contact curve; owned
     char *pad_names;   // a line a contact curve, by number; empty: without names; owned
+    char *warnings;   // of the run, one a line; empty: none; owned
     double *slip_rate;   // [rows * nodes] velocity, or NULL: not read yet; owned
     double *status;   // [rows * nodes] 0: open, or NULL: not read yet; owned
     double number[RESULT_NUMBERS_COUNT];   // NaN: not known

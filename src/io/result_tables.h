@@ -68,7 +68,7 @@ typedef enum ResultColumns {
     X(EVENTS_FRONT_SPEED, "events/front_speed", "velocity", "mean speed of the front; nan: none")
 
 // Attributes of the file's root. Texts: title, units ("normalised" or "si"), version, pads (the
-// contact curves' names, by number, a line each).
+// contact curves' names, by number, a line each), warnings (a line each; absent: none).
 // X(symbol, name, unit, description)
 #define RESULT_NUMBERS(X)                                                                          \
     X(NUMBER_LENGTH, "length", "length", "L, extent of the block along x")                         \

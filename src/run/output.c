@@ -52,6 +52,19 @@ cleanup:
     return error_is_clean(err);
 }
 
+// One a line, for the pictures: they are drawn from the history alone.
+bool output_store_warnings(Simulation *simulation, Error *err)
+{
+    const RunWarnings *warnings = &simulation->warnings;
+    char lines[RUN_WARNINGS_MAX * RUN_WARNING_SIZE];
+    size_t used = 0;
+    if (warnings->count == 0) return true;
+    for (int32_t k = 0; k < warnings->count; k++)
+        used += (size_t)snprintf(lines + used, sizeof lines - used, "%s%s", k > 0 ? "\n" : "",
+                                 warnings->text[k]);
+    return array_file_set_text(simulation->history.file, "warnings", lines, err);
+}
+
 bool output_open_fields(Simulation *simulation, Error *err)
 {
     const Scene *scene = &simulation->scene;

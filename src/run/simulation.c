@@ -187,6 +187,7 @@ static bool finish_run(Simulation *simulation, const Error *failure, RunSummary 
     Answers answers = answers_of(&simulation->drops);
     RunCounters counters = summary_count(simulation);
     if (simulation->history.file) {
+        TRY(output_store_warnings(simulation, err));
         TRY(history_finish(&simulation->history, &simulation->drops, &answers, err));
         TRY(output_draw_figures(simulation, err));
     }

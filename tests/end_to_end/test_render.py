@@ -384,6 +384,25 @@ class Variants(unittest.TestCase):
         self.assertGreater(rows[0], 3)
         self.assertTrue(frame.left < columns[0] and columns[-1] <= frame.right + 1)
 
+    def test_warnings_stand_below(self):
+        """The figure is what it is without; below it, in a colour of their own, whole words only."""
+        text = "slip is not resolved: " + "elements are long; " * 6 + "\nsecond"
+        fixture.make(self.folder)
+        self.draw(*FIGURES)
+        without = {name: read_picture(self.folder, name) for name in FIGURES}
+        fixture.make(self.folder, change=lambda data, attributes: attributes.update(warnings=text))
+        self.draw(*FIGURES)
+        for name in FIGURES:
+            plain, warned = without[name], read_picture(self.folder, name)
+            rows = plain.shape[0]
+            self.assertGreater(warned.shape[0], rows + 60)
+            np.testing.assert_array_equal(warned[:rows - 20], plain[:rows - 20])
+            words = is_color(warned, (158, 51, 13), 8)
+            self.assertEqual(np.count_nonzero(words[:rows - 20]), 0)
+            self.assertGreaterEqual(len(groups(words.any(axis=1))), 3, "lines")
+            self.assertFalse(words[:, -20:].any(), "the last letters are cut off")
+            self.assertGreater(len(groups(words.any(axis=0))), 10, "letters")
+
     def test_si_units(self):
         """Lengths get a handy unit: the same picture but for its numbers and names."""
         fixture.make(self.folder, units="si", length=0.1)

@@ -126,7 +126,8 @@ static void write_history_table(FILE *out)
     fputs("| `title` | text | of the scene |\n| `units` | text | normalised or si |\n"
           "| `version` | text | of amontons |\n"
           "| `pads` | text | names of the contact curves by their numbers in `nodes/pad`, a line "
-          "each |\n",
+          "each |\n"
+          "| `warnings` | text | what the run was warned of, a line each; absent: of nothing |\n",
           out);
 #define X(symbol, name, unit, words) put_row(out, 3, (const char *[]){"`" name "`", unit, words});
     RESULT_NUMBERS(X)
