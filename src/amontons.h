@@ -183,7 +183,8 @@ bool amontons_static(const Scene *scene, const char *folder, bool overwrite, Sta
 typedef struct SweepView {
     const char *words;   // "load.pressure=0.003 ...": what tells it from the others
     const char *message;   // why it failed; NULL: it did not
-    double mu_M;   // NaN: none
+    double mu_M, mu_M_error;   // NaN: none
+    bool warned;   // its run.json has warnings
     double seconds;   // of this point
     double seconds_left;   // for the whole sweep, estimated; NaN: not yet
     int32_t finished, failed, points;   // so far, among them, and in all

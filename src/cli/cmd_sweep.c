@@ -41,10 +41,10 @@ static const CommandText text = {
         "`rank` prints the best points at the end, and writes DIR/ranking.csv and "
         "DIR/figures/ranking.png: `by` is a name as in `record`, `order` is highest or lowest, "
         "`top` how many are printed, `against` what the gain is measured from: first (the first "
-        "point), best, or keys: then the same point with these values. `low` and `high` bound "
-        "mu_M and mu_hold by two standard errors to either side. A point whose bounds meet those "
-        "of the first is "
-        "as good. `plot` draws DIR/figures/plot.png: `x` and `y` each a result or a key that "
+        "point), best, or keys: then the same point with these values. `+-` is the error of "
+        "the number before it. Where the difference of two points is within their errors, their "
+        "order is `not decided`. `plot` draws DIR/figures/plot.png: `x` and `y` each a result or a "
+        "key that "
         "varies, `series` a key, `log`: x, y, both or none.\n\n"
         "Each point ends when its peaks are periodic, and keeps no history and no pictures, "
         "unless the study sets output.history: true and the like. Finished points stay in "
@@ -120,17 +120,19 @@ static int check_words(const SweepWords *words, SweepOptions *options)
 static void show_point(const SweepView *view, void *context)
 {
     SweepDisplay *display = context;
-    char left[32], what[64];
+    char left[32], what[64], error[24] = "";
     if (view->message && display->failures < FAILURES_SHOWN)
         snprintf(display->failed[display->failures++], sizeof display->failed[0], "%.190s: %.290s",
                  view->words, view->message);
     if (display->quiet) return;
     progress_format_left(view->seconds_left, left, sizeof left);
     if (display->bar) fprintf(stderr, "\r\033[K");
+    if (isfinite(view->mu_M_error)) snprintf(error, sizeof error, " +- %.4f", view->mu_M_error);
     if (view->message)
         snprintf(what, sizeof what, "FAILED");
     else
-        snprintf(what, sizeof what, "mu_M %.4f", view->mu_M);
+        snprintf(what, sizeof what, "mu_M %.4f%s%s", view->mu_M, error,
+                 view->warned ? "  warned" : "");
     if (!view->reused)
         fprintf(stderr, "%*d/%d  %s  %s  %.1f s  (%s left)\n", view->points < 100 ? 2 : 4,
                 view->finished, view->points, view->words, what, view->seconds, left);

@@ -245,9 +245,8 @@ class Sweep(unittest.TestCase):
             base = value[2 if k < 4 else 6]   # the same length, pushed at 0.006
             self.assertAlmostEqual(float(row["gain_percent"]), 100 * (value[k] / base - 1), places=9)
             self.assertEqual("not periodic" in row["note"], rows[k]["period"] == "0")
-            if rows[k]["mu_M_error"]:
-                self.assertAlmostEqual(float(row["high"]) - float(row["low"]), 4 * float(rows[k]["mu_M_error"]))
-        shown = done.stdout.split("mu_M, highest first; gain over the same point with")[1].splitlines()
+            self.assertEqual(row["mu_M_error"], rows[k]["mu_M_error"])
+        shown = done.stdout.split("mu_M, highest first; gain over the same point with")[1].split("\n\n")[0].splitlines()
         self.assertEqual(len(shown), 6)   # title, head, three rows, how many more
         self.assertRegex(shown[2], rf"^ +1 .* {value[order[0]]:.4g} ")
         self.assertIn("5 more in ranking.csv", shown[5])
@@ -266,24 +265,86 @@ class Sweep(unittest.TestCase):
         done = self.sweep(study=self.study(STUDY + "rank: {by: mu_M, against: {load.pressure: 7}}\n"), status=2)
         self.assertRegex(done.stderr, r":9:\d+: against: no point of the study has these values")
 
-    def test_bounds_of_each_result(self):
-        """A plot of mu_M has the bounds of mu_M, whatever the study is ranked by; bounds known are printed."""
-        study = self.study(STUDY + "rank: {by: mu_hold, top: 8}\nplot: {x: load.pressure, y: mu_M, series: rod.kind}\n"
-                           "record: [mu_M, mu_M_error, mu_hold, mu_hold_error]\n")
-        shown = self.sweep(study=study).stdout.split("mu_hold, highest first")[1].splitlines()
-        known = {}
-        for row in self.table():
-            mu, error = float(row["mu_M"]), float(row["mu_M_error"] or "nan")   # one peak has no error, and no bounds
-            known[mu] = (None, None) if np.isnan(error) else (mu - 2 * error, mu + 2 * error)
-        curves = [c for c in json.loads((self.folder / "out/figures/plot.json").read_text())["series"] if c["label"]]
+    def test_errors_beside_results(self):
+        """Whatever run.json calls X_error is the error of X: a column in both tables, bars in the picture."""
+        study = self.study(STUDY + "plot: {x: load.pressure, y: mu_M, series: rod.kind}\n"
+                           "record: [mu_M, results.drops.mean, mu_hold_error, l_c, mu_hold]\n")
+        self.sweep(study=study)
+        self.assertEqual([name for name in self.table()[0] if name.split(".")[0] not in ("mesh", "load", "rod")],
+                         ["point", "mu_M", "mu_M_error", "results.drops.mean", "results.drops.mean_error", "mu_hold_error",
+                          "l_c", "mu_hold", "status", "message", "warnings", "run"])
+        rows, known = self.table(), {}
+        for row in rows:
+            results = json.loads((self.folder / "out" / row["run"] / "run.json").read_text())["results"]
+            for column, error in ("mu_M_error", results["mu_M_error"]), ("results.drops.mean_error", results["drops"]["mean_error"]):
+                self.assertEqual(float(row[column]) if row[column] else None, error)
+            mu, error = results["mu_M"], results["mu_M_error"]
+            known[mu] = (None, None) if error is None else (mu - error, mu + error)
+        with h5py.File(self.folder / "out/sweep.h5") as file:
+            np.testing.assert_array_equal(file["result/mu_M_error"][:], [float(row["mu_M_error"] or "nan") for row in rows])
+            self.assertNotIn("result/mu_hold_error_error", file)
+        curves = [c for c in json.loads((self.folder / "out/figures/plot.json").read_text())["series"] if "low" in c]
         drawn = {y: (low, high) for c in curves for y, low, high in zip(c["y"], c["low"], c["high"])}
         self.assertEqual(drawn.keys(), known.keys())
         for mu, bounds in drawn.items():
             np.testing.assert_allclose(np.array(bounds, float), np.array(known[mu], float), rtol=1e-12)
-        self.assertEqual(shown[1].split(), ["rank", "mesh.set.length", "load.pressure", "rod.kind", "mu_hold", "low", "high", "gain"])
-        best = max(self.table(), key=lambda row: float(row["mu_hold"]))
-        mu, error = float(best["mu_hold"]), float(best["mu_hold_error"])
-        self.assertIn(f" {mu:.4g}  {mu - 2 * error:.4g}  {mu + 2 * error:.4g} ", shown[2])
+
+    def test_ranks_that_errors_leave_open(self):
+        """Ranks and gains against the rule, worked out from the table; what is printed is what is written."""
+        study = self.study(STUDY.replace("[0.003, 0.006]", "[0.0024, 0.0025, 0.003, 0.006]") +
+                           "rank: {by: mu_M, top: 16, against: {rod.kind: push, load.pressure: 0.003}}\n")
+        shown = self.sweep(study=study).stdout.split("mu_M, highest first")[1].split("\n\n")[0].splitlines()
+        rows = self.table()
+        value, error = (np.array([float(row[name] or "nan") for row in rows]) for name in ("mu_M", "mu_M_error"))
+        with open(self.folder / "out/ranking.csv", newline="") as file:
+            ranked = list(csv.DictReader(file))
+        self.assertGreater(len({row["rank_to"] for row in ranked}), 2)
+        open_ranks = 0
+        for place, row in enumerate(ranked, 1):
+            k, base = int(row["point"]), 4 if int(row["point"]) < 8 else 12
+            decided = np.abs(value - value[k]) > np.sqrt(error**2 + error[k]**2)   # not where an error is not known
+            first, last = 1 + np.sum(decided & (value > value[k])), len(value) - np.sum(decided & (value < value[k]))
+            self.assertEqual((int(row["rank"]), int(row["rank_from"]), int(row["rank_to"])), (place, first, last))
+            said = f"not decided between {first} and {last}"
+            open_ranks += first < last
+            self.assertEqual(said in row["note"], first < last)
+            self.assertEqual(said in shown[place + 1], first < last)
+            self.assertEqual("error not known" in row["note"], np.isnan(error[k]))
+            ratio = value[k] / value[base]
+            gain = 0 if k == base else 100 * ratio * np.sqrt((error[k] / value[k])**2 + (error[base] / value[base])**2)
+            if np.isnan(error[k] + error[base]):
+                self.assertEqual(row["gain_percent_error"], "")
+            else:
+                self.assertAlmostEqual(float(row["gain_percent_error"]), gain, places=9)
+        self.assertGreater(open_ranks, 1)
+        self.assertEqual(shown[1].split(), ["rank", "mesh.set.length", "load.pressure", "rod.kind", "mu_M", "+-", "gain", "+-"])
+        done = self.sweep(study=self.study(STUDY + "rank: {by: l_c, against: first}\n"))   # run.json has no l_c_error
+        self.assertRegex(done.stdout, r"l_c, highest first; gain over .*; no errors are known of it\n.* l_c +gain\n")
+
+    def test_warnings(self):
+        """On the terminal, in both tables and in both pictures, of the points whose run.json has them."""
+        study = self.study(STUDY.replace("[0.003, 0.006]", "[0.003, 0.012]") + "rank: {by: mu_max}\n"
+                           "plot: {x: load.pressure, y: mu_max, series: mesh.set.length}\n")
+        done = self.sweep(study=study)
+        rows = self.table()
+        said = [json.loads((self.folder / "out" / row["run"] / "run.json").read_text())["warnings"] for row in rows]
+        self.assertEqual([row["warnings"] for row in rows], [" // ".join(words) for words in said])
+        count = sum(1 for words in said if words)
+        self.assertIn(count, range(1, 8))
+        self.assertRegex(done.stdout, rf"\n{count} of 8 points: slip is not resolved: .* at \d+ to \d+ of 11 contact nodes.*\n  points ")
+        self.assertEqual(len(re.findall(r"  warned  ", done.stderr)), count)
+        with h5py.File(self.folder / "out/sweep.h5") as file:
+            words = file.attrs["warnings words"].split("|")
+            self.assertEqual([words[int(k)] for k in file["result/warnings"][:]], [row["warnings"] for row in rows])
+        with open(self.folder / "out/ranking.csv", newline="") as file:
+            self.assertEqual({row["point"]: row["warnings"] for row in csv.DictReader(file)},
+                             {row["point"]: row["warnings"] for row in rows})
+        for name, value in ("plot", "y"), ("ranking", "x"):
+            series = json.loads((self.folder / f"out/figures/{name}.json").read_text())["series"]
+            self.assertEqual([c["label"] for c in series if c["label"].startswith("open")], ["open: slip is not resolved"])
+            drawn = [v for c in series if c["marker"] == "circle" and not c["filled"] and not c["label"] for v in c[value]]
+            self.assertEqual(sorted(v for v in drawn if v is not None),
+                             sorted(float(row["mu_max"]) for row, words in zip(rows, said) if words))
 
     def test_equal_points_are_computed_once(self):
         study = self.study(STUDY.replace("[1, 2]", "[1, 1.0]"))

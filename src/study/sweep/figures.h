@@ -5,7 +5,8 @@
 
 #include "study/sweep/rank.h"
 
-bool figure_of_ranking(const Sweep *sweep, const Ranking *ranking, Error *err);
+bool figure_of_ranking(const Sweep *sweep, const SweepTable *table, const Ranking *ranking,
+                       Error *err);
 bool figure_of_plot(const Sweep *sweep, const SweepTable *table, Error *err);
 
 #endif

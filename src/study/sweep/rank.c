@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A study's points in the order of one result. A gain is value / baseline - 1. Two points whose
-// bounds of mu_M (of mu_hold, ranked by that) overlap are not distinguished by these runs: such a
-// point is marked as good as the best.
+// A study's points in the order of one result. The order of two points is decided where their
+// values differ by more than both errors, taken as independent: |a - b| > sqrt(e_a^2 + e_b^2). A
+// point's rank lies between one more than the points that are decidedly better and the number of
+// those that are not decidedly worse. An error that is not known decides nothing.
+//
+// A gain is g = a / b - 1 over the baseline b; to first order its error is that of a / b,
+// sqrt((e_a / b)^2 + (a e_b / b^2)^2), and 0 for the baseline itself.
 #include "study/sweep/rank.h"
 
 #include "base/memory.h"
@@ -31,14 +35,41 @@ static int compare(const void *left, const void *right)
     return a->point - b->point;
 }
 
-// NaN where there is none, or where it failed.
-static double baseline_value(const Sweep *sweep, const double *values, const Ranking *ranking,
-                             int32_t point)
+// -1: there is none.
+static int32_t baseline_of(const Sweep *sweep, const Ranking *ranking, int32_t point)
 {
-    int32_t base = 0;
-    if (sweep->study.rank.against == AGAINST_BEST) base = ranking->rows[0].point;
-    if (sweep->study.rank.against == AGAINST_KEYS) base = sweep->points[point].baseline;
-    return base >= 0 ? values[base] : NAN;
+    if (sweep->study.rank.against == AGAINST_BEST) return ranking->rows[0].point;
+    return sweep->study.rank.against == AGAINST_KEYS ? sweep->points[point].baseline : 0;
+}
+
+static bool is_decided(const RankRow *a, const RankRow *b)
+{
+    double difference = a->value - b->value;
+    return difference * difference > a->error * a->error + b->error * b->error;
+}
+
+// rows: sorted. The ranks that row `k` may have.
+static void find_places(Ranking *ranking, int32_t k)
+{
+    RankRow *row = &ranking->rows[k];
+    row->from = 1;
+    row->to = ranking->ranked;
+    for (int32_t i = 0; i < k; i++) row->from += is_decided(&ranking->rows[i], row);
+    for (int32_t i = k + 1; i < ranking->ranked; i++) row->to -= is_decided(row, &ranking->rows[i]);
+}
+
+static void find_gain(const Sweep *sweep, const SweepTable *table, const Ranking *ranking,
+                      RankRow *row)
+{
+    int32_t base = baseline_of(sweep, ranking, row->point), record = sweep->study.rank.record;
+    row->gain = row->gain_error = NAN;
+    if (base < 0) return;
+    double value = table_values(sweep, table, record)[base];
+    double error = table_errors(sweep, table, record)[base];
+    bool itself = sweep->points[base].same_as == sweep->points[row->point].same_as;
+    row->gain = row->value / value - 1;
+    row->gain_error = itself ? 0 * row->error
+                             : hypot(row->error / value, row->value / value * error / value);
 }
 
 // `lowest` is sorted as `highest` of the negative values, which are turned back afterwards.
@@ -46,31 +77,22 @@ bool ranking_make(const Sweep *sweep, const SweepTable *table, Ranking *ranking,
 {
     const Study *study = &sweep->study;
     double sign = study->rank.lowest ? -1 : 1;
-    const double *values = &table->records[(int64_t)study->rank.record * study->point_count];
-    *ranking = (Ranking){.count = study->point_count};
-    const Bounds *bounds = table_bounds(table, ranked_by(study), &ranking->bounded);
+    const double *values = table_values(sweep, table, study->rank.record);
+    const double *errors = table_errors(sweep, table, study->rank.record);
+    *ranking =
+        (Ranking){.count = study->point_count, .has_error = table->has_error[study->rank.record]};
     TRY((ranking->rows = NEW_ARRAY(RankRow, study->point_count, err)));
     for (int32_t k = 0; k < ranking->count; k++) {
-        ranking->rows[k] = (RankRow){.point = k,
-                                     .value = sign * values[k],
-                                     .low = NAN,
-                                     .high = NAN,
-                                     .period = bounds->period[k]};
-        if (isnan(values[k])) continue;
-        ranking->ranked++;
-        if (!ranking->bounded) continue;
-        ranking->rows[k].low = bounds->low[k];
-        ranking->rows[k].high = bounds->high[k];
+        ranking->rows[k] = (RankRow){.point = k, .value = sign * values[k], .error = errors[k]};
+        ranking->ranked += !isnan(values[k]);
     }
     qsort(ranking->rows, (size_t)ranking->count, sizeof *ranking->rows, compare);
-    const RankRow *best = &ranking->rows[0];
-    ranking->base = study->rank.against == AGAINST_KEYS ? (double)NAN
-                                                        : baseline_value(sweep, values, ranking, 0);
+    for (int32_t k = 0; ranking->has_error && k < ranking->ranked; k++) find_places(ranking, k);
+    int32_t base = study->rank.against == AGAINST_KEYS ? -1 : baseline_of(sweep, ranking, 0);
+    ranking->base = base < 0 ? (double)NAN : values[base];
     for (int32_t k = 0; k < ranking->count; k++) {
-        RankRow *row = &ranking->rows[k];
-        row->value *= sign;
-        row->gain = row->value / baseline_value(sweep, values, ranking, row->point) - 1;
-        row->as_good = k > 0 && row->low <= best->high && row->high >= best->low;
+        ranking->rows[k].value *= sign;
+        find_gain(sweep, table, ranking, &ranking->rows[k]);
     }
 cleanup:
     return error_is_clean(err);
@@ -91,24 +113,37 @@ static void add_note(char note[NOTE_SIZE], const char *words)
     snprintf(note + used, NOTE_SIZE - used, "%s%s", used ? ", " : "", words);
 }
 
-// What makes a value doubtful, and the sentence in which the run itself warned ("": none).
-static bool row_notes(const Sweep *sweep, const RankRow *row, char note[NOTE_SIZE],
-                      char warning[RUN_WARNING_SIZE], Error *err)
+// Of the values behind the result that is ranked; NaN: not known.
+static double period_of(const Study *study, const char *report)
+{
+    bool holds = strcmp(ranked_by(study)->path, "results.mu_hold") == 0;
+    double period = NAN;
+    json_find_number(report, holds ? "results.drops.period" : "results.period", &period);
+    return period;
+}
+
+// What makes a value or its rank doubtful.
+static bool row_notes(const Sweep *sweep, const Ranking *ranking, const RankRow *row,
+                      char note[NOTE_SIZE], Error *err)
 {
     PointStatus status = sweep->points[row->point].status;
     char *report = status == POINT_DONE ? point_report(sweep, row->point, err) : NULL;
-    double enough = 1;
-    *note = *warning = 0;
+    char text[60], warning[8];
+    double enough = 1, period = report ? period_of(&sweep->study, report) : (double)NAN;
+    *note = 0;
     TRY(error_is_clean(err));
     if (status != POINT_DONE) add_note(note, point_status_name(status));
     if (status == POINT_DONE && isnan(row->value)) add_note(note, "no value");
-    if (row->period == 0) add_note(note, "not periodic");
+    snprintf(text, sizeof text, "not decided between %d and %d", row->from, row->to);
+    if (row->from < row->to) add_note(note, text);
+    if (ranking->has_error && !isnan(row->value) && isnan(row->error))
+        add_note(note, "error not known");
+    if (period == 0) add_note(note, "not periodic");
     if (report && strcmp(ranked_by(&sweep->study)->path, "results.mu_hold") == 0 &&
         json_find_number(report, "results.drops.enough", &enough) && enough == 0)
         add_note(note, "too few drops");
-    if (row->period > 1) add_note(note, "by turns");
-    if (row->as_good) add_note(note, "as good as the first");
-    if (report && json_find_text(report, "warnings.0", warning, RUN_WARNING_SIZE))
+    if (period > 1) add_note(note, "by turns");
+    if (report && json_find_text(report, "warnings.0", warning, sizeof warning))
         add_note(note, "warned");
 cleanup:
     memory_free(report);
@@ -119,42 +154,47 @@ cleanup:
 
 static void write_head(CsvWriter *csv, const Study *study)
 {
+    char error[STUDY_NAME_SIZE + 8];
+    snprintf(error, sizeof error, "%s_error", ranked_by(study)->name);
     csv_text(csv, "rank");
+    csv_text(csv, "rank_from");
+    csv_text(csv, "rank_to");
     csv_text(csv, "point");
     for (int32_t k = 0; k < study->column_count; k++) csv_text(csv, study->columns[k]);
     csv_text(csv, ranked_by(study)->name);
-    csv_text(csv, "low");
-    csv_text(csv, "high");
+    csv_text(csv, error);
     csv_text(csv, "gain_percent");
+    csv_text(csv, "gain_percent_error");
     csv_text(csv, "note");
-    csv_text(csv, "warning");
+    csv_text(csv, "warnings");
     csv_end_row(csv);
 }
 
 // The rank of a point without a value is empty; its note gives the reason.
-static bool write_row(CsvWriter *csv, const Sweep *sweep, const Ranking *ranking, int32_t k,
-                      Error *err)
+static bool write_row(CsvWriter *csv, const Sweep *sweep, const SweepTable *table,
+                      const Ranking *ranking, const RankRow *row, Error *err)
 {
-    const RankRow *row = &ranking->rows[k];
     const Study *study = &sweep->study;
-    char cell[SCENE_TEXT_SIZE], note[NOTE_SIZE], warning[RUN_WARNING_SIZE];
+    char cell[SCENE_TEXT_SIZE], note[NOTE_SIZE];
     double ignored = 0;
     Scene *scene = NEW_ARRAY(Scene, 1, err);
     TRY(scene);
     TRY(study_point_scene(study, row->point, scene, err));
-    TRY(row_notes(sweep, row, note, warning, err));
-    csv_number(csv, isnan(row->value) ? (double)NAN : k + 1);
+    TRY(row_notes(sweep, ranking, row, note, err));
+    csv_number(csv, isnan(row->value) ? (double)NAN : (double)(row - ranking->rows) + 1);
+    csv_number(csv, row->from > 0 ? row->from : (double)NAN);
+    csv_number(csv, row->to > 0 ? row->to : (double)NAN);
     csv_number(csv, row->point);
     for (int32_t c = 0; c < study->column_count; c++) {
         study_scene_value(scene, study->columns[c], cell, sizeof cell, &ignored);
         csv_text(csv, cell);
     }
     csv_number(csv, row->value);
-    csv_number(csv, row->low);
-    csv_number(csv, row->high);
+    csv_number(csv, row->error);
     csv_number(csv, 100 * row->gain);
+    csv_number(csv, 100 * row->gain_error);
     csv_text(csv, note);
-    csv_text(csv, warning);
+    csv_text(csv, table->warning_words.words[(int32_t)table->warnings[row->point]]);
     csv_end_row(csv);
 cleanup:
     memory_free(scene);
@@ -162,14 +202,15 @@ cleanup:
 }
 
 // All points, also those that a terminal does not show.
-bool ranking_write(const Sweep *sweep, const Ranking *ranking, Error *err)
+bool ranking_write(const Sweep *sweep, const SweepTable *table, const Ranking *ranking, Error *err)
 {
     char path[POINT_PATH_SIZE];
     CsvWriter *csv = NULL;
     snprintf(path, sizeof path, "%s/ranking.csv", sweep->folder);
     TRY((csv = csv_create(path, err)));
     write_head(csv, &sweep->study);
-    for (int32_t k = 0; k < ranking->count; k++) TRY(write_row(csv, sweep, ranking, k, err));
+    for (int32_t k = 0; k < ranking->count; k++)
+        TRY(write_row(csv, sweep, table, ranking, &ranking->rows[k], err));
 cleanup:
     if (error_is_clean(err)) return csv_finish(csv, err);
     csv_abandon(csv);
@@ -178,7 +219,7 @@ cleanup:
 
 // --- on the terminal ----------------------------------------------------------------------------
 
-// A line of the printed table: rank, the keys chosen, value, low, high, gain, note.
+// A line of the printed table: rank, the keys chosen, value, its error, gain, its error, note.
 typedef struct PrintedRow {
     char cells[CELLS_MAX][CELL_SIZE];
     char note[NOTE_SIZE];
@@ -189,14 +230,15 @@ static char *add_cell(PrintedRow *row, int32_t *count)
     return row->cells[(*count)++];
 }
 
+// NaN: `?`.
 static void add_number(PrintedRow *row, int32_t *count, const char *format, double value)
 {
     char *cell = add_cell(row, count);
-    if (isfinite(value)) snprintf(cell, CELL_SIZE, format, value);
+    snprintf(cell, CELL_SIZE, isfinite(value) ? format : "?", value);
 }
 
 // Row 0 is the head. *count: cells in a row.
-static void print_head(const Study *study, bool bounded, PrintedRow *row, int32_t *count)
+static void print_head(const Study *study, bool has_error, PrintedRow *row, int32_t *count)
 {
     *count = 0;
     snprintf(add_cell(row, count), CELL_SIZE, "rank");
@@ -204,11 +246,9 @@ static void print_head(const Study *study, bool bounded, PrintedRow *row, int32_
         if (study_is_chosen(study, study->columns[k]))
             snprintf(add_cell(row, count), CELL_SIZE, "%.79s", study->columns[k]);
     snprintf(add_cell(row, count), CELL_SIZE, "%.79s", ranked_by(study)->name);
-    if (bounded) {
-        snprintf(add_cell(row, count), CELL_SIZE, "low");
-        snprintf(add_cell(row, count), CELL_SIZE, "high");
-    }
+    if (has_error) snprintf(add_cell(row, count), CELL_SIZE, "+-");
     snprintf(add_cell(row, count), CELL_SIZE, "gain");
+    if (has_error) snprintf(add_cell(row, count), CELL_SIZE, "+-");
 }
 
 // Key columns that follow from formulas are left out: they tell no point from another.
@@ -217,7 +257,6 @@ static bool print_row(const Sweep *sweep, const Ranking *ranking, int32_t k, Pri
 {
     const RankRow *from = &ranking->rows[k];
     const Study *study = &sweep->study;
-    char warning[RUN_WARNING_SIZE];
     int32_t count = 0;
     double ignored = 0;
     Scene *scene = NEW_ARRAY(Scene, 1, err);
@@ -228,19 +267,17 @@ static bool print_row(const Sweep *sweep, const Ranking *ranking, int32_t k, Pri
         if (study_is_chosen(study, study->columns[c]))
             study_scene_value(scene, study->columns[c], add_cell(row, &count), CELL_SIZE, &ignored);
     add_number(row, &count, "%.4g", from->value);
-    if (ranking->bounded) {
-        add_number(row, &count, "%.4g", from->low);
-        add_number(row, &count, "%.4g", from->high);
-    }
+    if (ranking->has_error) add_number(row, &count, "%.2g", from->error);
     add_number(row, &count, "%+.1f %%", 100 * from->gain);
-    TRY(row_notes(sweep, from, row->note, warning, err));
+    if (ranking->has_error) add_number(row, &count, "%.1f %%", 100 * from->gain_error);
+    TRY(row_notes(sweep, ranking, from, row->note, err));
 cleanup:
     memory_free(scene);
     return error_is_clean(err);
 }
 
 // "mu_M, highest first; gain over the first point (mesh.set.n=1)"
-static bool print_title(const Sweep *sweep, FILE *out, Error *err)
+static bool print_title(const Sweep *sweep, bool has_error, FILE *out, Error *err)
 {
     const Study *study = &sweep->study;
     char words[POINT_WORDS_SIZE] = "";
@@ -260,7 +297,7 @@ static bool print_title(const Sweep *sweep, FILE *out, Error *err)
              item = yaml_next(study->file, item))
             fprintf(out, " %s=%s", yaml_key(study->file, item), yaml_text(study->file, item));
     }
-    fprintf(out, "\n");
+    fprintf(out, "%s\n", has_error ? "" : "; no errors are known of it");
 cleanup:
     memory_free(scene);
     return error_is_clean(err);
@@ -291,9 +328,9 @@ bool ranking_print(const Sweep *sweep, const Ranking *ranking, Error *err)
     if (!out) return true;
     if (shown > sweep->study.rank.top) shown = sweep->study.rank.top;
     TRY((rows = NEW_ARRAY(PrintedRow, shown + 1, err)));
-    print_head(&sweep->study, ranking->bounded, &rows[0], &cells);
+    print_head(&sweep->study, ranking->has_error, &rows[0], &cells);
     for (int32_t k = 0; k < shown; k++) TRY(print_row(sweep, ranking, k, &rows[k + 1], err));
-    TRY(print_title(sweep, out, err));
+    TRY(print_title(sweep, ranking->has_error, out, err));
     print_rows(rows, shown, cells, out);
     if (ranking->count > shown)
         fprintf(out, "  ... %d more in ranking.csv\n", ranking->count - shown);

@@ -6,7 +6,7 @@
 // X(name in `record`, path in run.json, recorded by default, meaning)
 #define STUDY_RECORDS(X)                                                                           \
     X("mu_M", "results.mu_M", true, "macroscopic static friction coefficient")                     \
-    X("mu_M_error", "results.mu_M_error", true, "its standard error")                              \
+    X("mu_M_error", "results.mu_M_error", false, "its error")                                      \
     X("spread", "results.mu_M_spread", true, "largest minus smallest of the peaks in mu_M")        \
     X("period", "results.period", true, "peaks repeat after so many slidings; 0: not")             \
     X("low", "results.mu_M_low", true, "lowest of the peaks in mu_M")                              \
@@ -24,9 +24,9 @@
     X("reduction_error", "errors.reduction", true, "reduced bulk against the full one")            \
     X("mu_max", "results.mu_max", true, "largest mu of the whole run")                             \
     X("mu_hold", "results.mu_hold", true, "holding coefficient")                                   \
-    X("mu_hold_error", "results.mu_hold_error", false, "its standard error")                       \
+    X("mu_hold_error", "results.mu_hold_error", false, "its error")                                \
     X("mu_drops", "results.drops.mean", false, "mean of the load drops")                           \
-    X("mu_drops_error", "results.drops.mean_error", false, "standard error of that mean")          \
+    X("mu_drops_error", "results.drops.mean_error", false, "error of that mean")                   \
     X("drops", "results.drops.counted", false, "load drops in mu_hold")                            \
     X("drops_period", "results.drops.period", false, "they repeat after so many; 0: not")          \
     X("drops_enough", "results.drops.enough", false, "1: they repeat, or mean known to 2 %")       \

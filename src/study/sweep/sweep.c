@@ -98,11 +98,12 @@ static bool show_results(const Sweep *sweep, bool whole, Error *err)
     TRY(table_write(sweep, &table, err));
     if (sweep->study.rank.wanted) {
         TRY(ranking_make(sweep, &table, &ranking, err));
-        TRY(ranking_write(sweep, &ranking, err));
+        TRY(ranking_write(sweep, &table, &ranking, err));
         if (whole) TRY(ranking_print(sweep, &ranking, err));
-        if (whole) TRY(figure_of_ranking(sweep, &ranking, err));
+        if (whole) TRY(figure_of_ranking(sweep, &table, &ranking, err));
     }
     if (sweep->study.plot.wanted && whole) TRY(figure_of_plot(sweep, &table, err));
+    if (sweep->options->out) warned_print(&table.warned, sweep->options->out);
 cleanup:
     ranking_destroy(&ranking);
     table_destroy(&table);

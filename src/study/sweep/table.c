@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The table of a sweep, a row a point in the study's order: as text in sweep.csv (RFC 4180), as
-// arrays in sweep.h5. Columns: point, the keys that vary, what is recorded, status, message, run.
+// arrays in sweep.h5. Columns: point, the keys that vary, what is recorded, status, message,
+// warnings, run.
+//
+// What run.json holds as NAME_error beside a result NAME is that result's error, whatever the
+// result: it becomes the next column, asked for or not.
 //
 // Both files hold the same rows: the CSV for spreadsheets and readers, the arrays for programs. An
 // array has no words: a word is its index in a list that is an attribute beside its column.
@@ -15,7 +19,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { CELL_SIZE = 2 * ERROR_MESSAGE_SIZE };
+enum { CELL_SIZE = 2 * ERROR_MESSAGE_SIZE, PATH_SIZE = STUDY_NAME_SIZE + 8 };
 
 typedef struct TableWriter {
     const Sweep *sweep;
@@ -23,6 +27,53 @@ typedef struct TableWriter {
     CsvWriter *csv;   // owned, like the next
     char *cell;   // [CELL_SIZE] work
 } TableWriter;
+
+// --- errors -------------------------------------------------------------------------------------
+
+static void error_name_of(const char *name, char error[PATH_SIZE])
+{
+    snprintf(error, PATH_SIZE, "%s_error", name);
+}
+
+// Whether the table gets a column for the error of record `k`: there is one, and the study does not
+// record it by itself.
+static bool adds_error(const Study *study, const SweepTable *table, int32_t k)
+{
+    char path[PATH_SIZE];
+    error_name_of(study->records[k].path, path);
+    for (int32_t i = 0; i < study->record_count; i++)
+        if (strcmp(study->records[i].path, path) == 0) return false;
+    return table->has_error[k];
+}
+
+// Every run.json of one version has the same keys, so the first that is done tells for all.
+static bool find_errors(const Sweep *sweep, SweepTable *table, Error *err)
+{
+    const Study *study = &sweep->study;
+    char *report = NULL, path[PATH_SIZE];
+    for (int32_t k = 0; k < study->point_count && !report; k++) {
+        if (sweep->points[k].status != POINT_DONE) continue;
+        report = point_report(sweep, k, err);
+        TRY(error_is_clean(err));
+    }
+    for (int32_t k = 0; report && k < study->record_count; k++) {
+        error_name_of(study->records[k].path, path);
+        table->has_error[k] = json_may_hold(report, path);
+    }
+cleanup:
+    memory_free(report);
+    return error_is_clean(err);
+}
+
+const double *table_values(const Sweep *sweep, const SweepTable *table, int32_t record)
+{
+    return table->records + (int64_t)record * sweep->study.point_count;
+}
+
+const double *table_errors(const Sweep *sweep, const SweepTable *table, int32_t record)
+{
+    return table->errors + (int64_t)record * sweep->study.point_count;
+}
 
 // --- sweep.csv ----------------------------------------------------------------------------------
 
@@ -32,36 +83,35 @@ static void write_head(TableWriter *writer)
     const Study *study = &writer->sweep->study;
     csv_text(writer->csv, "point");
     for (int32_t k = 0; k < study->column_count; k++) csv_text(writer->csv, study->columns[k]);
-    for (int32_t k = 0; k < study->record_count; k++) csv_text(writer->csv, study->records[k].name);
+    for (int32_t k = 0; k < study->record_count; k++) {
+        char error[PATH_SIZE];
+        csv_text(writer->csv, study->records[k].name);
+        error_name_of(study->records[k].name, error);
+        if (adds_error(study, writer->table, k)) csv_text(writer->csv, error);
+    }
     csv_text(writer->csv, "status");
     csv_text(writer->csv, "message");
+    csv_text(writer->csv, "warnings");
     csv_text(writer->csv, "run");
     csv_end_row(writer->csv);
 }
 
 // --- rows ---------------------------------------------------------------------------------------
 
-// NaN where the list is full: such a word is in sweep.csv only.
-static double word_index(WordList *list, const char *word)
-{
-    for (int32_t k = 0; k < list->count; k++)
-        if (strcmp(list->words[k], word) == 0) return k;
-    if (list->count == WORDS_MAX) return NAN;
-    snprintf(list->words[list->count], WORD_SIZE, "%.63s", word);
-    return list->count++;
-}
-
 // Into a row of the CSV file and a row of the arrays at once.
-static void write_keys(TableWriter *writer, int32_t point, const Scene *scene)
+static bool write_keys(TableWriter *writer, int32_t point, const Scene *scene, Error *err)
 {
     const Study *study = &writer->sweep->study;
     for (int32_t k = 0; k < study->column_count; k++) {
         double number = NAN;
         study_scene_value(scene, study->columns[k], writer->cell, CELL_SIZE, &number);
         csv_text(writer->csv, writer->cell);
-        if (isnan(number)) number = word_index(&writer->table->words[k], writer->cell);
+        WordList *words = &writer->table->words[k];
+        if (isnan(number)) TRY(words_index(words, writer->cell, &number, err));
         writer->table->keys[k * study->point_count + point] = number;
     }
+cleanup:
+    return error_is_clean(err);
 }
 
 // report: of a finished point, or NULL.
@@ -70,41 +120,38 @@ static void write_records(TableWriter *writer, int32_t point, const char *report
     const Study *study = &writer->sweep->study;
     for (int32_t k = 0; k < study->record_count; k++) {
         const char *path = study->records[k].path;
-        double number = NAN;
+        char error_path[PATH_SIZE];
+        double number = NAN, error = NAN;
+        error_name_of(path, error_path);
+        if (report) json_find_number(report, error_path, &error);
         if (report && !json_find_number(report, path, &number) &&
             json_find_text(report, path, writer->cell, CELL_SIZE))
             csv_text(writer->csv, writer->cell);
         else
             csv_number(writer->csv, number);
+        if (adds_error(study, writer->table, k)) csv_number(writer->csv, error);
         writer->table->records[k * study->point_count + point] = number;
+        writer->table->errors[k * study->point_count + point] = error;
     }
 }
 
-// Without a report, or one of a failed point, nothing is known.
-static void clear_bounds(Bounds *bounds, int32_t point)
+// All warnings of a point in one cell, with // between them. report: as above.
+static bool write_warnings(TableWriter *writer, int32_t point, const char *report, Error *err)
 {
-    bounds->low[point] = bounds->high[point] = bounds->period[point] = NAN;
-}
-
-// Two standard errors to either side of `result`; run.json has the error beside it.
-static void note_bounds(Bounds *bounds, int32_t point, const char *report, const char *result,
-                        const char *period)
-{
-    char path[STUDY_NAME_SIZE];
-    double mu = NAN, error = NAN;
-    snprintf(path, sizeof path, "%s_error", result);
-    json_find_number(report, period, &bounds->period[point]);
-    json_find_number(report, result, &mu);
-    json_find_number(report, path, &error);
-    bounds->low[point] = mu - 2 * error;
-    bounds->high[point] = mu + 2 * error;
-}
-
-const Bounds *table_bounds(const SweepTable *table, const StudyRecord *record, bool *bounded)
-{
-    bool holds = strcmp(record->path, "results.mu_hold") == 0;
-    *bounded = holds || strcmp(record->path, "results.mu_M") == 0;
-    return holds ? &table->mu_hold : &table->mu_M;
+    SweepTable *table = writer->table;
+    char path[40], sentence[RUN_WARNING_SIZE];
+    size_t used = 0;
+    *writer->cell = 0;
+    for (int32_t k = 0; report; k++) {
+        snprintf(path, sizeof path, "warnings.%d", k);
+        if (!json_find_text(report, path, sentence, sizeof sentence)) break;
+        warned_add(&table->warned, point, sentence);
+        if (used + sizeof sentence + 4 > CELL_SIZE) continue;
+        used += (size_t)snprintf(writer->cell + used, CELL_SIZE - used, "%s%s", used ? " // " : "",
+                                 sentence);
+    }
+    csv_text(writer->csv, writer->cell);
+    return words_index(&table->warning_words, writer->cell, &table->warnings[point], err);
 }
 
 // A failed point keeps its keys and its message, and has no results.
@@ -113,25 +160,20 @@ static bool write_row(TableWriter *writer, int32_t point, Scene *scene, Error *e
     const Sweep *sweep = writer->sweep;
     const SweepPoint *at = &sweep->points[point];
     char run[HASH_TEXT_SIZE + 8], *report = NULL;
+    const char *results = NULL;   // what a failed point came to before it failed is none
     TRY(study_point_scene(&sweep->study, point, scene, err));
     if (at->status != POINT_PENDING) report = point_report(sweep, point, err);
     TRY(error_is_clean(err));
     csv_number(writer->csv, point);
-    write_keys(writer, point, scene);
-    // What a failed point came to before it failed is no result.
-    write_records(writer, point, at->status == POINT_DONE ? report : NULL);
-    clear_bounds(&writer->table->mu_M, point);
-    clear_bounds(&writer->table->mu_hold, point);
-    if (at->status == POINT_DONE && report) {
-        note_bounds(&writer->table->mu_M, point, report, "results.mu_M", "results.period");
-        note_bounds(&writer->table->mu_hold, point, report, "results.mu_hold",
-                    "results.drops.period");
-    }
+    TRY(write_keys(writer, point, scene, err));
+    if (at->status == POINT_DONE) results = report;
+    write_records(writer, point, results);
     csv_text(writer->csv, point_status_name(at->status));
     *writer->cell = 0;
     if (at->status == POINT_FAILED && report)
         json_find_text(report, "message", writer->cell, ERROR_MESSAGE_SIZE);
     csv_text(writer->csv, writer->cell);
+    TRY(write_warnings(writer, point, results, err));
     snprintf(run, sizeof run, "points/%s", at->hash);
     csv_text(writer->csv, run);
     csv_end_row(writer->csv);
@@ -157,14 +199,14 @@ static bool write_column(ArrayFile *file, ArraySeries series, const double *valu
 // "push|bonded": the word of index k is the k-th.
 static bool write_words(ArrayFile *file, const char *column, const WordList *list, Error *err)
 {
-    char name[STUDY_NAME_SIZE + 16], text[WORDS_MAX * (WORD_SIZE + 2)] = "";
-    size_t used = 0;
+    char name[STUDY_NAME_SIZE + 16], *text = NULL;
     if (list->count == 0) return true;
     snprintf(name, sizeof name, "%s words", column);
-    for (int32_t k = 0; k < list->count; k++)
-        used +=
-            (size_t)snprintf(text + used, sizeof text - used, "%s%s", k ? "|" : "", list->words[k]);
-    return array_file_set_text(file, name, text, err);
+    TRY((text = words_join(list, err)));
+    TRY(array_file_set_text(file, name, text, err));
+cleanup:
+    memory_free(text);
+    return error_is_clean(err);
 }
 
 // Groups scene/ and result/, a column each, [points].
@@ -185,9 +227,18 @@ static bool write_arrays(const Study *study, const SweepTable *table, ArrayFile 
         ArraySeries series = {.name = name, .description = study->records[k].path};
         snprintf(name, sizeof name, "result/%s", study->records[k].name);
         TRY(write_column(file, series, &table->records[k * count], count, err));
+        if (!adds_error(study, table, k)) continue;
+        snprintf(name, sizeof name, "result/%s_error", study->records[k].name);
+        series.description = "error of the column without `_error`";
+        TRY(write_column(file, series, &table->errors[k * count], count, err));
     }
     ArraySeries status = {.name = "result/status", .description = "0 pending, 1 done, 2 failed"};
     TRY(write_column(file, status, table->status, count, err));
+    ArraySeries warnings = {.name = "result/warnings",
+                            .description = "0 none; else an index in the attribute "
+                                           "`warnings words`"};
+    TRY(write_column(file, warnings, table->warnings, count, err));
+    TRY(write_words(file, "warnings", &table->warning_words, err));
 cleanup:
     return error_is_clean(err);
 }
@@ -206,32 +257,20 @@ cleanup:
     return false;
 }
 
-static bool make_bounds(int64_t count, Bounds *bounds, Error *err)
-{
-    TRY((bounds->low = NEW_ARRAY(double, count, err)));
-    TRY((bounds->high = NEW_ARRAY(double, count, err)));
-    TRY((bounds->period = NEW_ARRAY(double, count, err)));
-cleanup:
-    return error_is_clean(err);
-}
-
-static void destroy_bounds(Bounds *bounds)
-{
-    memory_free(bounds->low);
-    memory_free(bounds->high);
-    memory_free(bounds->period);
-}
-
 // On failure the table is the caller's to destroy.
 static bool make_room(const Study *study, SweepTable *table, Error *err)
 {
     int64_t count = study->point_count;
+    double none = 0;
     TRY((table->keys = NEW_ARRAY(double, count * study->column_count, err)));
     TRY((table->records = NEW_ARRAY(double, count * study->record_count, err)));
     TRY((table->status = NEW_ARRAY(double, count, err)));
-    TRY(make_bounds(count, &table->mu_M, err));
-    TRY(make_bounds(count, &table->mu_hold, err));
+    TRY((table->errors = NEW_ARRAY(double, count * study->record_count, err)));
+    TRY((table->warnings = NEW_ARRAY(double, count, err)));
+    table->column_count = study->column_count;
     TRY((table->words = NEW_ARRAY(WordList, study->column_count, err)));
+    TRY(warned_make(study->point_count, &table->warned, err));
+    TRY(words_index(&table->warning_words, "", &none, err));
 cleanup:
     return error_is_clean(err);
 }
@@ -244,6 +283,7 @@ bool table_write(const Sweep *sweep, SweepTable *table, Error *err)
     Scene *scene = NULL;
     *table = (SweepTable){0};
     TRY(make_room(&sweep->study, table, err));
+    TRY(find_errors(sweep, table, err));
     TRY((scene = NEW_ARRAY(Scene, 1, err)));
     TRY((writer.cell = NEW_ARRAY(char, CELL_SIZE, err)));
     snprintf(path, sizeof path, "%s/sweep.csv", sweep->folder);
@@ -262,9 +302,13 @@ void table_destroy(SweepTable *table)
 {
     memory_free(table->keys);
     memory_free(table->records);
+    memory_free(table->errors);
     memory_free(table->status);
-    destroy_bounds(&table->mu_M);
-    destroy_bounds(&table->mu_hold);
+    memory_free(table->warnings);
+    for (int32_t k = 0; table->words && k < table->column_count; k++)
+        words_destroy(&table->words[k]);
     memory_free(table->words);
+    words_destroy(&table->warning_words);
+    warned_destroy(&table->warned);
     *table = (SweepTable){0};
 }

@@ -4,34 +4,27 @@
 #define AMONTONS_STUDY_SWEEP_TABLE_H
 
 #include "study/sweep/point.h"
-
-enum { WORDS_MAX = 64, WORD_SIZE = 64 };
-
-// Words in a column of keys that are no numbers; the table holds their index.
-typedef struct WordList {
-    int32_t count;
-    char words[WORDS_MAX][WORD_SIZE];
-} WordList;
-
-// What is known of a coefficient of friction at each point; NaN: nothing. [point_count] each.
-typedef struct Bounds {
-    double *low, *high;   // owned, like the next
-    double *period;   // its values repeat after so many slidings; 0: they do not
-} Bounds;
+#include "study/sweep/warned.h"
+#include "study/sweep/words.h"
 
 // The numbers of the table, column after column; NaN where there is none.
 typedef struct SweepTable {
     double *keys;   // [column_count][point_count]; owned, like all below
     double *records;   // [record_count][point_count]
+    double *errors;   // of the records, alike: what run.json has as NAME_error beside them
     double *status;   // [point_count] a PointStatus
-    Bounds mu_M, mu_hold;
-    WordList *words;   // [column_count]
+    double *warnings;   // [point_count] index in warning_words
+    bool has_error[STUDY_RECORDS_MAX];   // run.json has an error beside this record
+    int32_t column_count;
+    WordList *words;   // [column_count] where a key has words, the table has their index
+    WordList warning_words;   // the first is "": no warning
+    Warned warned;
 } SweepTable;
 
 bool table_write(const Sweep *sweep, SweepTable *table, Error *err);
-// Whether the values of `record` repeat, and their bounds: those of mu_hold for itself, those of
-// mu_M for all other columns. *bounded: low and high are bounds of this column.
-const Bounds *table_bounds(const SweepTable *table, const StudyRecord *record, bool *bounded);
+// The values of a record and their errors, [point_count].
+const double *table_values(const Sweep *sweep, const SweepTable *table, int32_t record);
+const double *table_errors(const Sweep *sweep, const SweepTable *table, int32_t record);
 void table_destroy(SweepTable *table);   // zeroed is fine
 
 #endif

@@ -13,7 +13,7 @@
 static void report_point(Sweep *sweep, int32_t k, const char *report)
 {
     const SweepPoint *point = &sweep->points[k];
-    char words[POINT_WORDS_SIZE] = "", message[ERROR_MESSAGE_SIZE] = "";
+    char words[POINT_WORDS_SIZE] = "", message[ERROR_MESSAGE_SIZE] = "", warning[8];
     Error ignored = {0};
     Scene *scene = NULL;
     sweep->finished++;
@@ -25,13 +25,18 @@ static void report_point(Sweep *sweep, int32_t k, const char *report)
     memory_free(scene);
     SweepView view = {.words = words,
                       .mu_M = NAN,
+                      .mu_M_error = NAN,
                       .seconds = point->seconds,
                       .seconds_left = NAN,
                       .finished = sweep->finished,
                       .failed = sweep->failed,
                       .points = sweep->study.point_count,
                       .reused = point->reused};
-    if (report) json_find_number(report, "results.mu_M", &view.mu_M);
+    if (report) {
+        json_find_number(report, "results.mu_M", &view.mu_M);
+        json_find_number(report, "results.mu_M_error", &view.mu_M_error);
+        view.warned = json_find_text(report, "warnings.0", warning, sizeof warning);
+    }
     if (point->status == POINT_FAILED) {
         if (report) json_find_text(report, "message", message, sizeof message);
         view.message = message;

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Two sentences are compared letter by letter, a number in one with the number at its place in the
+// other. Each kind keeps the range of every number, so that one sentence speaks for all its points.
+#include "study/sweep/warned.h"
+
+#include "base/memory.h"
+#include "base/text.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <string.h>
+
+enum { LISTED_MAX = 12 };   // points named below a sentence
+
+// The bytes of the number at `at`; 0: none begins there. Digits within a word (mu_2) are letters.
+static int32_t number_at(const char *text, const char *at, double *value)
+{
+    bool in_word = at > text && (isalnum((unsigned char)at[-1]) || strchr("_.", at[-1]));
+    return in_word || !isdigit((unsigned char)*at) ? 0 : text_number(at, value);
+}
+
+// Whether the sentences differ in numbers alone.
+static bool alike(const char *one, const char *other)
+{
+    const char *a = one, *b = other;
+    double ignored = 0;
+    while (*a && *b) {
+        int32_t first = number_at(one, a, &ignored), second = number_at(other, b, &ignored);
+        if ((first == 0) != (second == 0) || (first == 0 && *a != *b)) return false;
+        a += first > 0 ? first : 1;
+        b += second > 0 ? second : 1;
+    }
+    return !*a && !*b;
+}
+
+static void widen(WarnedKind *kind, const char *sentence)
+{
+    int32_t k = 0, length = 0;
+    double value = 0;
+    for (const char *at = sentence; *at && k < WARNED_NUMBERS_MAX; at += length ? length : 1) {
+        length = number_at(sentence, at, &value);
+        if (length == 0) continue;
+        kind->low[k] = fmin(kind->low[k], value);
+        kind->high[k] = fmax(kind->high[k], value);
+        k++;
+    }
+}
+
+static int32_t find_kind(Warned *warned, const char *sentence)
+{
+    for (int32_t k = 0; k < warned->count; k++)
+        if (alike(warned->kinds[k].text, sentence)) return k;
+    if (warned->count == WARNED_KINDS_MAX) return WARNED_KINDS_MAX - 1;
+    WarnedKind *kind = &warned->kinds[warned->count];
+    *kind = (WarnedKind){0};
+    snprintf(kind->text, sizeof kind->text, "%s", sentence);
+    for (int32_t k = 0; k < WARNED_NUMBERS_MAX; k++) {
+        kind->low[k] = INFINITY;
+        kind->high[k] = -INFINITY;
+    }
+    return warned->count++;
+}
+
+bool warned_make(int32_t points, Warned *warned, Error *err)
+{
+    *warned = (Warned){.all = points};
+    warned->of = NEW_ARRAY(uint32_t, points, err);
+    return warned->of != NULL;
+}
+
+void warned_add(Warned *warned, int32_t point, const char *sentence)
+{
+    int32_t k = find_kind(warned, sentence);
+    WarnedKind *kind = &warned->kinds[k];
+    warned->points += warned->of[point] == 0;
+    kind->points += !(warned->of[point] >> k & 1);
+    warned->of[point] |= (uint32_t)1 << k;
+    if (alike(kind->text, sentence)) widen(kind, sentence);
+}
+
+void warned_name(const Warned *warned, int32_t kind, char name[WARNED_NAME_SIZE])
+{
+    const char *text = warned->kinds[kind].text;
+    size_t length = strcspn(text, ":");
+    if (length < WARNED_NAME_SIZE) {
+        snprintf(name, WARNED_NAME_SIZE, "%.*s", (int)length, text);
+        return;
+    }
+    for (length = WARNED_NAME_SIZE - 4; length > 0 && text[length] != ' ';) length--;
+    snprintf(name, WARNED_NAME_SIZE, "%.*s...", (int)length, text);
+}
+
+// --- on the terminal ----------------------------------------------------------------------------
+
+// The sentence with "3 to 41" where its numbers differ.
+static void print_sentence(const WarnedKind *kind, FILE *out)
+{
+    int32_t k = 0;
+    double value = 0;
+    for (const char *at = kind->text; *at;) {
+        int32_t length = number_at(kind->text, at, &value);
+        bool varies = length > 0 && k < WARNED_NUMBERS_MAX && kind->low[k] < kind->high[k];
+        if (varies)
+            fprintf(out, "%.6g to %.6g", kind->low[k], kind->high[k]);
+        else
+            fprintf(out, "%.*s", length > 0 ? length : 1, at);
+        k += length > 0;
+        at += length > 0 ? length : 1;
+    }
+    fprintf(out, "\n");
+}
+
+// "  points 3, 9, 12 to 15", as sweep.csv numbers them.
+static void print_points(const Warned *warned, int32_t kind, FILE *out)
+{
+    int32_t listed = 0, last = -2;
+    for (int32_t k = 0; k < warned->all; k++) {
+        if (!(warned->of[k] >> kind & 1)) continue;
+        for (last = k; last + 1 < warned->all && warned->of[last + 1] >> kind & 1;) last++;
+        if (listed == LISTED_MAX) {
+            fprintf(out, ", ...");
+            break;
+        }
+        fprintf(out, "%s%d", listed++ ? ", " : "  points ", k);
+        if (last > k) fprintf(out, " to %d", last);
+        k = last;
+    }
+    fprintf(out, "\n");
+}
+
+void warned_print(const Warned *warned, FILE *out)
+{
+    for (int32_t k = 0; k < warned->count; k++) {
+        fprintf(out, "%s%d of %d points: ", k ? "" : "\n", warned->kinds[k].points, warned->all);
+        print_sentence(&warned->kinds[k], out);
+        print_points(warned, k, out);
+    }
+}
+
+void warned_destroy(Warned *warned)
+{
+    memory_free(warned->of);
+    *warned = (Warned){0};
+}
