@@ -175,7 +175,7 @@ static Axes axes_layout(const Page *page, const ResultView *view, double share)
     snprintf(axes.y.label, sizeof axes.y.label, "~{F}_{T} / ~{F}_{N}");
     axes.box.top = round(axes_top_margin(&axes) * point);
     axes.box.bottom =
-        round(canvas_height(page->canvas) - (axes_bottom_margin(&axes) + page->foot) * point);
+        round(canvas_height(page->canvas) - page->foot - axes_bottom_margin(&axes) * point);
     axes.box.left = round(axes_left_margin(page, &axes) * point);
     axes.box.right = round(canvas_width(page->canvas) - LEVEL_MARGIN * point);
     return axes;

@@ -64,7 +64,7 @@ void foot_draw(const Page *page, const Foot *foot)
 {
     double point = page->point;
     TextStyle style = {.size = SIZE * point, .color = WARNING_COLOR};
-    double top = canvas_height(page->canvas) - foot_height(foot) * point;
+    double top = canvas_height(page->canvas) - page->foot;
     for (int32_t k = 0; k < foot->count; ++k)
         text_draw(page->text, &style,
                   (Point){MARGIN * point, round(top + (k + 0.8) * LINE_HEIGHT * style.size)},

@@ -58,7 +58,7 @@ void map_page_layout(const Page *page, const ResultView *view, double U_low, dou
     axes->color = INK;
     axes->box.top = round(fmax(axes_top_margin(axes), map->above) * point);
     axes->box.bottom =
-        round(canvas_height(page->canvas) - (axes_bottom_margin(axes) + page->foot) * point);
+        round(canvas_height(page->canvas) - page->foot - axes_bottom_margin(axes) * point);
     axes->box.left = round(axes_left_margin(page, axes) * point);
     map->pads_width = pad_marks_width(page, view);
     double beside = BAR_GAP + map->pads_width + map->mark_width + colorbar_width(page, &map->bar);

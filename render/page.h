@@ -11,7 +11,7 @@ typedef struct Page {
     Canvas *canvas;   // not owned
     Text *text;   // not owned
     double point;   // pixels in a printed point
-    double foot;   // points kept free below the figure
+    double foot;   // pixels kept free below the figure, a whole number
 } Page;
 
 static const double COLUMN_WIDTH_MM = 86;   // of a journal's column

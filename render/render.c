@@ -101,8 +101,8 @@ static bool figure_make(const RenderRequest *request, const Figure *figure, Resu
                                          : (int32_t)lround(width * figure->height_over_width);
     Foot foot = foot_wrap(view->warnings);
     page.point = width / COLUMN_WIDTH_POINTS;
-    page.foot = foot_height(&foot);
-    if (request->height == 0) height += (int32_t)lround(page.foot * page.point);
+    page.foot = round(foot_height(&foot) * page.point);
+    if (request->height == 0) height += (int32_t)page.foot;
     page.canvas = canvas_create(width, height, err);
     TRY(page.canvas);
     page.text = text_create(page.canvas, err);
