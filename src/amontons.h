@@ -90,7 +90,7 @@ typedef struct RunPhase {
     char note[96];   // "Newton steps"; or why it was skipped
 } RunPhase;
 
-enum { RUN_PHASES_MAX = 16, RUN_WARNINGS_MAX = 4, RUN_WARNING_SIZE = 400 };
+enum { RUN_PHASES_MAX = 16, RUN_WARNINGS_MAX = 6, RUN_WARNING_SIZE = 400 };
 typedef struct RunWarnings {   // what makes an answer doubtful, a sentence each
     int32_t count;
     char text[RUN_WARNINGS_MAX][RUN_WARNING_SIZE];
@@ -110,6 +110,10 @@ typedef struct RunSummary {
     bool drops_enough;   // they repeat, or the mean of 30 and more is known to 2 %
     int32_t quasi_static, bounded, leading;   // events by kind
     double critical_length;   // l_c / L seen in the dynamics; NaN: none
+    // Of the load drops that count, the one with the fewest cells: how much slipped where slow slip
+    // turned fast, length and cells; NaN: none. The pad's name; empty: a contact in one piece.
+    double slip_length, slip_cells;
+    char slip_pad[64];
     double energy_error, moment_error, complementarity_error;   // the largest, relative
     double seconds_solve, seconds_output, seconds_total;   // wall time
     RunCounters counters;

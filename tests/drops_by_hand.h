@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Made-up force curves on two pads (nodes 0 to 2, and 3 and 4), for the list of drops and what is
-// answered from it.
+// Made-up force curves, mostly on two pads (nodes 0 to 2, and 3 and 4), for the list of drops and
+// what is answered from it.
 #ifndef AMONTONS_TESTS_DROPS_BY_HAND_H
 #define AMONTONS_TESTS_DROPS_BY_HAND_H
 
@@ -13,10 +13,10 @@ typedef struct HandDrops {
 } HandDrops;
 
 // Drops agree within 1 %.
-static inline void hand_drops_begin(HandDrops *hand)
+static inline void hand_drops_begin(HandDrops *hand, int32_t pads)
 {
     Error err = {0};
-    hand_run_begin(&hand->run, 2);
+    hand_run_begin(&hand->run, pads);
     assert_true(drops_create(&hand->run.events, 1e-2, &hand->drops, &err));
     recorders_add(&hand->run.recorders, &hand->drops, drops_record);
 }
@@ -36,7 +36,8 @@ static inline void see(HandDrops *hand, double mu, const double rate[SEEN_NODES]
     hand_run_see(&hand->run, mu, rate);
 }
 
-// Slow rise to `peak` with the front at 0.25, an event with these rates down to `after`, rest.
+// Slow rise to `peak` with the front at 0.25 and 0.375 of the left pad slipping, an event with
+// these rates down to `after`, rest.
 static inline void drop(HandDrops *hand, double peak, double after, const double rate[SEEN_NODES])
 {
     see(hand, 0.5 * peak, REST);

@@ -59,6 +59,16 @@ static void print_mu_hold(const RunSummary *summary)
                "                  a mean known to 2 %%\n");
 }
 
+// Cells over which slow slip turned fast; on pads also where, and over which length.
+static void print_resolution(const RunSummary *summary)
+{
+    if (isnan(summary->slip_cells)) return;
+    printf("  resolution      %.3g cells of the contact slipped where slow slip turned fast",
+           summary->slip_cells);
+    if (*summary->slip_pad) printf(", on %s over %.3g", summary->slip_pad, summary->slip_length);
+    printf("\n");
+}
+
 static void print_answers(const RunSummary *summary)
 {
     print_mu_M(summary);
@@ -67,9 +77,10 @@ static void print_answers(const RunSummary *summary)
     printf("  precursors      %d quasi-static, %d bounded rapid, %d leading rapid\n",
            summary->quasi_static, summary->bounded, summary->leading);
     if (isnan(summary->critical_length))
-        printf("  critical length not reached: no slow slip turned fast\n");
+        printf("  critical length not reached: the block as a whole did not slide\n");
     else
         printf("  critical length %.3f of the block's length\n", summary->critical_length);
+    print_resolution(summary);
     printf("  largest errors  energy %.1e, moment %.1e, contact %.1e (relative)\n",
            summary->energy_error, summary->moment_error, summary->complementarity_error);
     const RunCounters *counters = &summary->counters;

@@ -119,6 +119,8 @@ static bool build_rod(const Mesh *mesh, const InterfaceDef *def, Interface *inte
     sort_face(mesh, &curve, interface);
     face.count = curve.node_count;
     memcpy(face.z, interface->rod_z, (size_t)face.count * sizeof(double));
+    interface->rod_face[0] = face.z[0];
+    interface->rod_face[1] = face.z[face.count - 1];
     double nearest = INFINITY;
     for (int32_t k = 0; k < face.count; k++) {
         int32_t node = interface->rod_node[k];

@@ -23,6 +23,7 @@ typedef struct Interface {
     double *rod_z;   // [rod_count] height, length; owned
     double *rod_share;   // [rod_count] in (0, 1]: how much of the node's stretch of the face, half
         // way to its neighbours, lies in the strip; owned
+    double rod_face[2];   // from which z to which the whole face reaches, length
     int32_t count;   // 2 * contact_count + rod_count
     int32_t *dofs;   // [count] unknowns of the bulk; owned
 } Interface;

@@ -57,15 +57,16 @@ typedef enum ResultColumns {
 #define RESULT_TABLES(X)                                                                           \
     X(PEAKS_U, "peaks/U", "length", "rod displacement at each peak of mu before bulk sliding")     \
     X(PEAKS_MU, "peaks/mu", "1", "mu at the peak")                                                 \
-    X(PEAKS_COUNTS, "peaks/counts", "1", "1: belongs to the periodic regime, counts for mu_M")     \
+    X(PEAKS_COUNTS, "peaks/counts", "1", "1: counts for mu_M, 0: before load drops had settled")   \
     X(EVENTS_KIND, "events/kind", "1", "0 quasi-static, 1 bounded rapid, 2 leading rapid")         \
     X(EVENTS_U_START, "events/U_start", "length", "rod displacement when it starts")               \
     X(EVENTS_U_STOP, "events/U_stop", "length", "rod displacement when it stops")                  \
     X(EVENTS_T_START, "events/t_start", "time", "when it starts")                                  \
     X(EVENTS_T_STOP, "events/t_stop", "time", "when it stops")                                     \
-    X(EVENTS_REACH, "events/reach", "length", "largest x that slipped")                            \
+    X(EVENTS_REACH, "events/reach", "length", "largest x it came to, on the pads it ran over")     \
     X(EVENTS_PEAK_RATE, "events/peak_slip_rate", "velocity", "largest slip rate")                  \
-    X(EVENTS_FRONT_SPEED, "events/front_speed", "velocity", "mean speed of the front; nan: none")
+    X(EVENTS_FRONT_SPEED, "events/front_speed", "velocity",                                        \
+      "mean speed of the front along the contact; nan: none")
 
 // Attributes of the file's root. Texts: title, units ("normalised" or "si"), version, pads (the
 // contact curves' names, by number, a line each), warnings (a line each; absent: none).
@@ -82,7 +83,8 @@ typedef enum ResultColumns {
     X(NUMBER_C_SHEAR, "speed_shear", "velocity", "c_S")                                            \
     X(NUMBER_C_RAYLEIGH, "speed_rayleigh", "velocity", "c_R")                                      \
     X(NUMBER_MU_M, "mu_macroscopic", "1", "mu_M; absent until known")                              \
-    X(NUMBER_L_C, "critical_length", "length", "l_c from the dynamics; absent until known")
+    X(NUMBER_L_C, "critical_length", "length",                                                     \
+      "l_c from the dynamics; absent until known, and with several pads")
 
 typedef enum ResultSeries {
 #define X(symbol, name, type, columns, unit, description) symbol,

@@ -18,7 +18,7 @@
 enum { MESH_BYTES_MAX = 1 << 28, COUNTS = 3 };
 
 // Stands in every key, beside the basis's: a new meaning of the arrays below needs a new number.
-static const char FORMAT[] = "shape 7";
+static const char FORMAT[] = "shape 8";
 
 // Names travel as the bytes of doubles, filled up with zeros.
 enum {
@@ -151,7 +151,8 @@ static bool read_shape(const CacheFile *file, Shape *shape, Error *err)
     const double *counts = cache_file_array(file, "counts", COUNTS);
     const double *sizes = cache_file_array(file, "sizes", sizeof(ShapeSizes) / sizeof(double));
     const double *basis = cache_file_array(file, "basis", BASIS_NUMBERS);
-    if (!counts || !sizes || !basis) return false;
+    const double *face = cache_file_array(file, "rod_face", 2);
+    if (!counts || !sizes || !basis || !face) return false;
     memcpy(&shape->sizes, sizes, sizeof shape->sizes);
     memcpy(shape->basis, basis, HASH_TEXT_SIZE);
     shape->basis[HASH_TEXT_SIZE - 1] = 0;
@@ -160,6 +161,7 @@ static bool read_shape(const CacheFile *file, Shape *shape, Error *err)
     interface->rod_count = (int32_t)counts[1];
     interface->pad_count = (int32_t)counts[2];
     interface->count = 2 * interface->contact_count + interface->rod_count;
+    memcpy(interface->rod_face, face, sizeof interface->rod_face);
     return read_indices(file, "node", interface->contact_count, &interface->node, err) &&
            read_numbers(file, "x", interface->contact_count, &interface->x, err) &&
            read_numbers(file, "weight", interface->contact_count, &interface->weight, err) &&
@@ -232,6 +234,7 @@ static bool store_shape(const char *key, const Shape *shape, Error *err)
         list_indices("rod_node", interface->rod_node, rod, copy + 2 * contact),
         list_numbers("rod_z", interface->rod_z, rod),
         list_numbers("rod_share", interface->rod_share, rod),
+        list_numbers("rod_face", interface->rod_face, 2),
         list_indices("dofs", interface->dofs, m, copy + 2 * contact + rod),
         list_numbers("rotation", shape->rotation, m)};
     TRY(cache_file_write(path, key, arrays, sizeof arrays / sizeof *arrays, err));

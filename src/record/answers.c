@@ -72,7 +72,7 @@ static void answer_lengths(const Drops *drops, Answers *answers)
     for (int32_t k = answers->first; k < drops->count; k++) {
         if (!drops->list[k].bulk) continue;
         Drop peak = drops_as(drops, DROP_BULK, k);
-        critical += peak.front;
+        critical += peak.critical_length;
         count++;
         if (isnan(peak.front_uncertified)) continue;
         subcritical += peak.front_uncertified;
@@ -138,7 +138,7 @@ void answers_write_peaks(const Answers *answers, const Drops *drops, double leng
         json_number(json, "mu", peak.mu);
         json_boolean(json, "counts", k >= answers->first);
         json_number(json, "l_sc_over_L", peak.front_uncertified / length);
-        json_number(json, "l_c_over_L", peak.front / length);
+        json_number(json, "l_c_over_L", peak.critical_length / length);
         json_number(json, "l_c_growth_over_L", peak.front_growth / length);
         json_end(json);
     }

@@ -70,6 +70,12 @@ static void rise(Drop *rising, const Observation *seen)
     rising->U = seen->U;
 }
 
+// Across gaps the place of the front is no length of slip.
+static double front_of_slip(const Observation *seen)
+{
+    return seen->interface->pad_count == 1 ? seen->front : NAN;
+}
+
 // The largest mu is that before the force falls: what it does after that, while the event goes on,
 // says nothing of what the contact holds.
 static void follow_rise(Drops *drops, const Observation *seen)
@@ -77,8 +83,8 @@ static void follow_rise(Drops *drops, const Observation *seen)
     Drop *rising = &drops->rising;
     if (!has_fallen(drops)) rise(rising, seen);
     if (!seen->certified && isnan(rising->front_uncertified))
-        rising->front_uncertified = seen->front;
-    if (seen->grows && isnan(rising->front_growth)) rising->front_growth = seen->front;
+        rising->front_uncertified = front_of_slip(seen);
+    if (seen->grows && isnan(rising->front_growth)) rising->front_growth = front_of_slip(seen);
 }
 
 static void follow_fall(Drops *drops, const Observation *seen)
@@ -110,7 +116,9 @@ static bool add_drop(Drops *drops, const Observation *seen, bool bulk, Error *er
 {
     Drop *rising = &drops->rising;
     rising->event = drops->events->count - 1;
-    rising->front = drops->events->list[rising->event].front_start;
+    const Event *event = &drops->events->list[rising->event];
+    bool divided = seen->interface->pad_count > 1;
+    rising->critical_length = divided ? event->slip_length : event->front_start;
     rising->pads = count_slid(drops->events, seen->interface);
     rising->bulk = bulk;
     rising->load = bulk || has_fallen(drops);
@@ -129,7 +137,7 @@ bool drops_record(void *self, const Observation *seen, Error *err)
     if (events->crossed) {
         if (isinf(drops->rising.mu)) rise(&drops->rising, seen);   // it slid from the first step on
         if (seen->grows && isnan(drops->rising.front_growth))
-            drops->rising.front_growth = seen->front;
+            drops->rising.front_growth = front_of_slip(seen);
         TRY(add_drop(drops, seen, true, err));
     } else if (sliding) {
         Drop *drop = &drops->list[drops->count - 1];
@@ -188,4 +196,16 @@ int32_t drops_series(const Drops *drops, DropKind kind, int32_t first)
         drops->series[count++] = (SeriesItem){drop.mu, drop.pads};
     }
     return count;
+}
+
+const Event *drops_least_resolved(const Drops *drops, int32_t first)
+{
+    const Event *least = NULL;
+    for (int32_t k = first; k < drops->count; k++) {
+        if (!drop_is(&drops->list[k], DROP_LOAD)) continue;
+        const Event *event = &drops->events->list[drops->list[k].event];
+        if (isnan(event->slip_cells)) continue;   // slid from the first step on
+        if (!least || event->slip_cells < least->slip_cells) least = event;
+    }
+    return least;
 }

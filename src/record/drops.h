@@ -22,9 +22,10 @@ typedef struct Drop {
     int32_t event;   // its number in the list of events
     int32_t pads;   // that slid over all their length in it
     bool bulk, load;   // of these kinds; every bulk sliding is a load drop
-    double front;   // l when the event began: for a bulk sliding l_c from the dynamics, length
-    // l when the certificate was first lost (l_sc) and when real growth was first seen (l_c from
-    // the rates) since the drop before, length; NaN: not seen.
+    double critical_length;   // when the event began: l; on several pads how much slipped of the
+        // one on which slow slip turned fast. Of a bulk sliding l_c from the dynamics, length
+    // On one pad: l when the certificate was first lost (l_sc) and when real growth was first seen
+    // (l_c from the rates) since the drop before, length; NaN: not seen.
     double front_uncertified, front_growth;
 } Drop;
 
@@ -54,5 +55,8 @@ Drop drops_as(const Drops *drops, DropKind kind, int32_t k);
 // mu of the drops of one kind from number `first` of the list on, into drops->series, their kind
 // the number of pads that slid. Returns how many they are.
 int32_t drops_series(const Drops *drops, DropKind kind, int32_t first);
+// Of the load drops from number `first` of the list on, the event before which the fewest cells
+// slipped on the pad where slow slip turned fast; NULL: no such drop.
+const Event *drops_least_resolved(const Drops *drops, int32_t first);
 
 #endif

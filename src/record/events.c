@@ -177,6 +177,7 @@ static bool start_rapid(Events *events, const Observation *seen, Error *err)
 {
     if (!start_event(events, EVENT_BOUNDED, seen, &events->rapid, err)) return false;
     Event *event = &events->list[events->rapid];
+    event->reach = seen->interface->x[0];   // slow slip of other pads is none of it
     event->pad = 0;
     for (int32_t p = 1; p < seen->interface->pad_count; p++)
         if (events->pads[p].fastest > events->pads[event->pad].fastest) event->pad = p;

@@ -223,7 +223,7 @@ bool history_finish(History *history, const Drops *drops, const Answers *answers
     if (!isnan(answers->mu_M.value))
         TRY(array_file_set_number(history->file, result_number_name(NUMBER_MU_M),
                                   answers->mu_M.value, err));
-    if (!isnan(answers->critical_length))
+    if (history->pad_count == 1 && !isnan(answers->critical_length))
         TRY(array_file_set_number(history->file, result_number_name(NUMBER_L_C),
                                   answers->critical_length, err));
     ArrayFile *file = history->file;

@@ -95,8 +95,21 @@ static void write_front(JsonWriter *json, const Event *event, const FrontPath *p
     json_end(json);
 }
 
+static const char *pad_name(const Pads *pads, int32_t p)
+{
+    return p >= 0 && p < pads->count && *pads->list[p].name ? pads->list[p].name : NULL;
+}
+
+// Over how much of a pad slow slip turned fast. A slow event has none.
+static void write_slip(JsonWriter *json, const Event *event, const Pads *pads)
+{
+    json_text(json, "slip_pad", event ? pad_name(pads, event->pad) : NULL);
+    json_number(json, "slip_length", event ? event->slip_length : NAN);
+    json_number(json, "slip_cells", event ? event->slip_cells : NAN);
+}
+
 // In order of time, slow ones too; only rapid ones have a front to follow.
-static void write_events(JsonWriter *json, const Events *events)
+static void write_events(JsonWriter *json, const Events *events, const Pads *pads)
 {
     json_begin_list(json, "events");
     for (int32_t k = 0; k < events->count; k++) {
@@ -111,7 +124,10 @@ static void write_events(JsonWriter *json, const Events *events)
         json_number(json, "reach", event->reach);
         json_number(json, "peak_slip_rate", event->peak_slip_rate);
         json_number(json, "front_speed", event->front_speed);
-        if (event->kind != EVENT_QUASI_STATIC) write_front(json, event, &events->path);
+        if (event->kind != EVENT_QUASI_STATIC) {
+            write_slip(json, event, pads);
+            write_front(json, event, &events->path);
+        }
         json_end(json);
     }
     json_end(json);
@@ -129,8 +145,9 @@ static void write_results(JsonWriter *json, const RunReport *report)
     double length = report->model->length;
     json_begin_object(json, "results");
     answers_write_json(report->answers, report->drops, length, json);
+    write_slip(json, report->least_resolved, report->pads);
     pads_write_json(report->pads, json);
-    write_events(json, report->events);
+    write_events(json, report->events, report->pads);
     json_end(json);
 }
 

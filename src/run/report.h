@@ -37,6 +37,7 @@ typedef struct RunReport {
     const Events *events;
     const Drops *drops;
     const Answers *answers;
+    const Event *least_resolved;   // before which the fewest cells slipped; NULL: none
     const Pads *pads;
     const RunWarnings *warnings;
 } RunReport;

@@ -133,6 +133,8 @@ bool amontons_simulation_create(const Scene *scene, const RunOptions *options, S
     TRY(result_folder_clear(&simulation->folder, err));   // the scene can be computed
     warnings_of_resolution(&simulation->control.certificate, simulation->model.scales.load,
                            &simulation->warnings);
+    warnings_of_rod(scene, &simulation->model.interface, simulation->model.height,
+                    &simulation->warnings);
     double begun = clock_processor_seconds();
     TRY(start_relax(simulation, err));
     simulation->timing.outside -= clock_processor_seconds() - begun;
@@ -185,6 +187,9 @@ static bool finish_run(Simulation *simulation, const Error *failure, RunSummary 
     events_close(&simulation->events, &simulation->seen);
     simulation->errors.reduction = ladder_reduction_error(&simulation->control.ladder);
     Answers answers = answers_of(&simulation->drops);
+    const Event *least = drops_least_resolved(&simulation->drops, answers.first);
+    warnings_of_slip(&simulation->scene, &simulation->model.interface, least,
+                     &simulation->warnings);
     RunCounters counters = summary_count(simulation);
     if (simulation->history.file) {
         TRY(output_store_warnings(simulation, err));
@@ -206,6 +211,7 @@ static bool finish_run(Simulation *simulation, const Error *failure, RunSummary 
                             .events = &simulation->events,
                             .drops = &simulation->drops,
                             .answers = &answers,
+                            .least_resolved = least,
                             .pads = &simulation->pads,
                             .warnings = &simulation->warnings};
         TRY(report_write(simulation->folder.path, &report, err));

@@ -114,6 +114,18 @@ RunCounters summary_count(const Simulation *simulation)
                                                  : 0};
 }
 
+// Where slow slip had the fewest cells to turn fast on, of the load drops from number `first` on.
+static void note_slip(const Simulation *simulation, int32_t first, RunSummary *summary)
+{
+    const Event *least = drops_least_resolved(&simulation->drops, first);
+    const Interface *interface = &simulation->model.interface;
+    summary->slip_length = least ? least->slip_length : NAN;
+    summary->slip_cells = least ? least->slip_cells : NAN;
+    if (least && interface->pad_count > 1 && interface->pad_name)
+        snprintf(summary->slip_pad, sizeof summary->slip_pad, "%s",
+                 interface->pad_name[least->pad]);
+}
+
 // counters, answers: made by the caller, who writes them into run.json as well.
 void summary_fill(const Simulation *simulation, const RunCounters *counters, const Answers *answers,
                   RunSummary *summary)
@@ -145,6 +157,7 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
                             .warnings = simulation->warnings,
                             .field_files = simulation->fields.written,
                             .figures = simulation->figures};
+    note_slip(simulation, answers->first, summary);
     snprintf(summary->folder, sizeof summary->folder, "%s", simulation->folder.path);
     list_phases(simulation, summary);
 }

@@ -1,19 +1,30 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What makes a scene's answer doubtful though it can be computed: what the scene alone tells
-// (amontons_scene_warning), and weakening that is too fast for viscosity and mesh. Written to
+// (amontons_scene_warning), weakening that is too fast for viscosity and mesh, a rod that misses
+// its face, and at the end of a run slip that had too few cells to turn fast on. Written to
 // run.json (warnings), handed to the caller in RunSummary. Each says in a few words what is wrong,
 // then a colon and the rest: the legend of a sweep's picture has room for the former. Called by
-// run/simulation once its model stands.
+// run/simulation once its model stands, and when it is done.
 #ifndef AMONTONS_RUN_WARNINGS_H
 #define AMONTONS_RUN_WARNINGS_H
 
 #include "amontons.h"
 #include "contact/friction_law.h"
+#include "record/events.h"
+#include "scene/scene.h"
 #include "stepping/certificate.h"
 
 // Looks at law, damping and interface; load: F_N, force/width, taken as evenly spread.
 // Appends to `warnings`.
 void warnings_of_resolution(const Certificate *certificate, double load, RunWarnings *warnings);
+
+// The rod's strip against the extent of its face; height: H, length.
+void warnings_of_rod(const Scene *scene, const Interface *interface, double height,
+                     RunWarnings *warnings);
+
+// least: the event with the fewest cells (record/drops); NULL: none, and nothing is said.
+void warnings_of_slip(const Scene *scene, const Interface *interface, const Event *least,
+                      RunWarnings *warnings);
 
 void warnings_add(RunWarnings *warnings, const char *format, ...)
     __attribute__((format(printf, 2, 3)));   // what does not fit is left out

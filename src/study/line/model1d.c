@@ -193,7 +193,7 @@ static void summarise_steps(Model1dSimulation *simulation, Model1dSummary *summa
         Drop peak = drops_as(drops, DROP_BULK, k);
         summary->first_mu = peak.mu;
         summary->first_l_sc = peak.front_uncertified / length;
-        summary->first_l_c = peak.front / length;
+        summary->first_l_c = peak.critical_length / length;
     }
     summary->mu_M = answers.mu_M.value;
     summary->mu_M_spread = answers.mu_M_spread;

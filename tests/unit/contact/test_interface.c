@@ -180,6 +180,8 @@ static void test_shares(void **state)
     assert_near("below", interface.rod_share[0], 0.3, 1e-9);
     assert_near("inside", interface.rod_share[1], 1, 0);
     assert_near("above", interface.rod_share[2], 0.3, 1e-9);
+    assert_near("face from", interface.rod_face[0], mesh.z_min, 0);
+    assert_near("face to", interface.rod_face[1], mesh.z_max, 0);
     interface_destroy(&interface);
     for (int32_t step = 0; step < 40; step++) {
         def.rod_height = 0.15 + 0.005 * step;

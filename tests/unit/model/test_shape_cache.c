@@ -213,6 +213,7 @@ static void make_shape(uint64_t seed, Shape *shape)
                                    .rod_node = index_array(&random, 1),
                                    .rod_z = random_array(&random, 1),
                                    .rod_share = random_array(&random, 1),
+                                   .rod_face = {0.25, 0.75},
                                    .count = M,
                                    .dofs = index_array(&random, M)};
     Error err = {0};
@@ -238,6 +239,7 @@ static void assert_same_shape(const Shape *a, const Shape *b)
     assert_memory_equal(i->weight, j->weight, 3 * sizeof(double));
     assert_memory_equal(i->rod_z, j->rod_z, sizeof(double));
     assert_memory_equal(i->rod_share, j->rod_share, sizeof(double));
+    assert_memory_equal(i->rod_face, j->rod_face, sizeof i->rod_face);
     assert_memory_equal(a->rotation, b->rotation, 7 * sizeof(double));
 }
 

@@ -10,7 +10,7 @@ static void test_nothing(void **state)
 {
     (void)state;
     HandDrops hand;
-    hand_drops_begin(&hand);
+    hand_drops_begin(&hand, 2);
     see(&hand, 0.2, SLOW);
     drop(&hand, 0.3, 0.299, PART);   // a precursor
     Answers found = answers_of(&hand.drops);
@@ -28,7 +28,7 @@ static void test_settling(void **state)
     const double mu[] = {0.3, 0.302, 0.301, 0.3};
     const int32_t counted[] = {1, 1, 2, 3};
     HandDrops hand;
-    hand_drops_begin(&hand);
+    hand_drops_begin(&hand, 1);
     for (int32_t k = 0; k < 4; k++) {
         hand.run.hand.seen.certified = k < 2;
         drop(&hand, mu[k], 0.1, ACROSS);
@@ -58,7 +58,7 @@ static void test_pads_by_turns(void **state)
 {
     (void)state;
     HandDrops hand;
-    hand_drops_begin(&hand);
+    hand_drops_begin(&hand, 2);
     drop(&hand, 0.5, 0.1, ACROSS);
     for (int32_t k = 0; k < 5; k++) {
         assert_false(answers_are_known(&hand.drops));
@@ -79,7 +79,7 @@ static void test_parts_only(void **state)
 {
     (void)state;
     HandDrops hand;
-    hand_drops_begin(&hand);
+    hand_drops_begin(&hand, 2);
     drop(&hand, 0.5, 0.1, ACROSS);
     for (int32_t k = 0; k < 3; k++) drop(&hand, 0.3, 0.1, LEFT);
     Answers found = answers_of(&hand.drops);
@@ -96,7 +96,7 @@ static void test_without_period(void **state)
 {
     (void)state;
     HandDrops hand;
-    hand_drops_begin(&hand);
+    hand_drops_begin(&hand, 2);
     for (int32_t k = 0; k < 10; k++) drop(&hand, 0.1, 0.05, LEFT);
     double sum = 0, largest = 0;
     for (int32_t k = 0; k < 30; k++) {

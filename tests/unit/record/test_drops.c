@@ -13,7 +13,7 @@ static void test_least_drop(void **state)
     const double near = 0.01;
     for (double mu = 0.01; mu < 2; mu *= 7) {
         HandDrops hand;
-        hand_drops_begin(&hand);
+        hand_drops_begin(&hand, 2);
         drop(&hand, mu, mu * (1 - (1 - near) * LEAST_DROP), PART);
         assert_int_equal(hand.drops.count, 0);
         drop(&hand, mu, mu * (1 - (1 + near) * LEAST_DROP), PART);
@@ -31,7 +31,7 @@ static void test_kinds(void **state)
 {
     (void)state;
     HandDrops hand;
-    hand_drops_begin(&hand);
+    hand_drops_begin(&hand, 2);
     drop(&hand, 0.3, 0.299, LEFT);
     drop(&hand, 0.3, 0.299, ACROSS);
     drop(&hand, 0.3, 0.1, LEFT);
@@ -53,28 +53,21 @@ static void test_kinds(void **state)
     hand_drops_end(&hand);
 }
 
-// A drop of one kind holds the largest mu, and the first fronts, since the last one of its kind.
+// A drop of one kind holds the largest mu since the last one of its kind.
 static void test_since_the_last_of_its_kind(void **state)
 {
     (void)state;
     HandDrops hand;
-    hand_drops_begin(&hand);
+    hand_drops_begin(&hand, 2);
     drop(&hand, 0.5, 0.1, ACROSS);   // t = 0 to 4
-    hand.run.hand.seen.certified = false;
     drop(&hand, 0.4, 0.399, LEFT);
-    hand.run.hand.seen.certified = true;
-    hand.run.hand.seen.grows = true;
     drop(&hand, 0.3, 0.1, PART);
     drop(&hand, 0.35, 0.1, ACROSS);   // t = 15 to 19
     Drop peak = drops_as(&hand.drops, DROP_BULK, 3), load = drops_as(&hand.drops, DROP_LOAD, 3);
     Drop of_pads = drops_as(&hand.drops, DROP_PADS, 3);
     assert_near("since the bulk sliding", peak.mu, 0.4, 0);
     assert_near("where", peak.U, 0.6, 1e-15);
-    assert_near("l_sc", peak.front_uncertified, 0, 0);   // at rest
-    assert_near("l_c from the rates", peak.front_growth, 0, 0);
-    assert_near("l_c", peak.front, 0.25, 0);
     assert_near("since the load drop", load.mu, 0.35, 0);
-    assert_true(isnan(load.front_uncertified));
     assert_near("since a pad slid", of_pads.mu, 0.399, 0);
     assert_near("list", hand.drops.list[3].mu, 0.35, 0);
     // Two bulk slidings, three load drops, three of pads.
@@ -87,6 +80,60 @@ static void test_since_the_last_of_its_kind(void **state)
     hand_drops_end(&hand);
 }
 
+// So it does the first fronts, on a contact without gaps.
+static void test_fronts_since_the_last_of_its_kind(void **state)
+{
+    (void)state;
+    HandDrops hand;
+    hand_drops_begin(&hand, 1);
+    drop(&hand, 0.5, 0.1, ACROSS);
+    hand.run.hand.seen.certified = false;
+    drop(&hand, 0.3, 0.1, PART);
+    hand.run.hand.seen.certified = true;
+    hand.run.hand.seen.grows = true;
+    drop(&hand, 0.35, 0.1, ACROSS);
+    Drop peak = drops_as(&hand.drops, DROP_BULK, 2), load = drops_as(&hand.drops, DROP_LOAD, 2);
+    assert_near("l_sc", peak.front_uncertified, 0, 0);   // at rest
+    assert_near("l_c from the rates", peak.front_growth, 0, 0);
+    assert_near("l_c", peak.critical_length, 0.25, 0);
+    assert_true(isnan(load.front_uncertified));
+    hand_drops_end(&hand);
+}
+
+// On pads the place of a front is no length of slip: l_c is how much of the pad slipped on which
+// slow slip turned fast, and other fronts are not looked at. The second event begins on the right
+// pad, of which a node that weighs 1/8 slipped; only drops from a given one on are asked for how
+// many cells slipped.
+static void test_slip_on_pads(void **state)
+{
+    (void)state;
+    HandDrops hand;
+    hand_drops_begin(&hand, 2);
+    assert_null(drops_least_resolved(&hand.drops, 0));
+    hand.run.hand.seen.certified = false;
+    hand.run.hand.seen.grows = true;
+    drop(&hand, 0.5, 0.1, ACROSS);
+    assert_near("l_c", hand.drops.list[0].critical_length, 0.375, 1e-15);
+    see(&hand, 0.2, (double[]){0.5, 0, 0, 0, 0.5});
+    see(&hand, 0.4, (double[]){0.5, 0, 0, 3, 3});
+    see(&hand, 0.1, ACROSS);
+    see(&hand, 0.1, REST);
+    drop(&hand, 0.4, 0.1, ACROSS);
+    assert_int_equal(hand.drops.count, 3);
+    for (int32_t k = 0; k < 3; k++)
+        assert_true(isnan(hand.drops.list[k].front_uncertified + hand.drops.list[k].front_growth));
+    assert_near("l_c", hand.drops.list[1].critical_length, 0.125, 1e-15);
+    const Event *least = drops_least_resolved(&hand.drops, 0);
+    assert_non_null(least);
+    assert_true(least->pad == 1);
+    assert_near("cells", least->slip_cells, 0.5, 0);
+    least = drops_least_resolved(&hand.drops, 2);
+    assert_non_null(least);
+    assert_true(least->pad == 0);
+    assert_near("cells", least->slip_cells, 1.5, 0);
+    hand_drops_end(&hand);
+}
+
 // What sinks slowly does not drop. Within an event mu may rise before it falls, and rise again
 // after: the top before the fall counts. A drop that is not a bulk sliding is known when its event
 // has ended.
@@ -94,7 +141,7 @@ static void test_within_an_event(void **state)
 {
     (void)state;
     HandDrops hand;
-    hand_drops_begin(&hand);
+    hand_drops_begin(&hand, 2);
     see(&hand, 0.3, REST);
     see(&hand, 0.1, REST);
     see(&hand, 0.2, LEFT);
@@ -114,7 +161,7 @@ static void test_bulk_sliding(void **state)
 {
     (void)state;
     HandDrops hand;
-    hand_drops_begin(&hand);
+    hand_drops_begin(&hand, 1);
     see(&hand, 0.2, REST);
     hand.run.hand.seen.certified = false;
     see(&hand, 0.4, SLOW);   // t = 1
@@ -126,7 +173,7 @@ static void test_bulk_sliding(void **state)
     const Drop *peak = &hand.drops.list[0];
     assert_near("mu", peak->mu, 0.4, 0);
     assert_near("U", peak->U, 0.1, 1e-15);
-    assert_near("l_c", peak->front, 0.25, 0);
+    assert_near("l_c", peak->critical_length, 0.25, 0);
     assert_near("l_sc", peak->front_uncertified, 0.25, 0);
     assert_near("l_c from the rates", peak->front_growth, 1, 0);   // seen while it crossed
     see(&hand, 0.8, ACROSS);
@@ -149,7 +196,7 @@ static void test_one_event_after_the_other(void **state)
 {
     (void)state;
     HandDrops hand;
-    hand_drops_begin(&hand);
+    hand_drops_begin(&hand, 2);
     drop(&hand, 0.5, 0.3, PART);   // ends at 0.3
     see(&hand, 0.2, PART);
     see(&hand, 0.2, REST);
@@ -167,7 +214,7 @@ static void test_no_load(void **state)
 {
     (void)state;
     HandDrops hand;
-    hand_drops_begin(&hand);
+    hand_drops_begin(&hand, 2);
     drop(&hand, 0, 0, PART);
     drop(&hand, -0.1, -0.3, PART);
     assert_int_equal(hand.drops.count, 0);
@@ -179,7 +226,7 @@ static void test_memory_faults(void **state)
     (void)state;
     Error err = {0};
     HandDrops hand;
-    hand_drops_begin(&hand);
+    hand_drops_begin(&hand, 2);
     int64_t live = memory_counters().live;
     for (int32_t k = 0; k < 2; k++) {
         Drops drops;
@@ -218,6 +265,8 @@ int main(void)
         cmocka_unit_test(test_least_drop),
         cmocka_unit_test(test_kinds),
         cmocka_unit_test(test_since_the_last_of_its_kind),
+        cmocka_unit_test(test_fronts_since_the_last_of_its_kind),
+        cmocka_unit_test(test_slip_on_pads),
         cmocka_unit_test(test_within_an_event),
         cmocka_unit_test(test_bulk_sliding),
         cmocka_unit_test(test_one_event_after_the_other),

@@ -242,7 +242,7 @@ static void test_gap(void **state)
 }
 
 // Nodes 3 and 4 are a pad of their own, and slide while the trailing pad holds. A third pad, whose
-// first node only creeps, has no part in the event.
+// first node only creeps, has no part in the event; nor has the second one, when it only creeps.
 static void test_pad_behind_one_that_sticks(void **state)
 {
     (void)state;
@@ -256,6 +256,9 @@ static void test_pad_behind_one_that_sticks(void **state)
     see(4, 0, 0, 0.1, 9, 0.1);
     see(5, 0, 0, 0, 0, 0);
     expect_event(0, EVENT_BOUNDED, 4, 5, 0.75);
+    see(6, 3, 0.1, 0.1, 0, 0);
+    see(7, 0, 0, 0, 0, 0);
+    expect_event(1, EVENT_BOUNDED, 6, 7, 0.25);
 }
 
 // A node that has lifted off counts as let go.

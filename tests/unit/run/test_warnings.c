@@ -63,6 +63,52 @@ static void test_without_viscosity(void **state)
         warnings_of("material.eta1=0", "friction={law: coulomb, mu_static: 0.3}").count, 0);
 }
 
+// Strip 0.2 to 0.3 of a face from 0 to 0.5; then half of it above the face, then a fifth below.
+static void test_rod_beside_its_face(void **state)
+{
+    (void)state;
+    assert_int_equal(warnings_of("rod.height=0.25", "rod.width=0.1").count, 0);
+    assert_int_equal(warnings_of("rod.height=0.45", "rod.width=0.1").count, 0);   // to the edge
+    RunWarnings found = warnings_of("rod.height=0.5", "rod.width=0.1");
+    assert_int_equal(found.count, 1);
+    assert_non_null(strstr(found.text[0], "strip is 0.45 <= z <= 0.55"));
+    assert_non_null(strstr(found.text[0], "is 0 <= z <= 0.5; only 50 % of the strip"));
+    found = warnings_of("rod.height=0.03", "rod.width=0.1");
+    assert_int_equal(found.count, 1);
+    assert_non_null(strstr(found.text[0], "only 80 % of the strip"));
+}
+
+// What is said of an event before which so many cells slipped on pad 1 of two, or of one.
+static void slip_warning(double cells, int32_t pads, const char *setting, RunWarnings *found)
+{
+    Scene *scene = small_scene((const char *const[]){setting, NULL});
+    char names[2][GROUP_NAME_SIZE] = {"left", "right"};
+    Interface interface = {.pad_count = pads, .pad_name = names};
+    Event event = {.pad = pads - 1, .slip_length = 0.0375, .slip_cells = cells};
+    *found = (RunWarnings){0};
+    warnings_of_slip(scene, &interface, &event, found);
+    amontons_scene_destroy(scene);
+}
+
+static void test_too_few_cells(void **state)
+{
+    (void)state;
+    RunWarnings found = {0};
+    warnings_of_slip(NULL, NULL, NULL, &found);   // nothing dropped
+    assert_int_equal(found.count, 0);
+    slip_warning(8, 2, NULL, &found);
+    assert_int_equal(found.count, 0);
+    slip_warning(7.5, 2, NULL, &found);
+    assert_int_equal(found.count, 1);
+    assert_non_null(strstr(found.text[0], "only 7.5 cells of pad \"right\" slipped"));
+    assert_non_null(strstr(found.text[0], "a length of 0.0375"));
+    assert_non_null(strstr(found.text[0], "double mesh.set.nx"));
+    slip_warning(0, 1, "mesh.set={size_contact: 0.1}", &found);
+    assert_int_equal(found.count, 1);
+    assert_non_null(strstr(found.text[0], "only 0 cells of the contact slipped"));
+    assert_non_null(strstr(found.text[0], "halve mesh.set.size_contact"));
+}
+
 static void test_list_is_bounded(void **state)
 {
     (void)state;
@@ -76,8 +122,8 @@ static void test_list_is_bounded(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_resolution),
-        cmocka_unit_test(test_without_viscosity),
+        cmocka_unit_test(test_resolution),          cmocka_unit_test(test_without_viscosity),
+        cmocka_unit_test(test_rod_beside_its_face), cmocka_unit_test(test_too_few_cells),
         cmocka_unit_test(test_list_is_bounded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
