@@ -31,7 +31,8 @@ from pathlib import Path
 from constants_listed import CONSTANTS, NOT_A_CHOICE, ROOT, places
 from measured_run import commit, markdown_table
 
-COPIED = ("src", "render", "meshes", "validation", "tests", "CMakeLists.txt", "CMakePresets.json")
+COPIED = ("src", "render", "packaging", "meshes", "validation", "tests", "CMakeLists.txt",
+          "CMakePresets.json")
 PROBLEMS = "test_property_contact_problems"
 TARGETS = ("amontons", "amontons_gmsh", "amontons_hdf5", PROBLEMS)
 CPU_LIMIT, WALL_LIMIT = 60, 600      # seconds of a scene; they take less than 3
