@@ -3,8 +3,8 @@
 #ifndef AMONTONS_BASE_CLOCK_H
 #define AMONTONS_BASE_CLOCK_H
 
-double clock_seconds(void);   // monotonic, from an arbitrary origin
+double clock_seconds(void);   // monotonic, from an arbitrary origin: only differences count
 
-double clock_processor_seconds(void);   // user and system, of the process since it began
+double clock_processor_seconds(void);   // user and system, all threads, since the process began
 
 #endif

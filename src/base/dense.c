@@ -24,7 +24,7 @@ void dgeev_(const char *jobvl, const char *jobvr, const int *n, double *a, const
             double *wr, double *wi, double *vl, const int *ldvl, double *vr, const int *ldvr,
             double *work, const int *lwork, int *info, size_t jobvl_size, size_t jobvr_size);
 
-// Ends OpenBLAS's threads, as it does itself before a fork. Its builds without threads have none.
+// What OpenBLAS itself calls before a fork. Its builds without threads do not have it.
 int blas_thread_shutdown_(void) __attribute__((weak));
 
 // OpenBLAS starts its threads when it is loaded, and an idle one looks for work at full speed for
@@ -182,13 +182,12 @@ bool dense_eigen_general(double *a, int32_t n, double *re, double *im, double *v
     return info == 0;
 }
 
-// What is left of c where BLAS would have to add nothing: it takes no matrix without rows.
+// c := keep c, where there is nothing to add: BLAS takes no matrix without rows.
 static void scale_by(double keep, int64_t count, double *c)
 {
     for (int64_t k = 0; k < count; k++) c[k] = keep == 0 ? 0 : keep * c[k];
 }
 
-// BLAS wants a leading dimension of 1 at least, so matrices without rows are dealt with here.
 void dense_multiply_transposed(DenseView a, DenseView b, double factor, double keep, double *c)
 {
     if (a.columns == 0 || b.columns == 0) return;
@@ -226,7 +225,7 @@ void dense_apply_transposed(DenseView a, const double *x, double factor, double 
                 y, 1);
 }
 
-// Summed in the order of BLAS: the same bits on one machine, not on every one.
+// In BLAS's order of summation: the same bits on one machine, not on every one.
 double dense_dot(const double *x, const double *y, int32_t n)
 {
     return cblas_ddot(n, x, 1, y, 1);

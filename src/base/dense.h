@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Small dense matrices, column-major, through BLAS and LAPACK. Called by contact/ (Newton on the
-// interface), stepping/certificate (definiteness) and base/sparse (the border block).
+// Small dense matrices, column-major, through BLAS and LAPACK.
 #ifndef AMONTONS_BASE_DENSE_H
 #define AMONTONS_BASE_DENSE_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-// BLAS threads gain nothing at these sizes and cost twice as much beside another process: those
-// started already are ended.
+// Ends BLAS's threads: at these sizes they gain nothing, and beside another process they cost twice
+// as much.
 void dense_use_one_thread(void);
 
 // Cholesky factor in place of a symmetric `a` [n * n]; the lower triangle is read and written.

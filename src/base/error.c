@@ -20,8 +20,8 @@ void error_set(Error *err, ErrorCode code, const char *file, int32_t line, const
     va_end(arguments);
 }
 
-// The context goes in front; where both do not fit the end of the cause is cut, and a context that
-// would leave no room for it is dropped.
+// Where context and cause do not fit together the end of the cause is cut; a context that would
+// leave no room for it is dropped.
 void error_context(Error *err, const char *format, ...)
 {
     if (err->code == ERROR_NONE) return;

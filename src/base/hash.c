@@ -10,8 +10,8 @@ Hash hash_start(void)
     return (Hash){0};
 }
 
-// A chain: what came before, the size and the hash of the piece are hashed together. So the border
-// between two pieces counts, and a Hash is as small as what it ends as.
+// A chain: the hash so far, the size of the piece and its hash are hashed together, so that it
+// matters where one piece ends and the next begins.
 void hash_bytes(Hash *hash, const void *bytes, size_t size)
 {
     XXH128_hash_t piece = XXH3_128bits(bytes, size);
@@ -25,14 +25,14 @@ void hash_text(Hash *hash, const char *text)
     hash_bytes(hash, text, strlen(text));
 }
 
-// -0 compares equal to 0, and so it must hash.
+// -0 equals 0, so both must have one hash.
 void hash_number(Hash *hash, double value)
 {
     double stored = value == 0 ? 0.0 : value;
     hash_bytes(hash, &stored, sizeof stored);
 }
 
-// The hash itself is left as it was and may go on.
+// More may be hashed afterwards.
 void hash_write(const Hash *hash, char text[HASH_TEXT_SIZE])
 {
     snprintf(text, HASH_TEXT_SIZE, "%016llx%016llx", (unsigned long long)hash->high,

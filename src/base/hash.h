@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A 128-bit content hash: names a cached file by what it depends on, and shows when its bytes have
-// changed. Not for secrets: it does not stop somebody who wants two files to agree. XXH3 of xxHash
-// behind it, which gives the same on every processor; the bytes are taken as they lie in memory, so
-// names do not travel between byte orders, as cached files do not.
+// changed. Not for secrets: it does not stop somebody who wants two files to agree. XXH3 of xxHash.
+// Numbers are hashed as they lie in memory: like cached files, names hold for one byte order.
 #ifndef AMONTONS_BASE_HASH_H
 #define AMONTONS_BASE_HASH_H
 

@@ -2,8 +2,8 @@
 // Each thread has counters of its own, so that simulations in several threads count what is theirs;
 // a module counts in those of the library that opened it (memory_use_tally).
 // Every array begins at a multiple of 64 bytes, a cache line and the widest vector, and its size is
-// rounded up to whole lines, so that loops over it may be vectorised to its end. Arrays know
-// nothing of their length: who has one keeps it.
+// rounded up to whole lines, so that loops over it may be vectorised to its end. An array does
+// not know its length: its owner keeps it.
 #include "base/memory.h"
 
 #include <stdatomic.h>
@@ -26,8 +26,8 @@ static MemoryTally *tally_now(void)
     return atomic_load_explicit(&tally_function, memory_order_relaxed)();
 }
 
-// Counts down to the failure that a test asked for, and stays at 0 from then on: what fails once
-// goes on failing, as memory that has run out does.
+// Counts down to the failure that a test asked for, and stays at 0: from then on all fails, as when
+// memory has run out.
 static bool fault_is_due(MemoryTally *tally)
 {
     if (tally->until_failure < 0) return false;
@@ -57,7 +57,7 @@ cleanup:
     return array;
 }
 
-// Padding is zeroed as well: a tool that looks at uninitialised bytes finds none.
+// Padding is zeroed as well: no byte is uninitialised.
 void *memory_array(int64_t count, size_t size, Error *err)
 {
     size_t padded = 0;
@@ -104,7 +104,7 @@ char *memory_text(const char *text, Error *err)
     return copy;
 }
 
-// Only for what this file gave out: the counter of live arrays is how tests find leaks.
+// Only for what this file gave out: tests find leaks by the counter of live arrays.
 void memory_free(void *array)
 {
     if (!array) return;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The program's one allocator: zeroed, 64-byte aligned arrays that count themselves and can be
-// told to fail. "Nothing is allocated in a step" and "every error path frees" are tests because of
-// it. Sizes in bytes are computed only here, checked for overflow.
+// told to fail, so that "nothing is allocated in a step" and "every error path frees" can be
+// tested. Sizes in bytes are computed only here, checked for overflow.
 #ifndef AMONTONS_BASE_MEMORY_H
 #define AMONTONS_BASE_MEMORY_H
 
@@ -19,16 +19,16 @@ typedef struct MemoryCounters {
 // NULL with ERROR_MEMORY set when count is negative, too large, or memory is short.
 void *memory_array(int64_t count, size_t size, Error *err);
 
-// The same of `size` bytes, but not zeroed: for what a file is read into at once.
+// The same of `size` bytes, not zeroed: for a buffer that a file is read into at once.
 void *memory_bytes(int64_t size, Error *err);
 
 // A longer (or shorter) copy of `array`, whose old items it frees; new items are zeroed. On failure
 // NULL, the error set, and `array` untouched.
 void *memory_resize(void *array, int64_t old_count, int64_t new_count, size_t size, Error *err);
 
-// Room for one more in a list that grows: `list` with room for *room > count items, twice as much
-// where it was full (*room 0, list NULL: a first few), so that most calls allocate nothing.
-// On failure NULL, the error set, `list` and *room untouched.
+// A list with room for one more than its `count` items: `list` itself, or a copy twice as long
+// where it was full. *room: items that it can hold; 0 at first, with list NULL. On failure NULL,
+// the error set, `list` and *room untouched.
 void *memory_grow(void *list, int32_t count, int32_t *room, size_t size, Error *err);
 
 char *memory_text(const char *text, Error *err);   // an owned copy

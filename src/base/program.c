@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// posix_spawn in the place of fork and exec: it does not copy the page tables of a large process. A
-// process group of its own keeps the terminal's Ctrl-C from a program that must end its work, as
-// sbatch must: half a submission would leave a job nobody knows of.
+// posix_spawn in place of fork and exec: it does not copy the page tables of a large process. In a
+// process group of its own the program does not get the terminal's Ctrl-C: sbatch, interrupted,
+// could leave a job that nobody knows of.
 #include "base/program.h"
 
 #include <errno.h>
@@ -13,7 +13,7 @@
 
 extern char **environ;
 
-// Both outputs into `pipe`, input from nowhere, in a process group of its own.
+// Both outputs into `pipe`, no input, a process group of its own.
 static int spawn(const char *const *words, const int pipe[2], pid_t *process)
 {
     posix_spawn_file_actions_t files;
@@ -26,7 +26,7 @@ static int spawn(const char *const *words, const int pipe[2], pid_t *process)
         posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
         posix_spawn_file_actions_adddup2(&files, pipe[1], STDOUT_FILENO);
         posix_spawn_file_actions_adddup2(&files, pipe[1], STDERR_FILENO);
-        // The words are not written to: POSIX lacks the const for history's sake.
+        // The words are not written to, although POSIX declares them without const.
         status =
             posix_spawnp(process, words[0], &files, &attributes, (char *const *)words, environ);
         posix_spawnattr_destroy(&attributes);
@@ -51,8 +51,7 @@ static void take_output(int pipe, char *output, size_t size)
     output[used] = 0;
 }
 
-// ERROR_LIBRARY: it cannot be started, as when it is not installed. A program that runs and fails
-// is no error here: its status says so, 128 + n where signal n ended it.
+// A program that runs and fails is no error here: its status says so.
 bool program_run(const char *const *words, char *output, size_t size, int *status, Error *err)
 {
     int ends[2] = {-1, -1}, ending = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Runs another program and takes what it says. Called by study/sweep/slurm for Slurm's commands.
+// Runs another program and takes what it says. Called by study/sweep/slurm_jobs.
 #ifndef AMONTONS_BASE_PROGRAM_H
 #define AMONTONS_BASE_PROGRAM_H
 
@@ -7,10 +7,10 @@
 
 #include <stddef.h>
 
-// words: the program, looked for in PATH, and its arguments; NULL at the end. It gets no input,
+// words: the program, looked for in PATH, and its arguments; NULL at the end. It gets no input and
 // no Ctrl-C of the terminal, and is waited for. output: what it wrote to standard output and
-// standard error, cut to `size` bytes with the zero. *status: 0 done; what it ended with, or 128
-// and the signal. ERROR_LIBRARY: there is no such program.
+// standard error, cut to `size` bytes with the zero. *status: its exit status, or 128 + the signal
+// that ended it. ERROR_LIBRARY: there is no such program.
 bool program_run(const char *const *words, char *output, size_t size, int *status, Error *err);
 
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// CHOLMOD (Chen, Davis, Hager, Rajamanickam, ACM TOMS 35, 2008): CAMD keeps the border last,
-// supernodal LL'. The supernodes of the factor are read directly for L_bb.
+// CHOLMOD (Chen, Davis, Hager, Rajamanickam, ACM TOMS 35, 2008): CAMD orders the border last, the
+// factor is supernodal LL', and L_bb is read out of its supernodes.
 //
 // A pattern is analysed once and factored for every rung of the ladder (on 80 x 80 cells: 5 ms for
 // the analysis, 25 ms for a factor, 1 ms for a solve). Workspaces of solves belong to the analysis:
@@ -162,7 +162,7 @@ cleanup:
     return NULL;
 }
 
-// Also of one half built. Factors made from it must be gone.
+// Also of one half built. Factors made from it must have been destroyed.
 void sparse_analysis_destroy(SparseAnalysis *analysis)
 {
     if (!analysis) return;
@@ -214,11 +214,7 @@ static void compute_schur(SparseFactor *factor, double *square)
     }
 }
 
-//     A = [A_ii A_ib]   L = [L_ii     ]   S = A_bb - A_bi A_ii^-1 A_ib = L_bb L_bb'
-//         [A_bi A_bb]       [L_bi L_bb]
-//
-// With the border last, S stands in the factor and is copied out of it once. ERROR_COMPUTE: not
-// positive definite, which a user's mesh or material can cause.
+// S is formed once, with the factor. Not positive definite: a user's mesh or material can cause it.
 SparseFactor *sparse_factorise(SparseAnalysis *analysis, const double *values, Error *err)
 {
     cholmod_common *common = &analysis->common;
@@ -268,8 +264,8 @@ const double *sparse_schur(const SparseFactor *factor)
     return factor->schur;
 }
 
-// L y = rhs; then g = L_bb y_b = rhs_b - A_bi A_ii^-1 rhs_i. y stays in `forward` for the matching
-// sparse_expand: the two go in pairs.
+// L y = rhs; then g = L_bb y_b = rhs_b - A_bi A_ii^-1 rhs_i. y stays in `forward` for the
+// sparse_expand that follows.
 bool sparse_condense(SparseFactor *factor, const double *rhs, double *g, Error *err)
 {
     SparseAnalysis *analysis = factor->analysis;
@@ -289,8 +285,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// With x_b known, L_bb' x_b takes the place of y_b, and L' x = y gives the interior. No memory is
-// allocated after the first call: CHOLMOD keeps its workspaces.
+// With x_b known, L_bb' x_b takes the place of y_b, and L' x = y gives the interior. CHOLMOD keeps
+// its workspaces from call to call.
 bool sparse_expand(SparseFactor *factor, const double *x_border, double *x, Error *err)
 {
     SparseAnalysis *analysis = factor->analysis;

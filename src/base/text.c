@@ -42,8 +42,8 @@ int32_t text_distance(const char *a, const char *b)
     return rows[a_length % 3][b_length];
 }
 
-// A third of the longer name, rounded up: one slip in three letters, two in six. Of equals the
-// first in the list.
+// A third of the longer name, rounded up: one mistake in three letters, two in six. Of names
+// equally near the first in the list.
 int32_t text_nearest(const char *given, const char *const *names, int32_t count)
 {
     int32_t nearest = -1, nearest_distance = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Suggestions for mistyped names, called wherever a name from a user is looked up; and what is a
-// number and a character, for those who read and write text.
+// Suggestions for mistyped names, wherever a name from a user is looked up; numbers and characters
+// for all that reads or writes text.
 #ifndef AMONTONS_BASE_TEXT_H
 #define AMONTONS_BASE_TEXT_H
 
@@ -10,8 +10,8 @@
 // `a` into `b` (optimal string alignment). Names longer than 127 bytes are cut there.
 int32_t text_distance(const char *a, const char *b);
 
-// The index of the name nearest to `given`, or -1 when none is near enough to be a likely slip of
-// the finger (more than a third of the longer name differs). names: [count].
+// The index of the name nearest to `given`, or -1 when none is near enough to be a likely typing
+// mistake (more than a third of the longer name differs). names: [count].
 int32_t text_nearest(const char *given, const char *const *names, int32_t count);
 
 // The decimal number that `text` begins with, and the bytes it takes; 0: it begins with none.

@@ -5,8 +5,7 @@
 //
 //     unknown 2 i: u_x of node i;  2 i + 1: u_z;  row-compressed, columns ascending
 //
-// Entries are found by bisection in a row, which beside computing an element's matrices costs
-// little, and no element is looked at twice.
+// Entries are found by bisection in a row: little beside computing an element's matrices.
 #include "bulk/assembly.h"
 
 #include "base/memory.h"
@@ -68,9 +67,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// From nodes to unknowns: each neighbour gives two columns, and both rows of a node are alike.
-// pattern->index is twice as long as the node graph in both directions: 4 entries for a pair of
-// nodes. *pattern is the caller's to free also on failure.
+// From nodes to unknowns: each neighbour gives two columns, both rows of a node are alike: 4
+// entries for a pair of nodes. *pattern is the caller's to free also on failure.
 static bool build_pattern(const Mesh *mesh, SparsePattern *pattern, Error *err)
 {
     NodeGraph graph = {0};
@@ -116,7 +114,7 @@ static void add_element(const Mesh *mesh, int32_t e, const ElementMatrices *matr
     bulk->area += matrices->area;
 }
 
-// The mesh has been checked: every determinant is positive, and no element can fail here.
+// Of a checked mesh (bulk/mesh_build) every determinant is positive: no element can fail here.
 bool bulk_assemble(const Mesh *mesh, const Material *material, Bulk *bulk, Error *err)
 {
     *bulk = (Bulk){.dof_count = 2 * mesh->node_count};
@@ -154,8 +152,8 @@ void bulk_destroy(Bulk *bulk)
     *bulk = (Bulk){0};
 }
 
-// Row and column are emptied but for the diagonal: the matrices stay symmetric and positive, and
-// the unknown, without load, stays at 0. Its mass and its diagonal entries are left as they are.
+// Row and column are emptied but for the diagonal, so that the matrices stay symmetric and
+// positive.
 void bulk_hold(int32_t dof, Bulk *bulk)
 {
     const SparsePattern *pattern = &bulk->pattern;
@@ -191,8 +189,7 @@ void curve_add_weights(const Mesh *mesh, const MeshCurve *curve, double *weight)
     }
 }
 
-// f_i = int N_i t ds for a uniform t, exact on straight edges of either order.
-// traction: (x, z), stress, of the outer world on the block. Added to what is there.
+// Exact on straight edges of either order. traction: (x, z), stress, on the block.
 void bulk_add_traction(const Mesh *mesh, const MeshCurve *curve, const double traction[2],
                        Bulk *bulk)
 {

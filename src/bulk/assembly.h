@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The semi-discrete bulk M u'' + C u' + K u = f: sparse K and C on one pattern, lumped M, loads.
-// Unknowns: 2 * node + 0 is u_x, 2 * node + 1 is u_z. Used by bulk/interface_operator.
+// Unknowns: 2 * node + 0 is u_x, 2 * node + 1 is u_z.
 #ifndef AMONTONS_BULK_ASSEMBLY_H
 #define AMONTONS_BULK_ASSEMBLY_H
 
@@ -26,8 +26,8 @@ void bulk_destroy(Bulk *bulk);
 void bulk_add_traction(const Mesh *mesh, const MeshCurve *curve, const double traction[2],
                        Bulk *bulk);
 
-// Holds an unknown at 0: its couplings leave K and C, its load goes, its diagonals stay. What is
-// solved with the bulk from then on leaves it at rest.
+// Holds an unknown at 0: its couplings in K and C and its load become 0, its mass and diagonal
+// entries stay.
 void bulk_hold(int32_t dof, Bulk *bulk);
 
 // The weights of a curve's nodes: int_curve N_a ds, added to weight[node]; [mesh->node_count].

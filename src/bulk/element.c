@@ -44,7 +44,6 @@ static void add_quadratic_form(int32_t dofs, const double b[3][ELEMENT_DOFS_MAX]
     }
 }
 
-// Shares out the element's mass in proportion to int N_a^2.
 // Row sums would give corners of a T6 no mass, and those of a Q8 a negative one; this rule of
 // Hinton, Rock and Zienkiewicz (Earthq. Eng. Struct. Dyn. 4, 1976) keeps all positive.
 static void lump_mass(ElementKind kind, const double (*position)[2], double density,
@@ -66,7 +65,7 @@ static void lump_mass(ElementKind kind, const double (*position)[2], double dens
     for (int32_t a = 0; a < nodes; a++) out->mass[a] *= density * out->area / square_sum;
 }
 
-// K_e = int B' D B dA and C_e = int B' D_eta B dA by the element's own quadrature, per unit width.
+// By the element's own quadrature, per unit width.
 void element_matrices(ElementKind kind, const double (*position)[2], const Material *material,
                       ElementMatrices *out)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Matrices of one element: K = int B' D_el B, C = int B' D_vis B, and a lumped mass that is
-// positive at every node. Used by bulk/assembly.
+// positive at every node. Used by bulk/assembly, bulk/recovery and run/static_solve.
 #ifndef AMONTONS_BULK_ELEMENT_H
 #define AMONTONS_BULK_ELEMENT_H
 
@@ -17,9 +17,8 @@ typedef struct ElementMatrices {
     double area;
 } ElementMatrices;
 
-// position: [nodes][2]. Mass is lumped in proportion to int N_a^2, keeping the total (Hinton, Rock
-// and Zienkiewicz, Earthq. Eng. Struct. Dyn. 4, 1976): positive for every element, equal to the row
-// sum on parallelograms T3 and Q4.
+// position: [nodes][2]. Mass is lumped in proportion to int N_a^2, keeping the total: on T3 and on
+// parallelograms Q4 this is the row sum.
 void element_matrices(ElementKind kind, const double (*position)[2], const Material *material,
                       ElementMatrices *out);
 

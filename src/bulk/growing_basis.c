@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-// New vectors whose part orthogonal to the others is smaller than this, squared, are rounding.
+// The squared length of the part orthogonal to the others below which a new vector is rounding.
 static const double DEPENDENT = 1e-12;
 
 void basis_destroy(GrowingBasis *basis)
@@ -38,7 +38,7 @@ bool basis_create(const Bulk *bulk, const int32_t *interface_dofs, int32_t inter
     reduced->modes = NEW_ARRAY(double, dofs * basis->modes_room, err);
     reduced->stiffness = NEW_ARRAY(double, m *m, err);
     if (!error_is_clean(err)) goto cleanup;
-    // Without a load every answer to it is 0, and 1 as good a unit as any.
+    // Without a load every answer to it is 0, in any unit.
     double scale = reduced->scales.load > 0 ? reduced->scales.load : 1;
     for (int64_t k = 0; k < dofs; k++) basis->unit_load[k] = bulk->load[k] / scale;
 cleanup:
@@ -123,7 +123,7 @@ static bool start_motions(GrowingBasis *basis, InterfaceOperator *statics, Error
         TRY(interface_operator_expand(statics, basis->border, mode, err));
         for (int64_t i = 0; i < m; i++) mode[basis->full.interface_dofs[i]] = i == j;   // exactly
     }
-    // The modes do K-work on nothing inside, so V'KV is the Schur complement of K itself.
+    // Inside the block K Psi = 0, so that V'KV is the Schur complement of K.
     memcpy(reduced->stiffness, interface_operator_schur(statics), (size_t)(m * m) * sizeof(double));
     TRY(project(basis, 0, err));
 cleanup:
@@ -154,8 +154,7 @@ static bool project_out(GrowingBasis *basis, int32_t columns, double *vectors, d
     return true;
 }
 
-// Room for `columns` more modes. Half as many again are taken at once, so that a basis which grows
-// level by level is copied a few times only.
+// Room for `columns` more modes and half as many again, so that it is copied a few times only.
 static bool make_room(GrowingBasis *basis, int32_t columns, Error *err)
 {
     ReducedBulk *reduced = basis->reduced;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The basis of a reduced bulk while it is built: the full mesh, what the basis holds so far, and
-// how vectors join it. Static modes Psi and Phi orthonormal in K keep M, C, K of
-// bulk/reduced_bulk's form at every moment. Used by bulk/reduction alone.
+// The basis of a reduced bulk while it is built. Static modes Psi and Phi orthonormal in K give M,
+// C, K the form of bulk/reduced_bulk at every moment. Used by bulk/reduction alone.
 #ifndef AMONTONS_BULK_GROWING_BASIS_H
 #define AMONTONS_BULK_GROWING_BASIS_H
 
@@ -16,8 +15,7 @@ typedef struct GrowingBasis {
     double *zeros, *unit_load;   // [dofs]
 } GrowingBasis;
 
-// reduced: zeroed but for its scales; it is filled here and stays the caller's. Empty at first:
-// only basis_start makes it a basis.
+// reduced: zeroed but for its scales; stays the caller's. basis_start fills it first.
 bool basis_create(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
                   ReducedBulk *reduced, GrowingBasis *basis, Error *err);
 void basis_destroy(GrowingBasis *basis);   // all but `reduced`
@@ -25,8 +23,8 @@ void basis_destroy(GrowingBasis *basis);   // all but `reduced`
 // Static modes, and the static answer to the load. statics: the full mesh at K alone.
 bool basis_start(GrowingBasis *basis, InterfaceOperator *statics, Error *err);
 
-// Makes `vectors` [dofs * columns], zero on the interface, part of Phi: what they hold beyond it,
-// orthonormal in K. They are changed.
+// Adds `vectors` [dofs * columns], zero on the interface, to Phi: the part that is K-orthogonal to
+// it, orthonormal in K. They are changed.
 bool basis_extend(GrowingBasis *basis, int32_t columns, double *vectors, Error *err);
 
 // y = K x / E, C x / eta or M x / (rho L^2) on the full mesh; [dofs].

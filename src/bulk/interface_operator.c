@@ -3,10 +3,10 @@
 //
 //     B = A_qq^-1 A_qb,   S = A_bb - A_bq B,   g = rhs_b - B' rhs_q,   v_q = A_qq^-1 rhs_q - B v_b.
 //
-// The full operator leaves all this to base/sparse, which reads S out of CHOLMOD's factor. Both
-// answer to the same four calls, so that nobody above knows which of them is at work (a test
-// compares them). Unknowns of the full system are those of the mesh; of the reduced one the
-// interface's come first, then the interior's coordinates q.
+// The full operator leaves all this to base/sparse, which reads S out of CHOLMOD's factor. Callers
+// do not know which of the two they have (a test compares them). Unknowns of the full system are
+// those of the mesh; of the reduced one the interface's come first, then the interior's coordinates
+// q.
 #include "bulk/interface_operator.h"
 
 #include "base/dense.h"
@@ -24,8 +24,8 @@ struct InterfaceOperator {
     double *half;   // reduced: [interior] A_qq^-1 rhs_q; owned
 };
 
-// The load is copied: what bulk_hold or a traction changes in `bulk` afterwards does not reach it.
-// mass_total counts the mass of one direction, as both have the same.
+// The load is copied: later changes of `bulk` do not reach it. mass_total: of one direction, as
+// both have the same.
 bool bulk_operator_create(const Bulk *bulk, const double *position, const int32_t *interface_dofs,
                           int32_t interface_count, BulkOperator *system, Error *err)
 {
@@ -48,7 +48,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// `reduced` must outlive the system. interface_rotation: [interface_count].
 bool bulk_operator_reduce(const ReducedBulk *reduced, const double *interface_rotation,
                           double mass_total, BulkOperator *system, Error *err)
 {
@@ -195,8 +194,8 @@ static bool take_viscous(InterfaceOperator *condensed, OperatorTerms terms)
     return true;
 }
 
-// The formulas at the head. The inverse is formed, not kept as a factor: a product with it is one
-// pass over memory for each of many right-hand sides, and A_qq is well conditioned (K_qq = 1).
+// The formulas at the head. The inverse itself, not a factor: a product with it is one pass over
+// memory for each of many right-hand sides, and A_qq is well conditioned (K_qq = 1).
 static bool condense_dense(InterfaceOperator *condensed, OperatorTerms terms, Error *err)
 {
     const ReducedBulk *reduced = condensed->system->reduced;
@@ -232,8 +231,8 @@ cleanup:
 }
 
 // Memory of a reduced one: m^2 + r^2 + r m doubles, m interface and r interior unknowns; of a full
-// one the sparse factor and 3 m^2. C's own operator, which the certificate asks for, is copied from
-// the reduction and costs no factorisation.
+// one the sparse factor and 3 m^2. That of C alone, for the certificate, is copied from the
+// reduction.
 InterfaceOperator *interface_operator_create(BulkOperator *system, OperatorTerms terms, Error *err)
 {
     int64_t m = system->interface_count;
@@ -270,8 +269,7 @@ const double *interface_operator_schur(const InterfaceOperator *condensed)
     return condensed->schur;
 }
 
-// Reduced: keeps A_qq^-1 rhs_q for the expand that follows.
-// The half-solved right-hand side is kept inside, for one at a time.
+// The half-solved right-hand side (reduced: A_qq^-1 rhs_q) is kept for the expand that follows.
 bool interface_operator_condense(InterfaceOperator *condensed, const double *rhs, double *g,
                                  Error *err)
 {

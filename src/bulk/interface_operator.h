@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The border between bulk and time stepper. The stepper sees a linear system with `dof_count`
-// unknowns of which a few, the interface, carry unknown reactions:
+// What the time stepper knows of the bulk: a linear system with `dof_count` unknowns, of which a
+// few, the interface, carry unknown reactions:
 //
 //     M u'' + C u' + K u = f + G' r
 //
 // and asks for A = m M + c C + k K condensed on the interface, S v_b = g + r_b, and for v from v_b.
-// Two makers fill the same struct. Full: the unknowns of the mesh, A factored by CHOLMOD with the
-// interface last. Reduced (bulk/reduction): the interface first, then a small interior basis,
-// dense.
+// There are two kinds. Full: the unknowns of the mesh, A factored by CHOLMOD with the interface
+// last. Reduced (bulk/reduction): the interface first, then a small interior basis, dense.
 #ifndef AMONTONS_BULK_INTERFACE_OPERATOR_H
 #define AMONTONS_BULK_INTERFACE_OPERATOR_H
 
@@ -36,7 +35,8 @@ typedef struct BulkOperator {
 bool bulk_operator_create(const Bulk *bulk, const double *position, const int32_t *interface_dofs,
                           int32_t interface_count, BulkOperator *system, Error *err);
 
-// interface_position: [interface_count] what the rotation does there: -z for a u_x, x for a u_z.
+// interface_rotation: [interface_count] the unit rotation: -z for a u_x, x for a u_z. `reduced`
+// must outlive the operator.
 bool bulk_operator_reduce(const ReducedBulk *reduced, const double *interface_rotation,
                           double mass_total, BulkOperator *system, Error *err);
 void bulk_operator_destroy(BulkOperator *system);

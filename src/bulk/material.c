@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-// E nu / ((1+nu)(1-2nu)), or what sigma_yy = 0 makes of it in a thin plate: E nu / (1 - nu^2).
+// E nu / ((1+nu)(1-2nu)); with sigma_yy = 0, in plane stress, E nu / (1 - nu^2).
 static double lame_lambda(const Material *material)
 {
     double nu = material->poisson, young = material->young;
@@ -37,7 +37,7 @@ void material_viscous(const Material *material, double d[3][3])
     fill_isotropic(material->eta1, material->eta2, d);
 }
 
-// sigma_yy: 0 in plane stress; in plane strain what holds the block's faces in place.
+// In plane strain the stress that keeps the faces in place.
 double material_out_of_plane(const Material *material, const double strain[3],
                              const double strain_rate[3])
 {

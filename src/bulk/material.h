@@ -4,7 +4,7 @@
 //     sigma = E/(1+nu) eps + lambda tr(eps) I  +  eta1 eps' + eta2 tr(eps') I
 //     lambda = E nu/(1-nu^2) in plane stress,  E nu/((1+nu)(1-2nu)) in plane strain.
 //
-// Used by bulk/element and bulk/recovery; its wave speeds by stepping/ and run/.
+// Used by bulk/element and bulk/recovery; its wave speeds by model/ and run/.
 #ifndef AMONTONS_BULK_MATERIAL_H
 #define AMONTONS_BULK_MATERIAL_H
 
@@ -22,7 +22,7 @@ typedef struct Material {
 void material_elastic(const Material *material, double d[3][3]);
 void material_viscous(const Material *material, double d[3][3]);
 
-// sigma_yy, which von Mises needs: 0 in plane stress, -- the viscous part likewise.
+// sigma_yy, which von Mises needs, with its viscous part: 0 in plane stress.
 double material_out_of_plane(const Material *material, const double strain[3],
                              const double strain_rate[3]);
 
@@ -32,8 +32,8 @@ typedef struct WaveSpeeds {
 // Rayleigh's equation is solved to rounding (Achenbach, Wave Propagation in Elastic Solids, 5.11).
 WaveSpeeds material_speeds(const Material *material);
 
-// Whose crossings time what slip does: c_L, but at most 2 c_S. (c_L grows without bound towards
-// nu = 1/2 in plane strain, and nothing that slips goes with it.)
+// For the time scales of slip: c_L, but at most 2 c_S. (c_L grows without bound towards nu = 1/2 in
+// plane strain, while slip does not get faster.)
 double material_slip_speed(const Material *material);
 
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The mesh the solver works on: what io/mesh_file delivered, checked, with its named curves. Used
-// by bulk/assembly (elements, tractions on curves) and contact/interface (the contact curves).
+// The mesh the solver works on: that of io/mesh_file, checked, with its named curves. Used by
+// bulk/assembly (elements, tractions on curves) and contact/interface (the contact curves).
 #ifndef AMONTONS_BULK_MESH_H
 #define AMONTONS_BULK_MESH_H
 
@@ -13,8 +13,8 @@ enum { MESH_PATH_SIZE = 1024 };
 
 // A checked mesh: every element counter-clockwise, with a positive Jacobian determinant at its
 // nodes and quadrature points; every node on an element; no node twice in one element; no edge on
-// more than two elements; every edge of a curve group is an edge of an element, listed
-// once; all elements in one part.
+// more than two elements; every edge of a curve group is an edge of an element, listed once; all
+// elements in one part.
 typedef struct Mesh {
     char path[MESH_PATH_SIZE];   // of the file, for messages
     int32_t node_count;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Checks a mesh once, so that nobody after it has to: see bulk/mesh.h for what holds afterwards.
+// All checks of a mesh; bulk/mesh.h says what holds afterwards.
 #include "bulk/mesh.h"
 
 #include "base/memory.h"
@@ -15,7 +15,7 @@
 // is 1e-16 of it; an element of aspect ratio 1e4 still has 2e-5 of it.
 static const double AREA_TOLERANCE = 1e-12;
 
-// The arrays came from io/mesh_file, which knows how to free them.
+// The arrays came from io/mesh_file, which frees them.
 void mesh_destroy(Mesh *mesh)
 {
     MeshFile file = {.position = mesh->position,
@@ -47,7 +47,7 @@ static void take_over(MeshFile *file, const char *path, Mesh *mesh)
     *file = (MeshFile){0};
 }
 
-// The block's bounding box. Nodes of no element would spoil it, but those end in an error.
+// The block's extent. A node on no element would change it, but is an error.
 static void find_extent(Mesh *mesh)
 {
     mesh->x_min = mesh->z_min = INFINITY;
@@ -62,8 +62,7 @@ static void find_extent(Mesh *mesh)
 
 // --- checks -------------------------------------------------------------------------------------
 
-// The name of a curve group that holds node i, NULL: none.
-// Only for the words of an error: a walk over everything.
+// The name of a curve group that holds node i, NULL: none. For errors: it searches all.
 static const char *group_of_node(const Mesh *mesh, int32_t i)
 {
     for (int32_t g = 0; g < mesh->group_count; g++)
@@ -92,8 +91,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// A quadrilateral with two corners in one node is a triangle in disguise: its Jacobian is zero.
-// Quadratic in an element's nodes, of which there are 9 at most.
+// A quadrilateral with two corners in one node has a Jacobian of zero there.
 static bool check_repeats(const Mesh *mesh, Error *err)
 {
     for (int32_t e = 0; e < mesh->element_count; e++)
@@ -132,8 +130,8 @@ typedef struct ProbePoints {
     ShapeValues shape[ELEMENT_KIND_COUNT][ELEMENT_NODES_MAX + QUADRATURE_POINTS_MAX];
 } ProbePoints;
 
-// Evaluated once a mesh, not once an element. Nodes, because a corner's angle may exceed 180
-// degrees while the quadrature points see nothing of it; quadrature points, because integrals are
+// Evaluated once a mesh. At nodes, because a corner's angle may exceed 180 degrees while
+// determinants at the quadrature points are positive; at quadrature points, because integrals are
 // taken there.
 static void set_probes(ProbePoints *probes)
 {
@@ -183,8 +181,8 @@ static void reverse_element(ElementKind kind, int32_t *nodes)
     for (int32_t a = 0; a < count; a++) nodes[a] = old[order[kind][a]];
 }
 
-// A mesh that is clockwise throughout is a reversed surface and is turned round; a clockwise
-// element among others is a mistake.
+// Clockwise throughout is a reversed surface, which is turned round; a clockwise element among
+// others is an error.
 static bool check_orientation(Mesh *mesh, Error *err)
 {
     bool clockwise = false;   // as the first element is, all must be
@@ -264,7 +262,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The first node of i's part; halves the way for the next who asks.
+// The first node of i's part (union-find with path halving).
 static int32_t part_of(int32_t *parent, int32_t i)
 {
     while (parent[i] != i) {
@@ -291,7 +289,7 @@ static void describe_part(const Mesh *mesh, int32_t *parent, int32_t root, char 
              high[1]);
 }
 
-// One block: all elements hang together by their nodes. Parts that only touch share none.
+// All elements hang together by their nodes; parts that only touch share none.
 static bool check_one_part(const Mesh *mesh, Error *err)
 {
     int32_t *parent = NEW_ARRAY(int32_t, mesh->node_count, err);
@@ -319,9 +317,8 @@ cleanup:
 
 // --- building -----------------------------------------------------------------------------------
 
-// In this order: each check may rely on those before it.
-// `file` is emptied whatever happens; *mesh, half checked, is the caller's to destroy also on
-// failure. ERROR_INPUT names node or element by gmsh's own number.
+// Each check may rely on those before it. *mesh is the caller's to destroy also on failure. Errors
+// name node or element by gmsh's number.
 bool mesh_build(MeshFile *file, const char *path, Mesh *mesh, Error *err)
 {
     take_over(file, path, mesh);

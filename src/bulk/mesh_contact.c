@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Named curves, and the contact line that several of them make together.
-// Contact is unilateral against the rigid line z = 0, node by node, so what is checked is what that
-// needs: nodes on the line, in distinct places, on the block's edge, nothing of the block below.
+// Contact is unilateral against the rigid line z = 0, node by node. So nodes must stand on the
+// line, in distinct places, on the block's edge, with nothing of the block below.
 #include "bulk/mesh.h"
 
 #include "base/memory.h"
@@ -36,8 +35,7 @@ void mesh_sort_nodes(const Mesh *mesh, int32_t *nodes, int32_t count)
     if (count > 1) qsort_r(nodes, (size_t)count, sizeof *nodes, compare_places, mesh->position);
 }
 
-// A view into the mesh's group: nothing is owned. ERROR_INPUT lists the curves that there are where
-// `name` is none of them.
+// The error lists the curves that there are.
 bool mesh_curve(const Mesh *mesh, const char *name, MeshCurve *curve, Error *err)
 {
     MeshFile view = {.group_count = mesh->group_count, .groups = mesh->groups};
@@ -101,7 +99,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Names the node farthest off the line: with a rough contact face, one of many.
+// The error names the node farthest off the line.
 static bool check_flat(const Mesh *mesh, const MeshCurve *curve, Error *err)
 {
     int32_t worst = curve->nodes[0];
@@ -117,9 +115,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Each edge of the contact is on one element only and on one contact curve only.
-// An edge on two elements lies inside the block; one that two curves have would be given to both
-// pads.
+// Each edge of the contact is on one element only, as else it lies inside the block, and on one
+// contact curve only.
 static bool check_boundary(const Mesh *mesh, const MeshContact *contact, Error *err)
 {
     MeshEdges table = {0};
@@ -174,8 +171,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Two nodes in one place are two sides of a crack, or a mesh whose parts were never glued.
-// Nodes are in order of x by now, so that neighbours are the only ones to compare.
+// Two nodes in one place: the sides of a crack, or parts of a mesh that were not joined. Nodes are
+// in order of x, so that only neighbours are compared.
 static bool check_places(const Mesh *mesh, const MeshContact *contact, Error *err)
 {
     double tolerance = PLACE_TOLERANCE * extent(mesh);
@@ -198,7 +195,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Flatness first: the later checks rely on all nodes lying on one line.
+// Flatness first: later checks rely on it.
 bool mesh_contact(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], int32_t name_count,
                   MeshContact *contact, Error *err)
 {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Buckets by the lower end: a bucket holds the few edges of one node, so finding one is a short
-// scan and building the table is linear in the mesh.
+// In buckets by the lower end, each of the few edges of one node.
 #include "bulk/mesh_edges.h"
 
 #include "base/memory.h"
@@ -19,9 +18,8 @@ static MeshEdge *find_edge(const MeshEdges *table, int32_t low, int32_t high)
     return NULL;
 }
 
-// Puts an edge into the table, or counts one more element on it. `edge` comes with elements = 1.
-// low: the edge's lower end, whose bucket it goes into. ERROR_INPUT: the mesh does not fit together
-// there.
+// Puts an edge (elements = 1) into the bucket of its lower end `low`, or counts one more element on
+// it. ERROR_INPUT: the mesh does not fit together there.
 static bool add_edge(const Mesh *mesh, int32_t element, const MeshEdge *edge, int32_t low,
                      MeshEdges *table, Error *err)
 {
@@ -67,8 +65,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Buckets are sized by a first pass that counts an edge once for each element on it, which is
-// enough and at most twice too much.
+// A first pass counts an edge once for each element on it: at most twice the room that is needed.
 bool mesh_edges_build(const Mesh *mesh, MeshEdges *table, Error *err)
 {
     *table = (MeshEdges){0};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Counts and sizes of a mesh, for people.
+// Counts and sizes of a mesh.
 #include "bulk/mesh.h"
 
 #include "bulk/shape.h"
@@ -25,9 +25,8 @@ static double element_area(const Mesh *mesh, int32_t e)
     return area;
 }
 
-// Aspect is longest over shortest edge of an element; a triangle's needle with two long edges shows
-// in it, a flat one with an obtuse corner only mildly.
-// Edges are measured between corners, also where a mid-side node bends them.
+// Edges are measured between corners, also where a mid-side node bends them. Longest over shortest
+// edge shows a triangle that is a needle; one that is flat, with an obtuse corner, hardly.
 MeshSummary mesh_summarise(const Mesh *mesh)
 {
     MeshSummary summary = {.edge_min = INFINITY, .aspect_worst = -1};

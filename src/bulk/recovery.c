@@ -2,9 +2,8 @@
 // Strains are taken at the nodes of each element. On a regular mesh the mean over the elements at
 // an inner node is a central difference, one order better than each of them.
 //
-// Stresses are discontinuous between elements; what is written is their plain mean at each node,
-// not weighted by the elements' sizes. Arrays are [3 * nodes]: xx, zz, xz of node 0, of node 1,
-// ...; the strain's third entry is the engineering shear 2 xz, as in bulk/element.
+// The mean is not weighted by the elements' sizes. Arrays are [3 * nodes]: xx, zz, xz of node 0, of
+// node 1, ...; the strain's third entry is the engineering shear 2 xz, as in bulk/element.
 #include "bulk/recovery.h"
 
 #include "base/memory.h"
@@ -69,8 +68,7 @@ static double von_mises(const double stress[3], double out_of_plane)
                 3 * xz * xz);
 }
 
-// Every element gives its own stress to each of its nodes; the mean over the elements is taken
-// last, and von Mises of that mean, not the mean of von Mises.
+// Von Mises is that of the mean stress, not the mean of the elements' von Mises.
 // displacement, velocity: [2 * nodes] of the full mesh. stress->total has the viscous part, C's
 // stress at this velocity, stress->elastic has not.
 void nodal_stress_recover(const Mesh *mesh, const Material *material, const double *displacement,

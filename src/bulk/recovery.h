@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the bulk's unknowns mean in space: strains and stresses at the nodes, the mean of what the
-// elements around a node say. Called by record/fields, on demand only.
+// Strains and stresses at the nodes: the mean over the elements around a node. Called by
+// record/fields, on demand only.
 #ifndef AMONTONS_BULK_RECOVERY_H
 #define AMONTONS_BULK_RECOVERY_H
 

@@ -27,8 +27,8 @@ void reduced_bulk_recover(const ReducedBulk *reduced, const double *state, doubl
     dense_apply(modes, state, 1, 0, full);
 }
 
-// Between two levels the error is not known; it was found to stay below the larger of theirs (a
-// test asks at random).
+// Between two levels the error is not measured; it stays below the larger of theirs (a test asks at
+// random).
 double reduced_bulk_error(const ReducedBulk *reduced, double inertia)
 {
     const ReductionErrors *errors = &reduced->errors;

@@ -13,7 +13,7 @@
 
 #include <stdint.h>
 
-// What the normalised matrices are multiplied with to be those of a scene.
+// Factors from the normalised matrices to those of a scene.
 typedef struct BulkScales {
     double stiffness;   // E, stress
     double damping;   // eta1 + eta2, stress * time

@@ -5,7 +5,7 @@
 //
 //     (S_r - S) y = mu S y,    y_j' S y_k = 1 if j = k, else 0,
 //
-// are the motions of the interface that the basis answers worst, mu the relative error of each. The
+// are the motions of the interface with the largest errors, mu the relative error of each. The
 // difference of responses e = R_r y - R y, with R y the answer of the full mesh, vanishes on the
 // interface, has the energy e'A e = mu and is A-orthogonal to Phi and to the other e. So adding
 // exactly the e with mu above the tolerance leaves no error above it at this point, with the
@@ -21,20 +21,21 @@
 
 // Levels of inertia that the basis is built at, a factor of about LEVEL_RATIO apart, from
 // LEVEL_LOWEST times the slowest mode of the interior, below which it follows like a spring, to
-// that of one element. Then those between two of them, and LEVEL_BEYOND above, are visited: the
-// error is measured there too, and what is missing is added as well.
+// that of one element. Then the levels between two of them, and LEVEL_BEYOND above, are treated
+// likewise.
 static const double LEVEL_RATIO = 10, LEVEL_LOWEST = 0.1, LEVEL_BEYOND = 1e6;
 enum { SLOWEST_ITERATIONS = 10, VISCOSITIES_MAX = 12 };
 
 // K and C are isotropic, so the static answer at a viscosity depends on the quotient of A's areal
-// modulus and shear modulus alone. Visited are viscosities at which neighbouring quotients differ
-// by this factor at most: then the error in between stays below those measured (a test asks at
-// random, up to eta2 = 10 eta1; at 100 it was found 1.4 times as large). With eta2 = eta1 in plane
-// stress the ends alone will do.
+// modulus and shear modulus alone. The basis is built at viscosities whose quotients differ by this
+// factor at most: then the error in between stays below those measured (a test asks at random, up
+// to eta2 = 10 eta1; at 100 it was 1.4 times as large). With eta2 = eta1 in plane stress the two
+// ends suffice.
 static const double VISCOSITY_RATIO = 2;
 
-// Where inertia acts within an element the mesh is off itself, by about a quarter of its share
-// (a thin layer in linear elements with lumped mass). A tolerance of 0.01 allows a tenth of that.
+// Where inertia acts within an element the mesh itself has an error, of about a quarter of
+// inertia's share (a thin layer in linear elements with lumped mass). A tolerance of 0.01 allows a
+// tenth of it.
 static const double MESH_SHARE = 2.5;
 
 // Errors of S below this are its rounding.
@@ -57,7 +58,7 @@ typedef struct Builder {
     double *eigen_work;   // [dense_eigen_work(m)]
 } Builder;
 
-// All but the reduced bulk, which is what was asked for.
+// All but the reduced bulk.
 static void builder_destroy(Builder *work)
 {
     basis_destroy(&work->basis);
@@ -152,8 +153,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// What one point asks for: columns of the full mesh's answers, and of the reduced unknowns of the
-// basis's answers to the same.
+// Answers of the full mesh, and reduced unknowns of the basis's answers, to the same motions.
 typedef struct Answers {
     int32_t count;
     double *full;   // [dofs * count]; in the end the differences
@@ -165,7 +165,7 @@ static bool answer_motions(Builder *work, InterfaceOperator *full, InterfaceOper
                            int32_t wanted, Answers *answers, Error *err)
 {
     int64_t m = work->basis.reduced->interface_count;
-    // No load inside: what expand then gives is the answer to the interface's motion alone.
+    // No load inside: expand then gives the answer to the interface's motion alone.
     TRY(interface_operator_condense(full, work->basis.zeros, work->basis.border, err));
     TRY(interface_operator_condense(tried, work->basis.zeros, work->basis.border, err));
     for (int32_t k = 0; k < wanted; k++) {
@@ -196,7 +196,8 @@ static bool answer_load(Builder *work, InterfaceOperator *full, InterfaceOperato
     TRY(interface_operator_expand(full, work->basis.still, x, err));
     TRY(interface_operator_condense(tried, load, work->basis.border, err));
     TRY(interface_operator_expand(tried, work->basis.still, state, err));
-    // A Galerkin answer takes up less work than the exact one, by the energy of the difference.
+    // The load does less work on a Galerkin answer than on the exact one, by the energy of the
+    // difference.
     double energy = dense_dot(x, work->basis.unit_load, dofs);
     double missing = energy - dense_dot(state, load, count);
     if (!(missing > allowed * energy)) goto cleanup;
@@ -220,7 +221,7 @@ static void subtract_answers(const Builder *work, Answers *answers)
     }
 }
 
-// Adds what the basis lacks at `point`, and says how far S is off there then.
+// Adds what the basis lacks at `point`; *left: the error of S there afterwards.
 static bool visit(Builder *work, Point point, double *left, Error *err)
 {
     int32_t m = work->basis.reduced->interface_count, wanted = 0;
@@ -232,7 +233,7 @@ static bool visit(Builder *work, Point point, double *left, Error *err)
     if (full) tried = interface_operator_create(&work->basis.tried, terms, err);
     if (!tried) goto cleanup;
     TRY(compare(work, full, tried, err));
-    // What is added leaves nothing of its error here; the first that is not added is what is left.
+    // The error of what is added becomes 0; what is left is that of the first motion not added.
     while (wanted < m && work->values[m - 1 - wanted] > allowed) wanted++;
     *left = wanted < m ? fmax(work->values[m - 1 - wanted], 0) : 0;
     answers.full = NEW_ARRAY(double, (int64_t)work->basis.full.dof_count *(wanted + 1), err);
@@ -255,7 +256,7 @@ cleanup:
 // Ascending: even ones are built at first, odd ones lie between, the last beyond.
 static void list_levels(double slowest, double element_inertia, ReductionErrors *errors)
 {
-    // A mesh of a few elements has hardly anything between its slowest mode and one element.
+    // On a mesh of a few elements the slowest mode is hardly below that of one element.
     double lowest = fmin(LEVEL_LOWEST * slowest, element_inertia / LEVEL_RATIO);
     double decades = log(element_inertia / lowest) / log(LEVEL_RATIO);
     int32_t steps = (int32_t)fmin(ceil(decades), (REDUCTION_LEVELS_MAX - 2) / 2);
@@ -286,7 +287,7 @@ static void list_viscosities(Builder *work)
     work->viscosity_count = steps + 1;
 }
 
-// Every other level first: what lies between them, visited last, seldom lacks anything.
+// Every other level first: at those between them seldom anything is missing.
 static bool visit_levels(Builder *work, Error *err)
 {
     ReductionErrors *errors = &work->basis.reduced->errors;

@@ -13,15 +13,14 @@
 // up to a factor, M, C and K normalised, and the basis is built to answer on all of that strip: one
 // serves every L, rho, E and eta of a shape, every load of the same pattern, every step. From the
 // slowest mode of the interior to the inertia that takes over within one element, and from all
-// elastic to all viscous, S is measured against the full mesh, and the directions in which it is
-// off by more than
+// elastic to all viscous, S is compared with the full mesh, and the directions in which its error
+// is more than
 //
 //     tolerance^2 + 2.5 tolerance * inertia / (that of one element)
 //
-// get their responses added (bulk/reduction.c): the first term because an energy goes with the
-// square of what is left out, the second because where inertia acts within an element the mesh
-// itself knows no better. Made and kept by model/obtain; used through bulk/interface_operator;
-// stored by model/basis_cache.
+// get their responses added (bulk/reduction.c). The first term: an energy goes with the square of
+// what is left out. The second: where inertia acts within an element the mesh itself is no better.
+// Called by model/obtain; used through bulk/interface_operator; stored by model/basis_cache.
 #ifndef AMONTONS_BULK_REDUCTION_H
 #define AMONTONS_BULK_REDUCTION_H
 

@@ -5,13 +5,13 @@
 
 #include <math.h>
 
-// Numbers of order 1 are put on this grid: far finer than an element, far coarser than rounding.
-// Its steps are binary, so that halves of them, which rounding could push either way, are no
-// lengths that one draws.
+// Numbers of order 1 are rounded to this grid: far finer than an element, far coarser than
+// rounding. Its steps are powers of 2, so that no length that one draws is half a step, which
+// rounding could push either way.
 static const double GRID = 0x1p30;
 
-// Two scenes whose numbers differ by rounding get the same. Where that should fail for a node (it
-// would have to stand within 1e-16 of a half step) a basis is built twice, and none is wrong.
+// Scenes whose numbers differ by rounding get the same. Should this fail for a node (within 1e-16
+// of a half step) a basis is built twice, and both are right.
 static double put_on_grid(double value)
 {
     return round(value * GRID) / GRID + 0.0;   // never -0
@@ -24,9 +24,9 @@ void reduction_block_destroy(ReductionBlock *block)
     *block = (ReductionBlock){0};
 }
 
-// Assembled from the rounded positions and viscosities, not rounded after assembly: so M, C and K
-// are those of one block, and a rigid motion costs no energy to rounding. The load is the scene's
-// nodal load, rounded over its largest.
+// Assembled from the rounded positions and viscosities: M, C and K are exactly those of one block,
+// in which a rigid motion has no energy. The load is the scene's nodal load over its largest,
+// rounded.
 bool reduction_block_create(const Mesh *mesh, const Bulk *bulk, const Material *material,
                             double load_size, ReductionBlock *block, Error *err)
 {
@@ -54,8 +54,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Everything that K, C, M, f and the split into interface and interior follow from; not the node
-// and element numbers of gmsh, nor the names of groups.
+// All that K, C, M, f and the split into interface and interior follow from; not gmsh's node and
+// element numbers, nor the names of groups.
 void reduction_block_hash(const ReductionBlock *block, const Mesh *mesh, const int32_t *dofs,
                           int32_t dof_count, Hash *hash)
 {

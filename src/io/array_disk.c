@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Of the calls of a driver only those are here that HDF5 needs to create a file and write it. They
-// all succeed in HDF5's eyes (0); `failure` holds what really happened.
+// Only those calls of a driver that HDF5 needs to create a file and write it. To HDF5 all of them
+// succeed (0); `failure` holds what really happened.
 #include "io/array_disk.h"
 
 #include <errno.h>
@@ -13,13 +13,13 @@ typedef struct DiskAddress {
     ArrayDisk *disk;
 } DiskAddress;
 
-// The first cause is the one to report: what follows is its consequence.
+// The first cause is the one to report: later ones follow from it.
 static void note_failure(ArrayDisk *disk, int cause)
 {
     if (disk->failure == 0) disk->failure = cause ? cause : EIO;
 }
 
-// HDF5 opens a file it creates twice: the first time only to look.
+// HDF5 opens a file that it creates twice, the first time only to see whether it is there.
 static H5FD_t *disk_open(const char *name, unsigned flags, hid_t access, haddr_t address_max)
 {
     (void)name, (void)flags, (void)address_max;
@@ -43,8 +43,8 @@ static herr_t disk_query(const H5FD_t *base, unsigned long *flags)
     return 0;
 }
 
-// Space is handed out once and never again, not even the last piece: what the last flush made known
-// stays as it is until the next one.
+// Space is handed out once and never again, not even the last piece: so nothing that the last flush
+// wrote is overwritten before the next one.
 static haddr_t disk_allocate(H5FD_t *base, H5FD_mem_t type, hid_t transfer, hsize_t size)
 {
     (void)type, (void)transfer;
@@ -54,7 +54,7 @@ static haddr_t disk_allocate(H5FD_t *base, H5FD_mem_t type, hid_t transfer, hsiz
     return address;
 }
 
-// Nothing comes back: see disk_allocate. The file is a little longer for it.
+// Nothing is reused (disk_allocate), at the cost of a little length.
 static herr_t disk_free(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_t address,
                         hsize_t size)
 {
@@ -68,7 +68,7 @@ static haddr_t disk_end_of_space(const H5FD_t *base, H5FD_mem_t type)
     return ((const ArrayDisk *)base)->end_of_space;
 }
 
-// For HDF5 alone; otherwise only disk_allocate moves the end.
+// Asked by HDF5; else only disk_allocate moves the end.
 static herr_t disk_set_end_of_space(H5FD_t *base, H5FD_mem_t type, haddr_t end)
 {
     (void)type;
@@ -102,8 +102,8 @@ static herr_t disk_read(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_t a
     return 0;
 }
 
-// After a failure nothing more is written: what the last flush made known stays readable, unless
-// the disk failed in the middle of a flush.
+// After a failure nothing more is written: the state of the last flush stays readable, unless the
+// disk failed in the middle of a flush.
 static herr_t disk_write(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_t address,
                          size_t size, const void *buffer)
 {
@@ -165,11 +165,10 @@ bool array_disk_use(ArrayDisk *disk, const PartFile *file, hid_t access, hid_t *
     return *driver >= 0 && H5Pset_driver(access, *driver, &address) >= 0;
 }
 
-// status: of the HDF5 call just made; what: it was about, for the message.
 bool array_disk_check(const ArrayDisk *disk, herr_t status, const char *what, Error *err)
 {
     char cause[HDF5_CAUSE_SIZE];
-    // First the disk: what HDF5 says after a lost write is only a consequence.
+    // First the disk: what HDF5 says after a lost write follows from that.
     if (disk->failure != 0)
         FAIL(err, ERROR_FILE, "cannot write %s: %s", disk->file->part, strerror(disk->failure));
     if (status < 0)
@@ -179,7 +178,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The walk begins where the fault was found; outer entries only repeat that something failed.
+// The stack is walked from where the fault was found; outer entries only say that something failed.
 static herr_t keep_innermost(unsigned position, const H5E_error2_t *entry, void *cause)
 {
     if (position == 0) snprintf(cause, HDF5_CAUSE_SIZE, "%s", entry->desc);

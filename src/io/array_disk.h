@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The border to HDF5's faults: the driver (virtual file layer) under an HDF5 file being written,
-// and the library's own words. HDF5 1.10 does not survive a write that fails: closing afterwards
-// can crash inside it. So HDF5 never sees one: this driver keeps the first cause, drops what cannot
-// be written, and whoever wrote asks it afterwards. Called by io/array_file_module and
-// io/array_series.
+// The driver (virtual file layer) under an HDF5 file being written. HDF5 1.10 does not survive a
+// write that fails: closing afterwards can crash inside it. So it never sees one: this driver keeps
+// the first cause and drops what cannot be written; whoever wrote asks it afterwards. Called by
+// io/array_file_module and io/array_series.
 #ifndef AMONTONS_IO_ARRAY_DISK_H
 #define AMONTONS_IO_ARRAY_DISK_H
 
@@ -28,10 +27,10 @@ typedef struct ArrayDisk {
 bool array_disk_use(ArrayDisk *disk, const PartFile *file, hid_t access, hid_t *driver);
 
 // Ends a call that wrote `what`; `status` is HDF5's, negative for a failure. ERROR_FILE with the
-// system's reason when the disk has failed, now or before: what is lost is lost.
+// system's reason when the disk has failed, now or before.
 bool array_disk_check(const ArrayDisk *disk, herr_t status, const char *what, Error *err);
 
-// HDF5's own words for the fault of its last call, the one nearest to the origin.
+// HDF5's message for the fault of its last call, the one nearest to the origin.
 const char *hdf5_cause(char cause[HDF5_CAUSE_SIZE]);
 
 #endif

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The border to the module amontons_hdf5.so, which is opened with the first file; everything else
-// is handed on to it.
-// HDF5 costs 6 ms to load, as much as a short run's steps: a run without a history never opens it.
-// The functions of the module come in one table (array_file_module.h), so that one symbol is looked
-// up and a mistake in a signature is the compiler's to find.
+// All is handed on to the module amontons_hdf5.so, which is opened with the first file: HDF5 takes
+// 6 ms to load, as much as a short run's steps. The functions of the module come in one table
+// (array_file_module.h), so that one symbol is looked up and the compiler checks their signatures.
 #include "io/array_file.h"
 
 #include "base/memory.h"
@@ -59,7 +57,6 @@ bool array_file_close(ArrayFile *file, Error *err)
     return closed;
 }
 
-// The .part file stays, for what may still be read of it.
 void array_file_abandon(ArrayFile *file)
 {
     if (!file) return;

@@ -4,8 +4,8 @@
 // module (io/array_file_module), opened with the first file; ERROR_LIBRARY where it cannot be had.
 //
 // A file being written is called `path`.part; array_file_close renames it. What a killed run leaves
-// is the .part file, readable up to the last array_file_flush. A write that fails (ERROR_FILE: full
-// disk, quota) spoils the file for good: every later call on it fails likewise.
+// is the .part file, readable up to the last array_file_flush. After a write that fails
+// (ERROR_FILE: full disk, quota) every later call on the file fails likewise.
 #ifndef AMONTONS_IO_ARRAY_FILE_H
 #define AMONTONS_IO_ARRAY_FILE_H
 
@@ -30,7 +30,7 @@ bool array_file_add_series(ArrayFile *file, const ArraySeries *series, Error *er
 // nearest that fits, 0 for NaN). Cheap for single rows, and allocates no arrays.
 bool array_file_append(ArrayFile *file, const char *name, const double *values, int64_t rows,
                        Error *err);
-bool array_file_flush(ArrayFile *file, Error *err);   // whoever reads now finds all appended so far
+bool array_file_flush(ArrayFile *file, Error *err);   // a reader finds all that was appended so far
 
 bool array_file_set_number(ArrayFile *file, const char *name, double value, Error *err);
 bool array_file_set_text(ArrayFile *file, const char *name, const char *value, Error *err);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A killed run leaves a readable file because between two flushes nothing that a reader of the file
-// would look at is changed:
+// A killed run leaves a readable file, because between two flushes nothing changes that a reader
+// looks at:
 //   * the tables that say where the chunks are stay in HDF5's cache (evictions are off);
 //   * a chunk that is written again, as the last one of a series is, goes to a fresh place, for
 //     space is handed out once (array_disk) and not managed (H5F_FSPACE_STRATEGY_NONE);
 //   * H5Fflush writes all chunks first, then the tables, and the file's length last.
-// HDF5's own way for this, SWMR, would allow no new arrays or attributes while writing, and marks
-// a killed writer's file so that ordinary readers refuse it.
+// HDF5's own way, SWMR, allows no new arrays or attributes while writing, and marks a killed
+// writer's file so that ordinary readers refuse it.
 #include "io/array_file_module.h"
 
 #include "base/memory.h"
@@ -43,7 +43,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// First what lies in our own buffers, then what lies in HDF5's.
+// First our own buffers, then HDF5's.
 static bool hdf5_flush(Hdf5File *file, Error *err)
 {
     if (!file->writing) return true;
@@ -58,8 +58,8 @@ cleanup:
 
 // --- opening and closing ------------------------------------------------------------------------
 
-// Turns off all that lets the metadata cache write before it is told to. The cache then grows with
-// the file, by some kilobytes a thousand chunks.
+// The metadata cache may write only when told to. It then grows with the file, by some kilobytes a
+// thousand chunks.
 static herr_t keep_metadata_until_flush(hid_t access)
 {
     H5AC_cache_config_t cache = {.version = H5AC__CURR_CACHE_CONFIG_VERSION};
@@ -89,8 +89,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Frees everything; a .part still there is left. HDF5 is closed before its driver, and that before
-// the descriptor.
+// A .part still there is left. HDF5 is closed before its driver, and that before the descriptor.
 static void destroy(Hdf5File *file)
 {
     if (!file) return;
@@ -138,7 +137,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// No lock is taken, so that the file of a run at work can be read as of its last flush.
+// Without a lock, so that the file of a running simulation can be read as of its last flush.
 static Hdf5File *hdf5_open(const char *path, Error *err)
 {
     char cause[HDF5_CAUSE_SIZE];
@@ -150,7 +149,7 @@ static Hdf5File *hdf5_open(const char *path, Error *err)
     if (access(file->path, R_OK) != 0)
         FAIL(err, ERROR_FILE, "cannot read %s: %s", file->path, strerror(errno));
     properties = H5Pcreate(H5P_FILE_ACCESS);
-    H5Pset_file_locking(properties, false, true);   // a running simulation's file may be looked at
+    H5Pset_file_locking(properties, false, true);
     file->id = H5Fopen(file->path, H5F_ACC_RDONLY, properties);
     if (file->id < 0)
         FAIL(err, ERROR_FILE, "cannot read %s, not a whole HDF5 file: %s", file->path,
@@ -165,7 +164,7 @@ cleanup:
 static bool hdf5_close(Hdf5File *file, Error *err)
 {
     if (!file->writing) goto cleanup;
-    // Each step may fail, and then the name is not given; closing itself writes once more.
+    // Where one of these fails the name is not given; closing itself writes once more.
     TRY(hdf5_flush(file, err));
     for (int32_t s = 0; s < file->series_count; s++) series_destroy(&file->series[s]);
     herr_t status = H5Fclose(file->id);
@@ -203,9 +202,8 @@ static herr_t write_text(hid_t object, const char *name, const char *value)
     return status;
 }
 
-// Attributes stand in the root of the file. Setting one again replaces it.
-
-// An attribute cannot be changed in place: an old one of this name goes first.
+// Attributes stand in the root of the file. One cannot be changed in place: an old one of this name
+// is removed first.
 static bool hdf5_set_number(Hdf5File *file, const char *name, double value, Error *err)
 {
     TRY(check_writable(file, err));
@@ -245,7 +243,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// HDF5 hands out the text in memory of its own, which goes back to it.
+// The text is in HDF5's memory, which it frees.
 static bool hdf5_get_text(Hdf5File *file, const char *name, char *value, int32_t size, Error *err)
 {
     hid_t attribute = -1, type = -1;
@@ -281,8 +279,7 @@ static bool grow_series_list(Hdf5File *file, Error *err)
     return series != NULL;
 }
 
-// The unit and the description are attributes of the dataset itself: who opens the file with h5py
-// finds them beside the numbers.
+// Unit and description are attributes of the dataset: a reader finds them beside the numbers.
 static bool hdf5_add_series(Hdf5File *file, const ArraySeries *series, Error *err)
 {
     SeriesWriter added = {0};

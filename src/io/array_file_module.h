@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What the module amontons_hdf5.so offers: io/array_file.h, call by call, with HDF5 behind it. A
-// module, because Debian's HDF5 brings 40 libraries along (curl, ssl, kerberos ...) whose loading
-// takes longer than all else that a short run does outside its time loop.
+// module, because Debian's HDF5 loads 40 libraries (curl, ssl, kerberos ...), which takes longer
+// than all else that a short run does outside its time loop.
 #ifndef AMONTONS_IO_ARRAY_FILE_MODULE_H
 #define AMONTONS_IO_ARRAY_FILE_MODULE_H
 

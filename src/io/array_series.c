@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Costs, 81 contact nodes: a row of all series of io/result_file is taken in a microsecond; with
-// the compression, which comes when a chunk is full, it is 15 to 20.
+// With 81 contact nodes a row of all series of io/result_file takes a microsecond; with
+// compression, when a chunk is full, 15 to 20.
 #include "io/array_series.h"
 
 #include "base/memory.h"
@@ -95,8 +95,7 @@ static hid_t create_dataset(const SeriesWriter *writer, hid_t id)
     return dataset;
 }
 
-// A chunk is what is compressed and read as one: CHUNK_BYTES of it make both worth the while. The
-// buffer holds one chunk.
+// A chunk is compressed and read as one. The buffer holds one.
 bool series_create(SeriesWriter *writer, hid_t id, const ArraySeries *series, Error *err)
 {
     char cause[HDF5_CAUSE_SIZE];
@@ -127,7 +126,7 @@ void series_destroy(SeriesWriter *writer)
 bool series_hand_over(SeriesWriter *writer, const ArrayDisk *disk, Error *err)
 {
     if (writer->buffered == 0) return true;
-    // The dataset grows by the rows, and these are the hyperslab that is written:
+    // The dataset grows by the rows, which are the hyperslab that is written:
     //   [0, row_count) stays, [row_count, row_count + buffered) x [0, width) is `from` the buffer.
     hsize_t start[2] = {(hsize_t)writer->row_count, 0};
     hsize_t count[2] = {(hsize_t)writer->buffered, (hsize_t)writer->width};
@@ -178,8 +177,7 @@ static void convert(SeriesWriter *writer, int64_t first, const double *values, i
     }
 }
 
-// Rows are handed over a whole chunk at a time: a chunk that is not full would be compressed again
-// with every row.
+// In whole chunks: one that is not full would be compressed again with every row.
 bool series_append(SeriesWriter *writer, const ArrayDisk *disk, const double *values, int64_t rows,
                    Error *err)
 {

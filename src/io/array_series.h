@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// One growing dataset of an HDF5 file being written, and the rows that HDF5 has not got yet.
-// Single rows are collected in a buffer that is full where a chunk of the dataset ends: HDF5 gets
-// whole chunks, compresses each once, and is asked rarely. Called by io/array_file_module
-// alone.
+// One growing dataset of an HDF5 file being written, and the rows that HDF5 has not got yet. Rows
+// are collected in a buffer that is full where a chunk of the dataset ends: HDF5 gets whole chunks
+// and compresses each once. Called by io/array_file_module alone.
 //
 //   rows    0 ........ row_count ........ row_count + buffered
 //           | with HDF5 | in `buffer`     |

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The checksum covers head, names and values, and is looked at before anything is believed. Numbers
-// stand at multiples of 8 bytes, so that they can be used in place.
+// The checksum covers head, names and values. Numbers stand at multiples of 8 bytes, so that they
+// can be used in place.
 #include "io/cache_file.h"
 
 #include "base/hash.h"
@@ -26,7 +26,7 @@ typedef struct ArrayHead {
     int64_t spare;
 } ArrayHead;
 
-// Also false where the path would be too long: such a cache is as good as none.
+// Also false where the path would be too long.
 bool cache_file_path(const char *key, const char *ending, char path[CACHE_PATH_SIZE])
 {
     char folder[PATH_MAX];
@@ -46,7 +46,7 @@ bool cache_file_path(const char *key, const char *ending, char path[CACHE_PATH_S
     return true;
 }
 
-// The first HEAD_SIZE bytes: what the file is, and whose.
+// The first HEAD_SIZE bytes: what the file is, and its key.
 static void fill_head(const char *key, char head[HEAD_SIZE])
 {
     memset(head, 0, HEAD_SIZE);
@@ -110,9 +110,9 @@ static bool read_bytes(const char *path, void **bytes, int64_t *size, Error *err
     return error_is_clean(err);
 }
 
-// Fills the table of arrays and checks the sum; why it is not to be trusted, or NULL.
-// file->arrays point into `bytes`. Every length is checked against what is left before it is used:
-// a damaged file can be of any content.
+// Fills the table of arrays, which point into `bytes`, and checks the sum. Returns what is wrong,
+// or NULL. Every length is checked against what is left before it is used: a damaged file may hold
+// anything.
 static const char *parse(const char *key, const char *bytes, int64_t size, CacheFile *file)
 {
     char head[HEAD_SIZE], digest[HASH_TEXT_SIZE];
@@ -146,7 +146,7 @@ static const char *parse(const char *key, const char *bytes, int64_t size, Cache
     return NULL;
 }
 
-// Reads it whole: a file on disk may be replaced meanwhile, but what was read stays what it was.
+// Reads it whole, as the file may be replaced meanwhile.
 bool cache_file_read(const char *path, const char *key, CacheFile *file, bool *found, char *reason,
                      Error *err)
 {
@@ -173,7 +173,7 @@ void cache_file_destroy(CacheFile *file)
     *file = (CacheFile){0};
 }
 
-// As long as the file is not destroyed.
+// Valid until the file is destroyed.
 const double *cache_file_array(const CacheFile *file, const char *name, int64_t count)
 {
     for (int32_t k = 0; k < file->array_count; k++) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Named arrays of doubles in one flat file, quick to read (megabytes in a few milliseconds) and
-// never trusted: a header that says what it is, and a checksum over all of it. Called by
+// Named arrays of doubles in one flat file, quick to read (megabytes in a few milliseconds), with a
+// header that says what it is and a checksum over all of it: what fails them is not used. Called by
 // model/shape_cache and model/basis_cache.
 //
 //     "amontons-cache 1\n" key 0...  { name count 0 values }*  "end" -1 0  checksum
 //
-// Numbers are the machine's own: a cache does not travel.
+// Numbers are in the machine's own byte order.
 #ifndef AMONTONS_IO_CACHE_FILE_H
 #define AMONTONS_IO_CACHE_FILE_H
 
@@ -14,7 +14,7 @@
 #include <limits.h>
 
 enum { CACHE_NAME_SIZE = 32, CACHE_ARRAYS_MAX = 32, CACHE_PATH_SIZE = PATH_MAX + 64 };
-enum { CACHE_NOTE_SIZE = 256 };   // of a note why something was not used, or not kept
+enum { CACHE_NOTE_SIZE = 256 };   // of a note: why something was not used, or not kept
 
 // CACHE/<key>.<ending>, where CACHE is $AMONTONS_CACHE, else $XDG_CACHE_HOME/amontons, else
 // ~/.cache/amontons; the folder is made. false: there is no cache ($AMONTONS_CACHE is empty).
@@ -32,12 +32,13 @@ typedef struct CacheFile {
     void *bytes;   // what was read; owned
 } CacheFile;
 
-// Writes beside `path` and renames. A second writer of the same file gives way: no error.
+// Writes beside `path` and renames. Where another process is writing the same file nothing is done,
+// which is no error.
 bool cache_file_write(const char *path, const char *key, const CacheArray *arrays, int32_t count,
                       Error *err);
 
-// *found: the file is there, has this key and its checksum holds. A missing file is no error and
-// neither is one that cannot be trusted: `reason` (size bytes) says why, empty when missing.
+// *found: it is there, has this key, and its checksum holds. Otherwise `reason` says what is wrong
+// with it, empty where it is missing: no error.
 bool cache_file_read(const char *path, const char *key, CacheFile *file, bool *found, char *reason,
                      Error *err);
 enum { CACHE_REASON_SIZE = 160 };

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Cells go straight to `path`.part; csv_finish gives it its name.
-//
-// Failures are kept until csv_finish, so that a caller who writes a thousand cells asks once.
+// Cells go straight to `path`.part; csv_finish gives it its name and reports the first failure, so
+// that a caller who writes a thousand cells asks once.
 #include "io/csv_writer.h"
 
 #include "base/memory.h"
@@ -18,7 +17,6 @@ struct CsvWriter {
     bool in_row;   // a cell stands on the line already
 };
 
-// NULL with ERROR_FILE where it cannot be written.
 CsvWriter *csv_create(const char *path, Error *err)
 {
     CsvWriter *csv = NEW_ARRAY(CsvWriter, 1, err);
@@ -28,7 +26,7 @@ CsvWriter *csv_create(const char *path, Error *err)
     return NULL;
 }
 
-// After the first failure nothing happens any more.
+// After the first failure nothing is written.
 static void put(CsvWriter *csv, const char *bytes, size_t count)
 {
     if (error_is_clean(&csv->first))
@@ -59,7 +57,6 @@ void csv_text(CsvWriter *csv, const char *text)
     put(csv, "\"", 1);
 }
 
-// The fewest digits that read back as the same number; an empty cell for NaN and infinities.
 void csv_number(CsvWriter *csv, double value)
 {
     char digits[40] = "";
@@ -76,7 +73,6 @@ void csv_end_row(CsvWriter *csv)
     csv->in_row = false;
 }
 
-// The first failure of any call since csv_create is reported here.
 bool csv_finish(CsvWriter *csv, Error *err)
 {
     bool good = error_is_clean(&csv->first);

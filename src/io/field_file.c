@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// VTK encodes, we write: VTK's own writers say no more than "failed" when a disk is full, and leave
-// it to the caller to look for the file's remains.
+// VTK encodes, we write: on a full disk VTK's own writers only say that they failed, and leave a
+// part of the file.
 #include "io/field_file.h"
 
 #include "base/memory.h"
@@ -14,7 +14,7 @@
 
 // --- .vtu and .vtp ------------------------------------------------------------------------------
 
-// Names make the arrays: two of one name would be one array in ParaView.
+// Two arrays of one name would be one array in ParaView.
 static bool check_arrays(const FieldArray *arrays, int32_t count, Error *err)
 {
     for (int32_t k = 0; k < count; k++) {
@@ -28,7 +28,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// VTK believes what it is given, and reads past the end where that is wrong.
+// VTK checks nothing, and would read past the end.
 static bool check_grid(const FieldGrid *grid, FieldFormat format, Error *err)
 {
     if (grid->offsets[0] != 0) FAIL(err, ERROR_LIBRARY, "the first offset is not 0");
@@ -138,7 +138,7 @@ static void put_collection(FILE *out, const FieldSeriesEntry *entries, int32_t c
     fputs("  </Collection>\n</VTKFile>\n", out);
 }
 
-// A list of (time, file) pairs in ParaView's own XML, put together in memory first.
+// Put together in memory first.
 bool field_file_write_pvd(const char *path, const FieldSeriesEntry *entries, int32_t count,
                           Error *err)
 {

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "io/field_grid.h"
 
-// Both write beside `path` and rename, so a half file never stands under the final name. Errors
+// Both write beside `path` and rename, so that the final name never has half a file. Errors
 // (ERROR_FILE) name the path and the cause (full disk, no permission, no such folder).
 bool field_file_write_vtu(const char *path, const FieldGrid *grid, Error *err);
 bool field_file_write_vtp(const char *path, const FieldGrid *grid, Error *err);   // cells: lines

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The one C++ file: VTK's XML writers behind one C function. Nothing thrown passes its border.
-// Double arrays are handed to VTK as they are, without a copy.
+// The one C++ file: VTK's XML writers behind one C function, which catches every exception. Double
+// arrays are handed to VTK as they are, without a copy.
 extern "C" {
 #include "io/field_file_module.h"
 }
@@ -31,7 +31,7 @@ extern "C" {
 namespace
 {
 
-constexpr int compression_level = 1;   // level 9 is 80 times slower and saves next to nothing
+constexpr int compression_level = 1;   // level 9 takes 80 times as long and saves almost nothing
 constexpr int caller_keeps = 1;   // VTK must not free the array ("save")
 
 // VTK's array over the caller's values, which it reads and never changes.
@@ -148,7 +148,7 @@ amontons_vtk_encode(const FieldGrid *grid, const FieldOutput *output, Error *err
 {
     const std::lock_guard<std::mutex> alone(encoding);
     try {
-        vtkSMPTools::SetBackend("Sequential");   // its threads wait by spinning, for work too small
+        vtkSMPTools::SetBackend("Sequential");   // its threads would wait by spinning
         return encode(*grid, *output, err);
     } catch (const std::exception &thrown) {
         error_set(err, ERROR_LIBRARY, __FILE__, __LINE__, "VTK failed: %s", thrown.what());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The holder removes the file before it lets go. Who waited then holds the lock of a file without a
-// name, which guards nothing: it opens the name again.
+// The holder removes the file before it releases the lock. A process that waited for it then holds
+// the lock of a file without a name, which guards nothing: it opens the name again.
 #include "io/file_lock.h"
 
 #include "base/clock.h"
@@ -22,7 +22,7 @@ bool file_is_named(const char *name, int descriptor)
            named.st_dev == opened.st_dev && named.st_ino == opened.st_ino;
 }
 
-// Asked again and again rather than waited for in flock itself, which knows no limit but signals.
+// Tried again and again, as flock itself cannot wait for a limited time.
 bool file_lock_take(FileLock *lock, const char *path, double seconds)
 {
     double until = clock_seconds() + seconds;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Makes folders, and says where a file is as seen from one. Called by whoever writes files.
+// Makes folders, and says where a file is as seen from one.
 #ifndef AMONTONS_IO_FOLDER_H
 #define AMONTONS_IO_FOLDER_H
 

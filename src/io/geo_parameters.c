@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A scanner for the one construct of gmsh's language that matters here:
+// A scanner for one construct of gmsh's language:
 //     DefineConstant[ nx = 80, shape = "quad", order = {1, Choices{1, 2}, Name "Mesh/order"} ];
 // It knows comments, strings, brackets and Include; it does not evaluate anything. A DefineConstant
 // inside an If counts, whether or not gmsh would reach it.
@@ -43,7 +43,7 @@ cleanup:
     return text;
 }
 
-// The end of the comment or string that begins at `at`, or `at` itself.
+// Behind the comment or string that begins at `at`, or `at` itself.
 static const char *skip_opaque(const char *at)
 {
     if (at[0] == '/' && at[1] == '/') return at + strcspn(at, "\n");
@@ -87,7 +87,7 @@ static bool is_text_value(const char *at)
     return *at == '"' || strncmp(at, "Str", 3) == 0;
 }
 
-// Appends one; a name of more than GROUP_NAME_SIZE - 1 bytes is cut, as nobody can give it anyway.
+// A name of more than GROUP_NAME_SIZE - 1 bytes is cut: a MeshParameter has no room for it.
 static bool add_parameter(GeoParameters *known, const char *name, size_t length, bool is_text,
                           Error *err)
 {
@@ -133,7 +133,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Two functions that call each other, as deep as includes are nested.
+// Calls scan_include, which calls it: as deep as includes are nested.
 static bool scan_file(const char *path, int32_t depth, GeoParameters *known, Error *err);
 
 // Follows `Include "name"`; the name is relative to the file that includes it.

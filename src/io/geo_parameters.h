@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The parameters a .geo takes: the names in its DefineConstant[ ... ] lists. Read from the text,
-// because gmsh would pass over a value that nothing listens to. Called by io/mesh_file, cli/info.
+// because gmsh ignores a value for an unknown name. Called by io/mesh_read.
 #ifndef AMONTONS_IO_GEO_PARAMETERS_H
 #define AMONTONS_IO_GEO_PARAMETERS_H
 

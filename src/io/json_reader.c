@@ -19,8 +19,7 @@ static const char *skip_space(const char *at)
     return at + strspn(at, " \t\r\n");
 }
 
-// Behind the string that begins at `at`; NULL: there is none.
-// A backslash takes the character behind it along.
+// Behind the string that begins at `at`; NULL: there is none. A backslash escapes one character.
 static const char *skip_string(const char *at)
 {
     if (*at != '"') return NULL;
@@ -77,7 +76,7 @@ static const char *next_item(const char *at)
     return *at == ',' ? skip_space(at + 1) : at;
 }
 
-// At the child of the object or list at `at` that the first `length` bytes of `name` call for.
+// At the child of the object or list at `at` that the first `length` bytes of `name` name.
 static const char *enter_child(const char *at, const char *name, size_t length)
 {
     char end = *at == '{' ? '}' : ']';
@@ -148,7 +147,6 @@ bool json_find_key(const char *text, const char *path, int32_t index, char *key,
     return false;
 }
 
-// The text is walked once, up to the value; braces inside strings are skipped with their strings.
 bool json_find_number(const char *text, const char *path, double *value)
 {
     const char *at = find(text, path);
@@ -181,7 +179,7 @@ static char unescape(const char *at, int32_t *used)
     return code > 0 && code < 0x80 ? (char)code : '?';
 }
 
-// Escapes are undone; what does not fit is cut, never in the middle of an escape.
+// Escapes are undone; a text that does not fit is never cut in the middle of one.
 bool json_find_text(const char *text, const char *path, char *value, int32_t size)
 {
     const char *at = find(text, path);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Looks single values up in a JSON text of our own (io/json_writer): nothing is kept, what is not
-// asked for is skipped. Called by study/sweep/sweep for run.json, which may hold thousands of
-// events.
+// asked for is skipped. Called by study/sweep for run.json, which may hold thousands of events.
 #ifndef AMONTONS_IO_JSON_READER_H
 #define AMONTONS_IO_JSON_READER_H
 

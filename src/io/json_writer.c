@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The document grows in memory and goes to disk in one piece: run.json is some kilobytes. Format:
-// RFC 8259. A list whose items are all plain values stands on one line.
+// The document grows in memory and goes to disk in one piece: run.json has some kilobytes.
 #include "io/json_writer.h"
 
 #include "base/memory.h"
@@ -35,7 +34,7 @@ struct JsonWriter {
     JsonLevel levels[DEPTH_MAX + 1];
 };
 
-// Adds to the text; after the first failure nothing happens any more.
+// After the first failure nothing is added.
 static void append_bytes(JsonWriter *json, const char *bytes, int64_t count)
 {
     if (!error_is_clean(&json->first)) return;
@@ -62,8 +61,8 @@ static void append_new_line(JsonWriter *json)
     for (int32_t column = 0; column < INDENT * json->depth; column++) append_text(json, " ");
 }
 
-// A JSON string. What must be escaped is (RFC 8259, section 7), and DEL; what is not UTF-8 becomes
-// the replacement character, for a file name may hold any bytes and a parser would stop at them.
+// A JSON string, escaped by RFC 8259, section 7, and DEL. A file name may hold any bytes: those
+// that are not UTF-8, at which a parser would stop, become the replacement character.
 static void append_escaped(JsonWriter *json, const char *value)
 {
     append_text(json, "\"");
@@ -100,7 +99,7 @@ static void begin_item(JsonWriter *json, const char *key, bool is_plain)
     if (json->depth > 0 && level->is_list == (key != NULL))
         error_set(&json->first, ERROR_LIBRARY, __FILE__, __LINE__, "%s: %s", json->file.path,
                   key ? "a key inside a list" : "no key inside an object");
-    if (!is_plain) level->one_line = false;   // from here on; what stands on the line stays
+    if (!is_plain) level->one_line = false;   // from here on
     if (level->count > 0) append_text(json, level->one_line ? ", " : ",");
     if (json->depth > 0 && !level->one_line) append_new_line(json);
     level->count++;
@@ -110,7 +109,7 @@ static void begin_item(JsonWriter *json, const char *key, bool is_plain)
     }
 }
 
-// Opens an object or a list. Beyond DEPTH_MAX the document has failed, and `depth` stays.
+// Beyond DEPTH_MAX the document has failed, and `depth` stays.
 static void begin_level(JsonWriter *json, const char *key, bool is_list)
 {
     begin_item(json, key, false);
@@ -123,8 +122,7 @@ static void begin_level(JsonWriter *json, const char *key, bool is_list)
     json->levels[++json->depth] = (JsonLevel){.is_list = is_list, .one_line = is_list};
 }
 
-// The file is opened at once, so that a folder that cannot be written to shows before anything is
-// computed for it.
+// The file is opened at once: a folder that cannot be written to shows before anything is computed.
 JsonWriter *json_create(const char *path, Error *err)
 {
     JsonWriter *json = NEW_ARRAY(JsonWriter, 1, err);
@@ -149,7 +147,7 @@ void json_begin_list(JsonWriter *json, const char *key)
     begin_level(json, key, true);
 }
 
-// A list of plain values was kept on one line and ends there.
+// A list of plain values ends on its line.
 void json_end(JsonWriter *json)
 {
     if (json->depth == 0) {
@@ -162,7 +160,6 @@ void json_end(JsonWriter *json)
     append_text(json, level.is_list ? "]" : "}");
 }
 
-// value NULL: null.
 void json_text(JsonWriter *json, const char *key, const char *value)
 {
     begin_item(json, key, true);
@@ -198,7 +195,6 @@ void json_boolean(JsonWriter *json, const char *key, bool value)
     append_text(json, value ? "true" : "false");
 }
 
-// Text and file go in one write, then fsync and rename: a reader sees all of the document or none.
 bool json_finish(JsonWriter *json, Error *err)
 {
     // A missing end is a bug of the caller; the file would not be JSON.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Writes one JSON document into a file, atomically: the final name appears when all is on disk.
-// Called by run/simulation for run.json. Numbers keep 17 digits where needed; NaN and infinities,
-// which JSON has not, become null. Indented by two spaces; a list of numbers stands on one line.
+// Numbers keep 17 digits where needed; NaN and infinities, which JSON does not have, become null.
+// Indented by two spaces; a list of plain values stands on one line (RFC 8259).
 #ifndef AMONTONS_IO_JSON_WRITER_H
 #define AMONTONS_IO_JSON_WRITER_H
 

@@ -16,8 +16,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A mesh counts as plane when |y3| stays below this times its extent: what round-off leaves of a
-// coordinate of 0 after a rotation in a CAD program.
+// A mesh counts as plane when gmsh's |z| stays below this times its extent: rounding, after a
+// rotation in a CAD program.
 static const double PLANE_TOLERANCE = 1e-9;
 
 // Raw nodes by ascending tag.
@@ -79,7 +79,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Accepts a half-built table, as every destroy does.
 static void table_destroy(NodeTable *table)
 {
     memory_free(table->number);
@@ -87,7 +86,7 @@ static void table_destroy(NodeTable *table)
     memory_free(table->index);
 }
 
-// The place of a tag in the table, -1: none. Tags mostly count on without holes: guess that first.
+// The place of a tag in the table, -1: none. Tags mostly have no holes: that is tried first.
 static int32_t table_find(const NodeTable *table, int64_t number)
 {
     int32_t low = 0, high = table->count - 1;
@@ -105,8 +104,8 @@ static int32_t table_find(const NodeTable *table, int64_t number)
     return -1;
 }
 
-// Marks the nodes of the body's elements. A tag that no node has is a broken file: gmsh lets some
-// of those pass.
+// Marks the nodes of the body's elements. A tag that no node has is an error: gmsh lets some of
+// those files pass.
 static bool mark_elements(const RawElements *elements, const char *path, NodeTable *table,
                           Error *err)
 {
@@ -123,9 +122,9 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Marks what bulk/mesh shall complain about: nodes on a surface or curve that are on no element of
-// any kind. Nodes of points, and of curves and surfaces outside the physical groups, help to draw
-// the geometry (centres of arcs) and are left out.
+// Marks nodes on a surface or curve that are on no element of any kind, which bulk/mesh_build
+// refuses. Nodes of points, and of curves and surfaces outside the physical groups, only help to
+// draw the geometry (centres of arcs) and are left out.
 static bool mark_orphans(const MeshRaw *raw, NodeTable *table, Error *err)
 {
     bool *attached = NEW_ARRAY(bool, table->count, err);
@@ -144,7 +143,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Marks the nodes of the curve groups: on no surface element they are as wrong.
+// Marks the nodes of the curve groups: those on no surface element are refused likewise.
 static void mark_curves(const MeshRaw *raw, NodeTable *table)
 {
     for (int32_t k = 0; k < raw->block_count; k++) {
@@ -165,7 +164,7 @@ static bool number_nodes(const MeshRaw *raw, const char *path, NodeTable *table,
         if (table->index[k] == 0) table->index[k] = mesh->node_count++;
     if (!(mesh->position = NEW_ARRAY(double, 2 * (int64_t)mesh->node_count, err))) goto cleanup;
     if (!(mesh->node_number = NEW_ARRAY(int64_t, mesh->node_count, err))) goto cleanup;
-    // The extent is measured from the first node: it only scales the plane's tolerance.
+    // From the first node: it only scales the plane's tolerance.
     double extent = 0, deepest = 0;
     int64_t worst = 0;
     for (int32_t k = 0; k < table->count; k++) {
@@ -195,8 +194,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Writes the elements with indices for tags; offsets as in a compressed row format, since kinds may
-// be mixed.
+// Elements with indices in place of tags; by offsets, since kinds may be mixed.
 static bool store_elements(const RawElements *elements, const NodeTable *table, MeshFile *mesh,
                            Error *err)
 {
@@ -260,8 +258,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Copies the edges of a curve. Every node of theirs is in the mesh: mark_curves saw to it. Edges of
-// two and of three nodes in one group mean that the order was changed halfway.
+// Copies the edges of a curve, whose nodes mark_curves has put into the mesh. Edges of two and of
+// three nodes in one group are an error.
 static bool store_group_edges(const char *path, const RawElements *edges, const NodeTable *table,
                               MeshGroup *group, Error *err)
 {
@@ -308,7 +306,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// All groups; a name must tell which one is meant, whatever its dimension, so it is there once.
+// All groups. Each name is there once, whatever the dimension.
 static bool convert_groups(const MeshRaw *raw, const char *path, const NodeTable *table,
                            MeshFile *mesh, Error *err)
 {

@@ -75,8 +75,7 @@ static const MeshGroup *find_group(const MeshFile *mesh, const char *name)
     return NULL;
 }
 
-// dimension: 0 point, 1 curve, 2 surface. NULL with ERROR_INPUT, which lists all groups and names
-// the nearest: the most usual mistake is a word.
+// dimension: 0 point, 1 curve, 2 surface.
 const MeshGroup *mesh_file_group(const MeshFile *mesh, const char *path, const char *name,
                                  int32_t dimension, Error *err)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The only file that knows gmsh. Built into the module amontons_gmsh, because loading libgmsh takes
-// longer than reading a mesh. Each gmsh array is copied into counted memory and freed at once.
+// The module amontons_gmsh, the only file that knows gmsh: loading libgmsh takes longer than
+// reading a mesh. Each gmsh array is copied into counted memory and freed at once.
 #include "base/memory.h"
 #include "io/mesh_raw.h"
 
@@ -44,7 +44,7 @@ static bool find_repeated_name(const char *error, char name[GROUP_NAME_SIZE])
     return name[0] != '\0';
 }
 
-// Sets an error from the log. The first message counts: what follows is mostly a consequence.
+// Sets an error from the log's first message: the later ones mostly follow from it.
 static void fail_with_log(const MeshRawRequest *request, const char *doing, Error *err)
 {
     char **log = NULL, name[GROUP_NAME_SIZE];
@@ -97,9 +97,9 @@ static void gmsh_end(void)
     gmshFinalize(&status);
 }
 
-// A script in memory that sets the parameters and includes the .geo: DefineConstant leaves alone
-// what has a value. (-setnumber would do, but gmsh keeps it for every later session of the
-// process.) Returns its descriptor, -1 on failure; `name` becomes the name to open it by.
+// A script in memory that sets the parameters and includes the .geo: DefineConstant does not change
+// what has a value. (gmsh would keep -setnumber for every later session of the process.) Returns
+// its descriptor, -1 on failure; `name` becomes the name to open it by.
 static int open_script(const MeshRawRequest *request, char name[SCRIPT_NAME_SIZE], Error *err)
 {
     char path[PATH_MAX];
@@ -139,7 +139,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Afterwards gmsh holds a mesh in two dimensions, as good as the file is.
+// Afterwards gmsh holds a mesh in two dimensions.
 static bool gmsh_load(const MeshRawRequest *request, Error *err)
 {
     int status = 0;
@@ -160,7 +160,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// gmsh's tags are size_t; ours are int64_t, which tests and messages handle with less ado.
+// gmsh's tags are size_t, ours int64_t.
 static bool copy_tags(const size_t *from, size_t count, int64_t **to, Error *err)
 {
     int64_t *copy = NEW_ARRAY(int64_t, (int64_t)count, err);

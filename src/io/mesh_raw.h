@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A mesh exactly as gmsh's API delivers it, and its conversion to a MeshFile. The border between
-// io/mesh_file and the gmsh module (io/mesh_file_module): nothing of gmsh's headers crosses it.
+// A mesh as gmsh's API delivers it, between the gmsh module (io/mesh_file_module) and io/mesh_read,
+// which need not know gmsh's headers; and its conversion to a MeshFile.
 #ifndef AMONTONS_IO_MESH_RAW_H
 #define AMONTONS_IO_MESH_RAW_H
 
@@ -48,7 +48,7 @@ typedef struct MeshRawRequest {
 } MeshRawRequest;
 
 // The module's entry: runs gmsh from start to finish, so that a second call finds it clean. Errors
-// are gmsh's own words (the first it had), with the file's name. *raw is destroyed by the caller.
+// are gmsh's first message, with the file's name. *raw is destroyed by the caller.
 typedef bool (*MeshRawReader)(const MeshRawRequest *request, MeshRaw *raw, Error *err);
 bool amontons_gmsh_read(const MeshRawRequest *request, MeshRaw *raw, Error *err);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What can be told of a mesh file before gmsh sees it is told here: gmsh opens a missing file as an
-// empty model, takes junk for a script, and reads a file cut off inside its last number.
+// What can be checked of a mesh file before gmsh reads it: gmsh opens a missing file as an empty
+// model, takes junk for a script, and reads a file that was cut off inside its last number.
 #include "io/mesh_file.h"
 
 #include "base/memory.h"
@@ -20,7 +20,7 @@ enum { CHUNK_SIZE = 1 << 16, HEAD_LINES = 200 };
 
 // --- before gmsh --------------------------------------------------------------------------------
 
-// By the name alone: gmsh, too, goes by the ending.
+// By the name alone, as gmsh does.
 static bool ends_with(const char *path, const char *ending)
 {
     size_t length = strlen(path), wanted = strlen(ending);
@@ -68,8 +68,7 @@ static bool file_holds(FILE *file, const char *mark, char *chunk)
     return false;
 }
 
-// A .msh must have its head, and the mark that ends the elements: without that mark it was cut off,
-// possibly inside its last number, which gmsh would take as it stands.
+// A .msh must have its head, and the mark that ends the elements: without it the file was cut off.
 static bool check_msh(const char *path, double *version, Error *err)
 {
     char *chunk = NULL;
@@ -86,7 +85,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Every parameter given must be one the script takes: gmsh would pass over the others in silence.
+// gmsh would ignore a parameter that the script does not take.
 static bool check_geo(const char *path, const MeshParameter *parameters, int32_t count, Error *err)
 {
     GeoParameters known = {0};

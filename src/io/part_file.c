@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The lock is flock's: it belongs to the open file, is given up when that is closed or the process
-// dies, and leaves nothing to clean up. rename(2) is atomic within a file system, which a file and
-// its .part share.
+// The lock is flock's: it ends when the file is closed or the process dies, and leaves nothing to
+// clean up. rename(2) is atomic within a file system, which a file and its .part share.
 #include "io/part_file.h"
 
 #include "io/file_lock.h"
@@ -21,8 +20,8 @@ bool part_file_name(const char *path, char *part)
     return true;
 }
 
-// Opens, locks, and looks whether what was locked is still what the name leads to (another writer
-// may have renamed it meanwhile); else again.
+// Opens, locks, and checks that the name is still that of what was locked (another writer may have
+// renamed it meanwhile); else again.
 bool part_file_create(PartFile *file, const char *path, Error *err)
 {
     // Not emptied when opened (O_TRUNC): only the holder of the lock may do that.
@@ -69,10 +68,10 @@ cleanup:
     return error_is_clean(err);
 }
 
-// fsync before rename: after a power cut a name without its bytes could stand there otherwise.
+// fsync before rename: a power cut could otherwise leave the name without its bytes.
 bool part_file_commit(PartFile *file, Error *err)
 {
-    // EINVAL: a file system that cannot sync, which is no fault of the file.
+    // EINVAL: a file system that cannot sync, which is no error.
     if (fsync(file->descriptor) != 0 && errno != EINVAL)
         FAIL(err, ERROR_FILE, "cannot write %s to disk: %s", file->path, strerror(errno));
     if (rename(file->part, file->path) != 0)

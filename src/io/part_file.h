@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A file on its way: written as `path`.part and renamed when all of it is on disk, so that a half
-// file never stands under a final name. Called by json_writer, array_file and field_file.
+// A file being written: as `path`.part, renamed when all of it is on disk, so that a final name
+// never has half a file. Called by all writers of this folder.
 //
 //   create -> write ... -> commit     the file has its final name
 //                       -> discard    nothing is left

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Picks, sorts and thins the elements of a raw mesh.
-//
-// What a raw mesh has too much of (points, edges, elements of no group, copies) is left out here,
-// and what is of a kind that we do not have is refused by name. Order does not depend on how gmsh
-// delivers: by element tag.
+// Of a raw mesh points, edges, elements of no group and copies are left out; elements of a kind
+// that we do not have are refused by name. The order is by element tag, whatever gmsh's is.
 #include "io/raw_elements.h"
 
 #include "base/memory.h"
@@ -105,7 +102,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// By tag. gmsh mostly delivers them so already: then one look is all.
+// By tag, as gmsh mostly delivers them.
 static void sort_elements(RawElements *elements, bool may_repeat)
 {
     if (may_repeat) drop_copies(elements);
@@ -118,7 +115,6 @@ static void sort_elements(RawElements *elements, bool may_repeat)
 }
 
 // "T3, T6, Q4, Q8, Q9", for messages.
-// From the table of kinds itself, so that it cannot be out of date.
 static void list_kinds(char list[KIND_LIST_SIZE])
 {
     int length = 0;
@@ -183,8 +179,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Edges of more than three nodes (order 3 on) are refused here; their surface elements are refused
-// as well, but a message about the group says more.
+// Edges of more than three nodes (order 3 on) are refused here, before their surface elements, as a
+// message about the group says more.
 bool raw_pick_group(const MeshRaw *raw, const char *path, const RawGroup *from, const char *name,
                     RawElements *picked, Error *err)
 {

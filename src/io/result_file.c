@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The tables of the header, expanded once into arrays of rows; everything else loops over those.
-//
-// A name, a unit or a shape stands in io/result_tables.h and nowhere else: writer and readers
-// are loops over the same rows. Which array has which index is the enum made from the same table.
+// The tables of io/result_tables.h, expanded once into arrays of rows, over which writer and
+// readers loop. The index of an array is the enum made from the same table.
 #include "io/result_file.h"
 
 #include "base/memory.h"
@@ -12,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-// What all four tables have in common.
+// Of any of the four tables.
 typedef struct ResultRow {
     const char *name;   // in the file, with its folder
     ArrayType type;   // as stored; attributes are always doubles
@@ -66,7 +64,6 @@ ResultColumns result_series_columns(ResultSeries series)
     return series_rows[series].columns;
 }
 
-// FOLDER/history.h5.
 static bool history_path(const char *folder, char path[PATH_MAX], Error *err)
 {
     int length = snprintf(path, PATH_MAX, "%s/history.h5", folder);
@@ -136,7 +133,7 @@ ArrayFile *result_file_create(const char *folder, const ResultHead *head, Error 
     }
     for (int32_t k = 0; k < RESULT_SERIES_COUNT; k++)
         TRY(add_row(file, &series_rows[k], series_width(head, (ResultSeries)k), err));
-    TRY(array_file_flush(file, err));   // from now on a killed run leaves a readable history
+    TRY(array_file_flush(file, err));   // from here on a killed run leaves a readable history
     return file;
 cleanup:
     array_file_abandon(file);
@@ -187,7 +184,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// *values [rows * width], the caller's to free. A killed run's series may differ by a row in
 // length: who reads several takes the shortest.
 bool result_file_read_series(ArrayFile *file, ResultSeries series, double **values, int64_t *rows,
                              int32_t *width, Error *err)
@@ -216,7 +212,7 @@ bool result_file_read_table(ArrayFile *file, ResultTable table, double **values,
 double result_file_number(ArrayFile *file, ResultNumber number)
 {
     Error absent = {0};
-    double value = NAN;   // stays when the file does not know it
+    double value = NAN;
     array_file_get_number(file, number_rows[number].name, &value, &absent);
     return value;
 }

@@ -2,7 +2,7 @@
 // What a result folder holds, written and read by the names of io/result_tables. record/history
 // writes by it, render/ reads by it.
 //
-//   RESULT/run.json        one object, written last (run/simulation)
+//   RESULT/run.json        one object, written last (run/report)
 //   RESULT/history.h5      the arrays and attributes below
 //   RESULT/fields.pvd      the time series of fields/*.vtu and fields/*.vtp
 //   RESULT/figures/*.png   pictures drawn from history.h5 alone

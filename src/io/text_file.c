@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Pipes and devices are read as files are, since a shell may hand over a pipe (/dev/fd/63); so the
-// size is asked for twice, before reading and while.
+// A shell may hand over a pipe (/dev/fd/63), which has no size beforehand: so the size is checked
+// before reading and meanwhile.
 #include "io/text_file.h"
 
 #include "base/memory.h"
@@ -20,7 +20,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// What the name is wrong about is the input's fault, what the system refuses is not.
+// A wrong name is ERROR_INPUT; what the system refuses is ERROR_FILE.
 static bool check_kind(const char *path, int32_t size_max, Error *err)
 {
     struct stat status;
@@ -33,7 +33,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Pipes have no size beforehand: the buffer grows as bytes come in.
+// The buffer grows as bytes come in.
 static bool read_stream(FILE *stream, const char *path, int32_t size_max, char **bytes,
                         int32_t *size, Error *err)
 {

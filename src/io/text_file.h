@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A whole small file in memory. Called by io/yaml_document and run/info.
+// A whole small file in memory.
 #ifndef AMONTONS_IO_TEXT_FILE_H
 #define AMONTONS_IO_TEXT_FILE_H
 

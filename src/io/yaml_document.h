@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A YAML text as a tree whose every node knows its line and column, so that an error can show the
-// place. libfyaml reads the syntax behind it. Called by scene/scene for scene files and `--set`.
+// place. libfyaml reads the syntax. For scenes, `--set`, studies and plots; run.json is YAML, too.
 // The tree is ours: libfyaml's own (0.7) does not say where a list, a map or an empty value begins,
 // which its events do.
 //

@@ -203,7 +203,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// libfyaml would print what it finds; we ask it for its errors instead.
+// libfyaml would print its errors; they are asked for instead.
 static void discard_output(struct fy_diag *diag, void *user, const char *text, size_t length)
 {
     (void)diag;
@@ -242,7 +242,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Before libfyaml sees it: a binary file gets a sentence with the byte and its place.
+// Before libfyaml reads it: a binary file gets an error with the byte and its place.
 static bool check_is_text(const YamlDocument *document, Error *err)
 {
     const unsigned char *text = (const unsigned char *)document->shown;

@@ -17,8 +17,7 @@ YamlKind yaml_kind(const YamlDocument *document, YamlNode node)
     return document->nodes[node].kind;
 }
 
-// Zero-terminated, owned by the document; "" where the node is no scalar, so that callers may
-// compare it unasked.
+// Owned by the document; "" where the node is no scalar, so that it can be compared in any case.
 const char *yaml_text(const YamlDocument *document, YamlNode node)
 {
     const YamlItem *item = &document->nodes[node];
@@ -133,8 +132,7 @@ void yaml_error_at(const YamlDocument *document, int32_t position, Error *err, c
               place.column, message, excerpt);
 }
 
-// The error's own file and line are this file's: what a user needs is the place in his text, which
-// the message has.
+// The error's own file and line are this file's: the place in the user's text is in the message.
 void yaml_error(const YamlDocument *document, YamlNode node, Error *err, const char *format, ...)
 {
     char message[ERROR_MESSAGE_SIZE / 2];
@@ -189,7 +187,7 @@ bool yaml_refuse(const YamlDocument *document, YamlNode node, const char *name, 
     return false;
 }
 
-// NULL is fine, and so is a document that was never finished.
+// Also of one half built.
 void yaml_destroy(YamlDocument *document)
 {
     if (!document) return;
