@@ -346,6 +346,14 @@ class Sweep(unittest.TestCase):
             self.assertEqual(sorted(v for v in drawn if v is not None),
                              sorted(float(row["mu_max"]) for row, words in zip(rows, said) if words))
 
+    def test_points_without_a_result(self):
+        study = STUDY.replace("[0.003, 0.006]", "[0.003, 0.3]")
+        for words in ("rank: {by: mu_M}\n", "plot: {x: load.pressure, y: mu_M}\n"):
+            done = self.sweep(study=self.study(study + words))
+            missing = [row["point"] for row in self.table() if not row["mu_M"]]
+            self.assertEqual(missing, ["2", "3", "6", "7"])
+            self.assertIn("4 of 8 points: no mu_M: the run came to none\n  points 2 to 3, 6 to 7\n", done.stdout)
+
     def test_equal_points_are_computed_once(self):
         study = self.study(STUDY.replace("[1, 2]", "[1, 1.0]"))
         self.assertIn("8 points: 4 computed", self.sweep(study=study).stdout)

@@ -334,9 +334,6 @@ bool ranking_print(const Sweep *sweep, const Ranking *ranking, Error *err)
     print_rows(rows, shown, cells, out);
     if (ranking->count > shown)
         fprintf(out, "  ... %d more in ranking.csv\n", ranking->count - shown);
-    if (ranking->count > ranking->ranked)
-        fprintf(out, "  %d of %d have no value\n", ranking->count - ranking->ranked,
-                ranking->count);
 cleanup:
     memory_free(rows);
     return error_is_clean(err);

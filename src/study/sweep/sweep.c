@@ -104,6 +104,9 @@ static bool show_results(const Sweep *sweep, bool whole, Error *err)
     }
     if (sweep->study.plot.wanted && whole) TRY(figure_of_plot(sweep, &table, err));
     if (sweep->options->out) warned_print(&table.warned, sweep->options->out);
+    if (sweep->options->out && table.mesh_left_out)
+        fprintf(sweep->options->out, "\nErrors leave out the mesh's, which is not known; a study's "
+                                     "`set: {accuracy.mu: 1%%}` asks for it\n");
 cleanup:
     ranking_destroy(&ranking);
     table_destroy(&table);

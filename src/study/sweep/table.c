@@ -114,6 +114,28 @@ cleanup:
     return error_is_clean(err);
 }
 
+static bool is_shown(const Study *study, int32_t record)
+{
+    const StudyPlot *plot = &study->plot;
+    return (study->rank.wanted && study->rank.record == record) ||
+           (plot->wanted && ((plot->x.is_record && plot->x.index == record) ||
+                             (plot->y.is_record && plot->y.index == record)));
+}
+
+// Of record `k` of a point that is done, which came to `value`.
+static void look_for_doubts(TableWriter *writer, int32_t point, const char *report, int32_t k,
+                            double value)
+{
+    const Study *study = &writer->sweep->study;
+    char text[RUN_WARNING_SIZE];
+    double mesh = 0;
+    snprintf(text, sizeof text, "%s_error_parts.mesh", study->records[k].path);
+    if (json_find_number(report, text, &mesh) && isnan(mesh)) writer->table->mesh_left_out = true;
+    if (!is_shown(study, k) || isfinite(value)) return;
+    snprintf(text, sizeof text, "no %s: the run came to none", study->records[k].name);
+    warned_add(&writer->table->warned, point, text);
+}
+
 // report: of a finished point, or NULL.
 static void write_records(TableWriter *writer, int32_t point, const char *report)
 {
@@ -130,6 +152,7 @@ static void write_records(TableWriter *writer, int32_t point, const char *report
         else
             csv_number(writer->csv, number);
         if (adds_error(study, writer->table, k)) csv_number(writer->csv, error);
+        if (report) look_for_doubts(writer, point, report, k, number);
         writer->table->records[k * study->point_count + point] = number;
         writer->table->errors[k * study->point_count + point] = error;
     }

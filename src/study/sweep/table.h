@@ -18,7 +18,8 @@ typedef struct SweepTable {
     int32_t column_count;
     WordList *words;   // [column_count] where a key has words, the table has their index
     WordList warning_words;   // the first is "": no warning
-    Warned warned;
+    Warned warned;   // also of points without the result that is ranked or drawn
+    bool mesh_left_out;   // of the error of some record at some point: NAME_error_parts.mesh
 } SweepTable;
 
 bool table_write(const Sweep *sweep, SweepTable *table, Error *err);
