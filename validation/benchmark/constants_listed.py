@@ -183,6 +183,7 @@ NOT_A_CHOICE = {
     "record/fields.c": {"types": "VTK's", "PATH_SIZE": SIZE, "FIRST_ROOM": SIZE, "NAME_SIZE": SIZE,
                         "LINE_ARRAYS": "of the interface's file"},
     "record/front_path.h": {"FRONT_STATIONS": "shown"},
+    "record/front_path.c": {"AT_NODE": "rounding of coordinates"},
     "record/history.c": {"FLUSH_EVERY": "seconds of a run that a kill may cost"},
     "record/observation.h": {"RECORDERS_MAX": SIZE},
     "model/basis_cache.c": {"WAIT_MAX": "seconds for another run's basis", "COUNTS": "stored"},
