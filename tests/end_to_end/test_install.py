@@ -115,6 +115,13 @@ class Installed(unittest.TestCase):
         run("cmake", "--build", build)
         self.check_program(build / "pressures")
 
+    def test_python_module(self):
+        """Debian's python3 finds the library by the module's own place."""
+        site = next(self.prefix.glob("lib/python3*/site-packages"))
+        said = run("/usr/bin/python3", "-c", f"import sys; sys.path.insert(0, '{site}'); import amontons; "
+                   "print(amontons.data_folder()); import ctypes; print(amontons._library.lib._name)", cwd="/").stdout
+        self.assertEqual(said.split("\n")[:2], [f"{self.prefix}/share/amontons", f"{self.prefix}/lib/libamontons.so.0.1"])
+
     @unittest.skipUnless(shutil.which("help2man") and shutil.which("man"), "no help2man or no man here")
     def test_manual_pages(self):
         pages = self.prefix / "share/man/man1"

@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The shared library: where it is, its functions, its errors as exceptions, Ctrl-C while it computes."""
+from __future__ import annotations
+
+import ctypes
+import json
+import re
+import threading
+from pathlib import Path
+from typing import Any, Callable, Mapping
+
+from . import _structs as c
+
+__all__ = ["AmontonsError", "InputError", "FileError", "LibraryError", "ComputeError"]
+
+
+# --- errors ---------------------------------------------------------------------------------------
+
+class AmontonsError(Exception):
+    """What the library refused or could not do; the message says what is wrong, where, and how to mend it.
+
+    file, line, column: where in a scene or study; for a setting `file` is "--set KEY=VALUE"; None: not said.
+    key: the key that is meant, "load.pressure"; None: not said.
+    """
+
+    def __init__(self, message: str) -> None:
+        super().__init__(message)
+        self.message = message
+        found = re.match(r"(?:[^\n]*?: )??([^\n:]+):(\d+):(\d+): (?:([\w.]+): )?", message)
+        self.file: str | None = found[1] if found else None
+        self.line: int | None = int(found[2]) if found else None
+        self.column: int | None = int(found[3]) if found else None
+        self.key: str | None = found[4] if found else None
+
+
+class InputError(AmontonsError, ValueError):
+    """A scene, study, mesh or argument is wrong."""
+
+
+class FileError(AmontonsError, OSError):
+    """A file cannot be read or written."""
+
+
+class LibraryError(AmontonsError):
+    """A library that amontons needs (gmsh, HDF5, VTK, OSMesa) cannot be used."""
+
+
+class ComputeError(AmontonsError):
+    """The computation failed."""
+
+
+EXCEPTIONS = {c.ERROR_INPUT: InputError, c.ERROR_FILE: FileError, c.ERROR_LIBRARY: LibraryError,
+              c.ERROR_COMPUTE: ComputeError}
+
+
+def raise_error(error: c.Error) -> None:
+    """Raises what `error` says; nothing where it is clean. It is clean again afterwards."""
+    code, message = error.code, error.message.decode(errors="replace")
+    ctypes.memset(ctypes.byref(error), 0, ctypes.sizeof(error))
+    if code == c.ERROR_INTERRUPT:
+        raise KeyboardInterrupt(message)
+    if code == c.ERROR_MEMORY:
+        raise MemoryError(message)
+    if code != c.ERROR_NONE:
+        raise EXCEPTIONS[code](message)
+
+
+# --- the library ----------------------------------------------------------------------------------
+
+def _open() -> ctypes.CDLL:
+    """Beside this module in an installed tree or a build folder, else where the loader looks."""
+    for folder in Path(__file__).resolve().parents[1:5]:
+        for place in (folder, folder / "bin"):
+            if (place / c.LIBRARY).is_file():
+                return ctypes.CDLL(str(place / c.LIBRARY))
+    try:
+        return ctypes.CDLL(c.LIBRARY)
+    except OSError as failure:
+        raise ImportError(f"{c.LIBRARY} is neither beside {__file__} nor where the system looks: {failure}") from None
+
+
+lib = _open()
+for _name, (_result, _arguments) in c.FUNCTIONS.items():
+    _function = getattr(lib, _name)
+    _function.restype, _function.argtypes = _result, _arguments
+
+
+def call(function: Callable[..., bool], *arguments: Any) -> None:
+    """Calls a function of the library that takes an Error last, and raises what it reports."""
+    error = c.Error()
+    if not function(*arguments, ctypes.byref(error)):
+        raise_error(error)
+
+
+def call_stoppable(function: Callable[..., bool], stop: ctypes.c_int, *arguments: Any) -> None:
+    """The same in a thread of its own, so that Ctrl-C reaches Python: it sets `stop`, which the library looks at.
+    Raises what a callback raised (stop.failure)."""
+    try:
+        _call_in_thread(function, stop, *arguments)
+    except KeyboardInterrupt:
+        raise getattr(stop, "failure", None) or KeyboardInterrupt from None
+
+
+def _call_in_thread(function: Callable[..., bool], stop: ctypes.c_int, *arguments: Any) -> None:
+    if threading.current_thread() is not threading.main_thread():
+        call(function, *arguments)
+        return
+    failures: list[BaseException] = []
+
+    ended = threading.Event()   # not Thread.join: after an interrupt Python 3.11 takes the thread for ended
+
+    def work() -> None:
+        try:
+            call(function, *arguments)
+        except BaseException as failure:   # whatever it is, it is raised below
+            failures.append(failure)
+        ended.set()
+
+    threading.Thread(target=work, name="amontons").start()
+    try:
+        ended.wait()
+    except BaseException:
+        stop.value = 1
+        ended.wait()
+        raise
+    if failures:
+        raise failures[0]
+
+
+def yaml_text(value: Any) -> str:
+    """A setting's value as a scene has it: {"U": 0.01} -> '{"U": 0.01}', None -> "none"; a str is taken as it is."""
+    if isinstance(value, str):
+        return value
+    if value is None:
+        return "none"
+    return json.dumps(value, default=lambda other: other.tolist() if hasattr(other, "tolist") else str(other))
+
+
+def words(texts: Any) -> Any:
+    """char *const[] of strings."""
+    texts = list(texts)
+    return (ctypes.c_char_p * max(len(texts), 1))(*(str(text).encode() for text in texts))
+
+
+def setting_words(settings: Mapping[str, Any] | None) -> tuple[Any, int]:
+    """{"load.pressure": 0.006} -> the words behind --set, and how many."""
+    settings = settings or {}
+    return words(f"{key}={yaml_text(value)}" for key, value in settings.items()), len(settings)
+
+
+def path_or_none(path: Any) -> bytes | None:
+    return None if path is None else str(path).encode()
+
+
+class Scene:
+    """A scene that was read and checked. Destroyed with this object."""
+
+    def __init__(self, path: Any, settings: Mapping[str, Any] | None) -> None:
+        self.handle = ctypes.c_void_p()
+        call(lib.amontons_scene_read, str(path).encode(), *setting_words(settings), ctypes.byref(self.handle))
+
+    def __del__(self) -> None:
+        if lib is not None and getattr(self, "handle", None):
+            lib.amontons_scene_destroy(self.handle)
+
+
+def printed(function: Callable[..., bool], *before: Any) -> str:
+    """What a function writes into the FILE that it takes before its Error."""
+    libc = ctypes.CDLL(None)
+    libc.open_memstream.restype = ctypes.c_void_p
+    libc.fclose.argtypes = libc.free.argtypes = [ctypes.c_void_p]
+    text, size = ctypes.c_void_p(), ctypes.c_size_t()
+    stream = libc.open_memstream(ctypes.byref(text), ctypes.byref(size))
+    try:
+        call(function, *before, stream)
+    finally:
+        libc.fclose(stream)
+        said = ctypes.string_at(text.value or 0, size.value) if text.value else b""
+        libc.free(text)
+    return said.decode()

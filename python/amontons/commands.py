@@ -1,0 +1,214 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The commands of the program as functions. Quantities are in the units of the scene's file."""
+from __future__ import annotations
+
+import csv
+import ctypes
+import shutil
+import tempfile
+import weakref
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from . import _structs as c
+from ._library import (Scene, call, call_stoppable, lib, path_or_none, printed, setting_words, words)
+from .results import Answer, Result, plain
+
+Settings = Mapping[str, Any]
+Progress = Callable[[c.StepView], object]
+
+# Of points that callbacks hand over: [points] with the fields of the C struct.
+_NUMPY = {ctypes.c_double: "f8", ctypes.c_int32: "i4", ctypes.c_int64: "i8", ctypes.c_bool: "?"}
+
+
+def _callback(kind: Any, function: Callable[[Any], object] | None, stop: Any) -> Any:
+    """`function` as the library calls it; NULL for None. What it raises stops the computation."""
+    def show(view: Any, _: Any) -> None:
+        try:
+            if function is not None and not hasattr(stop, "failure"):
+                function(view.contents)
+        except BaseException as failure:   # ctypes would print it and go on
+            stop.failure = failure
+            stop.value = 1
+
+    return kind() if function is None else kind(show)
+
+
+def _gather(kind: Any, struct: Any, stop: Any) -> tuple[Any, list[tuple[Any, ...]]]:
+    """A callback that keeps all points it is shown, and the list they go into."""
+    kept: list[tuple[Any, ...]] = []
+    names = [name for name, *_ in struct._fields_]
+    return _callback(kind, lambda point: kept.append(tuple(getattr(point, name) for name in names)), stop), kept
+
+
+def _table(struct: Any, kept: list[tuple[Any, ...]]) -> np.ndarray:
+    return np.array(kept, dtype=[(name, _NUMPY[kind]) for name, kind, *_ in struct._fields_])
+
+
+def run(scene: Any, settings: Settings | None = None, folder: Any = None, *, overwrite: bool = False,
+        progress: Progress | None = None) -> Result:
+    """One simulation: `amontons run`. settings: {"load.pressure": 0.006}, as --set.
+
+    folder: of the results. None: one that is removed with the Result, and no pictures are drawn.
+    progress: called after every step with a StepView (t, U, mu, fraction, ...), which it must not keep.
+    Ctrl-C ends the run after the present step (KeyboardInterrupt); what was computed is in `folder`.
+    """
+    given = dict(settings or {})
+    temporary = folder is None
+    if temporary:
+        folder, overwrite = tempfile.mkdtemp(prefix="amontons-"), True
+        given = {"output.figures": [], **given}
+    try:
+        result = _run_in(Scene(scene, given), folder, overwrite, progress)
+    except BaseException:
+        if temporary:
+            shutil.rmtree(folder, ignore_errors=True)
+        raise
+    if temporary:
+        weakref.finalize(result, shutil.rmtree, folder, ignore_errors=True)
+    return result
+
+
+def _run_in(read: Scene, folder: Any, overwrite: bool, progress: Progress | None) -> Result:
+    stop = ctypes.c_int(0)
+    summary = c.RunSummary()
+    options = c.RunOptions(folder=path_or_none(folder), overwrite=overwrite,
+                           on_step=_callback(c.StepCallback, progress, stop), stop=ctypes.pointer(stop))
+    call_stoppable(lib.amontons_run, stop, read.handle, ctypes.byref(options), ctypes.byref(summary))
+    result = Result(folder)
+    result.summary = summary
+    return result
+
+
+def open_result(folder: Any) -> Result:
+    """The result of an earlier run."""
+    return Result(folder)
+
+
+def static(scene: Any, settings: Settings | None = None, folder: Any = None, *, overwrite: bool = False) -> Answer:
+    """Equilibrium under a given load: `amontons static`. Attributes: those of StaticSummary (normal_force, shear_force,
+    open, sticking, slipping, ...), forces per width. folder: for static.json, .h5 and .vtu; None: nothing is written."""
+    read = Scene(scene, settings)
+    summary = c.StaticSummary()
+    call(lib.amontons_static, read.handle, path_or_none(folder), overwrite, ctypes.byref(summary))
+    return Answer(summary)
+
+
+def stability(scene: Any, settings: Settings | None = None, folder: Any = None, *, overwrite: bool = False,
+              slidings: int = 1, whole: bool = False, at_end: bool = False,
+              progress: Progress | None = None) -> Answer:
+    """Where slow slip turns fast: `amontons stability`. Attributes: those of StabilitySummary (l_sc, l_c, mu_c, ...),
+    lengths over L, NaN: nowhere; `points`: a numpy array of the states of the path, fields as in StabilityPoint.
+
+    slidings: the path begins when so many slidings have ended, 0: at the relaxed start. whole: also beyond l_c.
+    at_end: no path, only the state in which the scene's run ends."""
+    read = Scene(scene, settings)
+    stop = ctypes.c_int(0)
+    summary = c.StabilitySummary()
+    on_point, kept = _gather(c.StabilityCallback, c.StabilityPoint, stop)
+    options = c.StabilityOptions(slidings=slidings, whole=whole, at_end=at_end, folder=path_or_none(folder),
+                                 overwrite=overwrite, on_step=_callback(c.StepCallback, progress, stop), on_point=on_point,
+                                 stop=ctypes.pointer(stop))
+    call_stoppable(lib.amontons_stability, stop, read.handle, ctypes.byref(options), ctypes.byref(summary))
+    return Answer(summary, _table(c.StabilityPoint, kept))
+
+
+def model1d(scene: Any, settings: Settings | None = None, folder: Any = None, *, overwrite: bool = False,
+            alpha: float = 0.2, nodes: int = 81, theory_only: bool = False,
+            progress: Progress | None = None) -> Answer:
+    """The paper's effective 1D model of a scene: `amontons model1d`. Attributes: those of Model1dSummary (l_sc, l_c,
+    mu_c, mu_M, ...), lengths over L; `points`: a numpy array, fields as in Model1dPoint."""
+    read = Scene(scene, settings)
+    stop = ctypes.c_int(0)
+    summary = c.Model1dSummary()
+    on_point, kept = _gather(c.Model1dCallback, c.Model1dPoint, stop)
+    options = lib.amontons_model1d_options()
+    options.alpha, options.nodes, options.theory_only = alpha, nodes, theory_only
+    options.folder, options.overwrite = path_or_none(folder), overwrite
+    options.on_step, options.on_point = _callback(c.StepCallback, progress, stop), on_point
+    options.stop = ctypes.pointer(stop)
+    call_stoppable(lib.amontons_model1d, stop, read.handle, ctypes.byref(options), ctypes.byref(summary))
+    return Answer(summary, _table(c.Model1dPoint, kept))
+
+
+def _number(text: str) -> Any:
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def read_table(path: Any) -> Any:
+    """A table of a sweep (sweep.csv, ranking.csv): a pandas DataFrame where pandas is there, else a dict of numpy
+    arrays by column."""
+    try:
+        import pandas
+        return pandas.read_csv(path, float_precision="round_trip")
+    except ImportError:
+        with open(path, newline="") as file:
+            rows = list(csv.reader(file))
+        return {name: np.array([_number(row[k]) for row in rows[1:]]) for k, name in enumerate(rows[0])}
+
+
+def sweep(study: Any, settings: Settings | None = None, folder: Any = None, *, jobs: int = 0, retry: bool = False,
+          fresh: bool = False, slurm: str | None = None,
+          progress: Callable[[c.SweepView], object] | None = None) -> Any:
+    """Many runs over varied keys: `amontons sweep`. The table, a row a point (read_table); points that failed have
+    their reason in it. What is finished in `folder` is not computed again; None: a folder that is removed.
+
+    jobs: processes at a time, 0: as many as there are cores. slurm: points as Slurm job arrays, with these words for
+    sbatch. progress: called with a SweepView when a point has ended. Ctrl-C stops; the table is written.
+    Processes are forked: no other thread should compute meanwhile."""
+    if folder is None:
+        with tempfile.TemporaryDirectory(prefix="amontons-") as temporary:
+            return sweep(study, settings, temporary, jobs=jobs, slurm=slurm, progress=progress)
+    stop = ctypes.c_int(0)
+    summary = c.SweepSummary()
+    overrides, count = setting_words(settings)
+    options = c.SweepOptions(folder=path_or_none(folder), overrides=overrides, override_count=count, jobs=jobs,
+                             slurm=None if slurm is None else slurm.encode(), retry=retry, fresh=fresh,
+                             on_point=_callback(c.SweepCallback, progress, stop), stop=ctypes.pointer(stop))
+    call_stoppable(lib.amontons_sweep, stop, str(study).encode(), ctypes.byref(options), ctypes.byref(summary))
+    return read_table(Path(folder) / "sweep.csv")
+
+
+def render(result: Any, figures: Sequence[str] = ()) -> list[Path]:
+    """Draws pictures of a stored result again: `amontons render`. figures: their names; (): all. The files, in the
+    folder figures/ of the result."""
+    folder = result.folder if isinstance(result, Result) else Path(result)
+    call(lib.amontons_render_result, str(folder).encode(), words(figures), len(figures))
+    return sorted((folder / "figures").glob("*.png"))
+
+
+def render_plot(plot: Any, png: Any) -> None:
+    """Draws the curves that the YAML file `plot` describes into `png`: `amontons render PLOT.yaml`."""
+    call(lib.amontons_render_plot_file, str(plot).encode(), str(png).encode())
+
+
+def info(path: Any, settings: Settings | None = None, picture: Any = None) -> str:
+    """What a mesh (.msh, .geo), a scene or a result folder holds, in words: `amontons info`. picture: a PNG of the mesh
+    and the rod to be drawn."""
+    overrides, count = setting_words(settings)
+    options = c.InfoOptions(overrides=overrides, override_count=count, picture=path_or_none(picture))
+    return printed(lib.amontons_info, str(path).encode(), ctypes.byref(options))
+
+
+def keys() -> str:
+    """Every key that a scene may have, as a Markdown table: `amontons info keys`."""
+    return printed(lib.amontons_scene_reference)
+
+
+def data_folder() -> Path:
+    """The folder of the meshes and example scenes that come with the library."""
+    folder = ctypes.create_string_buffer(c.AMONTONS_PATH_SIZE)
+    if not lib.amontons_data_folder(folder):
+        raise FileNotFoundError("the meshes and scenes that belong to the library are not there")
+    return Path(folder.value.decode())
+
+
+def version() -> str:
+    """"0.1.0"."""
+    return plain(lib.amontons_version())

@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What computations leave: numbers, histories read when asked for, pictures through matplotlib where it is there."""
+from __future__ import annotations
+
+import ctypes
+import json
+import xml.etree.ElementTree
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from . import _structs as c
+
+_SHORT = {"t": "series/time", "U": "series/rod_displacement", "x": "nodes/x"}
+_FOLDERS = ("series", "interface", "nodes", "pads")
+
+
+class History(Mapping):
+    """The arrays of history.h5, each read when it is first asked for; docs/results.md lists them with their units.
+
+    history["series/mu"] or history.mu, [steps]; history.U, history.t: displacement of the rod, length, and time,
+    [steps]; history.slip_rate, .slip, .pressure, .shear, .status: [steps, nodes]; history.x: [nodes]. Row 0 is the
+    start. history.numbers: the attributes of the file (length, normal_force, mu_static, ...).
+    """
+
+    def __init__(self, path: Path) -> None:
+        import h5py
+        self._file = h5py.File(path, "r")
+        self._names: list[str] = []
+        self._file.visititems(lambda name, item: self._names.append(name) if hasattr(item, "shape") else None)
+        self._read: dict[str, np.ndarray] = {}
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        if name not in self._read:
+            if name not in self._names:
+                raise KeyError(f"{name}; there are: {', '.join(self._names)}")
+            self._read[name] = self._file[name][()]
+        return self._read[name]
+
+    def __getattr__(self, name: str) -> np.ndarray:
+        if not name.startswith("_"):
+            for whole in (_SHORT.get(name, ""), *(f"{folder}/{name}" for folder in _FOLDERS)):
+                if whole in self._names:
+                    return self[whole]
+        raise AttributeError(f"no array is called {name}; there are: {', '.join(self._names)}")
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+    @property
+    def numbers(self) -> dict[str, Any]:
+        return {name: value.item() if hasattr(value, "item") else value for name, value in self._file.attrs.items()}
+
+
+class Field(NamedTuple):
+    """The files of one time, for ParaView, meshio or vtk: the whole block (.vtu) and the contact (.vtp)."""
+    t: float
+    bulk: Path
+    interface: Path | None
+
+
+class Result:
+    """A result folder of a run. Attributes are those of RunSummary where this process computed it (mu_M, mu_hold,
+    mu_max, peaks, ...); of a folder that was opened they come from run.json (`results`)."""
+
+    def __init__(self, folder: Any) -> None:
+        self.folder = Path(folder)
+        self.summary: c.RunSummary | None = None
+        self._history: History | None = None
+        if not (self.folder / "run.json").is_file() and not self.folder.is_dir():
+            raise FileNotFoundError(f"{self.folder} is not a result folder")
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_") or name == "summary":
+            raise AttributeError(name)
+        if self.summary is not None and hasattr(self.summary, name):
+            return plain(getattr(self.summary, name))
+        results = self.report.get("results", {})
+        if name not in results:
+            raise AttributeError(f"a result has no {name}; there are: {', '.join(results)}")
+        return np.nan if results[name] is None else results[name]
+
+    @property
+    def report(self) -> dict[str, Any]:
+        """All of run.json; docs/results.md says what it holds."""
+        path = self.folder / "run.json"
+        return json.loads(path.read_text()) if path.is_file() else {}
+
+    @property
+    def history(self) -> History:
+        """Every accepted step; opened when first asked for."""
+        if self._history is None:
+            path = self.folder / "history.h5"
+            self._history = History(path if path.is_file() else path.with_suffix(".h5.part"))
+        return self._history
+
+    @property
+    def fields(self) -> list[Field]:
+        """The times at which output.fields wrote the whole block."""
+        path = self.folder / "fields.pvd"
+        if not path.is_file():
+            return []
+        times: dict[float, dict[str, Path]] = {}
+        for entry in xml.etree.ElementTree.parse(path).iter("DataSet"):
+            file = self.folder / entry.attrib["file"]
+            times.setdefault(float(entry.attrib["timestep"]), {})[file.suffix] = file
+        return [Field(t, files[".vtu"], files.get(".vtp")) for t, files in sorted(times.items())]
+
+    @property
+    def warnings(self) -> list[str]:
+        """What makes an answer doubtful."""
+        return list(self.report.get("warnings", []))
+
+    def plot_force(self, axes: Any = None) -> Any:
+        """F_T/F_N against the displacement of the rod, with the peaks that count for mu_M. Needs matplotlib; returns
+        the axes."""
+        axes = axes if axes is not None else _new_axes()
+        history = self.history
+        axes.plot(history.U, history.mu, linewidth=0.8)
+        if "peaks/U" in history:
+            counts = history["peaks/counts"] > 0
+            axes.plot(history["peaks/U"][counts], history["peaks/mu"][counts], "o", markersize=4,
+                      label=f"$\\mu_M$ = {self.mu_M:.4f}" if np.isfinite(self.mu_M) else None)
+            if counts.any():
+                axes.legend(frameon=False)
+        axes.set_xlabel(f"rod displacement U{self._unit('m')}")
+        axes.set_ylabel("$F_T/F_N$")
+        return axes
+
+    def plot_slip_map(self, axes: Any = None, decades: float = 4) -> Any:
+        """Slip rate over position and displacement of the rod, logarithmic, over so many decades. Needs matplotlib;
+        returns the axes."""
+        axes = axes if axes is not None else _new_axes()
+        history = self.history
+        rate = np.abs(history.slip_rate) / history.numbers["rod_velocity"]
+        top = max(float(np.log10(np.maximum(rate.max(), 1e-300))), -300.0)
+        shown = np.log10(np.maximum(rate, 10.0 ** (top - decades)))
+        mesh = axes.pcolormesh(history.x, history.U, shown, shading="nearest", rasterized=True)
+        axes.figure.colorbar(mesh, ax=axes, label="$\\log_{10}$(slip rate / V)")
+        axes.set_xlabel(f"position x{self._unit('m')}")
+        axes.set_ylabel(f"rod displacement U{self._unit('m')}")
+        return axes
+
+    def _unit(self, unit: str) -> str:
+        return f" ({unit})" if self.history.numbers.get("units") == "si" else ""
+
+
+def _new_axes() -> Any:
+    try:
+        import matplotlib.pyplot as pyplot
+    except ImportError:
+        raise ImportError("plots need matplotlib (Debian: python3-matplotlib)") from None
+    return pyplot.subplots()[1]
+
+
+def plain(value: Any) -> Any:
+    """A field of a struct as Python has it: text, list of texts, dict of a struct, or the number."""
+    if isinstance(value, bytes):
+        return value.decode(errors="replace")
+    if isinstance(value, c.RunWarnings):
+        return [text.value.decode() for text in value.text[:value.count]]
+    if isinstance(value, ctypes.Structure):
+        return {name: plain(getattr(value, name)) for name, *_ in value._fields_}
+    if isinstance(value, ctypes.Array):
+        return [plain(item) if not hasattr(item, "value") else plain(item.value) for item in value]
+    return value
+
+
+class Answer:
+    """The numbers of a computation as attributes, named and explained as in `struct` of the C header."""
+
+    def __init__(self, struct: ctypes.Structure, points: np.ndarray | None = None) -> None:
+        self.struct = struct
+        if points is not None:
+            self.points = points
+
+    def __getattr__(self, name: str) -> Any:
+        if name == "struct" or name.startswith("__"):
+            raise AttributeError(name)
+        return plain(getattr(self.struct, name))
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *(name for name, *_ in self.struct._fields_)]
+
+    def as_dict(self) -> dict[str, Any]:
+        return plain(self.struct)
+
+    def __repr__(self) -> str:
+        short = (f"{n}={plain(getattr(self.struct, n))}" for n, k, *_ in self.struct._fields_
+                 if k in (ctypes.c_double, ctypes.c_int32, ctypes.c_int64, ctypes.c_bool))
+        return f"{type(self.struct).__name__}({', '.join(short)})"

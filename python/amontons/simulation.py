@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A simulation stepped from Python."""
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from . import _structs as c
+from ._library import Scene, call, lib, path_or_none, raise_error
+from .results import Answer
+
+
+def _view(owner: Any, pointer: Any, kind: Any, *shape: int) -> np.ndarray:
+    """A read-only array over memory of the library, which lives as long as `owner`."""
+    count = int(np.prod(shape))
+    buffer = (kind * max(count, 1)).from_address(ctypes.cast(pointer, ctypes.c_void_p).value)
+    buffer.owner = owner   # numpy keeps the buffer, the buffer keeps the simulation
+    array = np.frombuffer(buffer, dtype=kind, count=count).reshape(shape)
+    array.flags.writeable = False
+    return array
+
+
+class Simulation:
+    """One simulation, step by step:
+
+        simulation = amontons.Simulation("scene.yaml", {"load.pressure": 0.006})
+        for step in simulation:
+            print(step.t, step.U, step.mu, simulation.slip_rate.max())
+
+    `step` is one StepView, written anew in each step: copy what you keep. x, slip_rate, slip, pressure, shear, status
+    are numpy arrays over the simulation's own memory, [nodes] each (slip_rate, slip, shear would be [nodes, 2] in three
+    dimensions): no copies, always those of the last accepted step.
+
+    folder: for results, written by `finish`; None: nothing is written. whole_block: `displacement` will be asked for.
+    """
+
+    def __init__(self, scene: Any, settings: Mapping[str, Any] | None = None, folder: Any = None, *,
+                 overwrite: bool = False, whole_block: bool = False) -> None:
+        self._handle = ctypes.c_void_p()
+        self._scene = Scene(scene, settings)
+        self._options = c.RunOptions(folder=path_or_none(folder), overwrite=overwrite, whole_block=whole_block)
+        self._finished = ctypes.c_bool(False)
+        self._block: c.BlockView | None = None
+        self.step = c.StepView()
+        try:
+            call(lib.amontons_simulation_create, self._scene.handle, ctypes.byref(self._options),
+                 ctypes.byref(self._handle))
+        except BaseException:
+            self._destroy()
+            raise
+        lib.amontons_simulation_view(self._handle, ctypes.byref(self.step))
+        contact = self.step.contact
+        n, directions = contact.count, contact.tangents
+        vector = (n,) if directions == 1 else (n, directions)
+        self.x = _view(self, contact.x, ctypes.c_double, n)
+        self.slip_rate = _view(self, contact.slip_rate, ctypes.c_double, *vector)
+        self.slip = _view(self, contact.slip, ctypes.c_double, *vector)
+        self.pressure = _view(self, contact.pressure, ctypes.c_double, n)
+        self.shear = _view(self, contact.shear, ctypes.c_double, *vector)
+        self.status = _view(self, contact.status, ctypes.c_uint8, n)
+
+    def _destroy(self) -> None:
+        if lib is not None and self._handle:
+            lib.amontons_simulation_destroy(self._handle)
+            self._handle = ctypes.c_void_p()
+
+    def __del__(self) -> None:
+        if hasattr(self, "_handle"):
+            self._destroy()
+
+    @property
+    def finished(self) -> bool:
+        """The scene's end is reached."""
+        return self._finished.value
+
+    def advance(self) -> c.StepView:
+        """One accepted step, also beyond the scene's end where there is room for one."""
+        call(lib.amontons_simulation_step, self._handle, ctypes.byref(self.step), ctypes.byref(self._finished))
+        return self.step
+
+    def __iter__(self) -> Iterator[c.StepView]:
+        """Steps up to the scene's end."""
+        error = c.Error()
+        one_step, step, finished = lib.amontons_simulation_step, self.step, self._finished
+        arguments = (self._handle, ctypes.byref(step), ctypes.byref(finished), ctypes.byref(error))
+        while not finished.value:
+            if not one_step(*arguments):
+                raise_error(error)
+            yield step
+
+    def _look(self) -> c.BlockView:
+        block = c.BlockView()
+        call(lib.amontons_simulation_block, self._handle, ctypes.byref(block))
+        return block
+
+    @property
+    def position(self) -> np.ndarray:
+        """[nodes, 2] x and z of all nodes of the mesh, undeformed, length."""
+        block = self._look()
+        return _view(self, block.position, ctypes.c_double, block.nodes, block.dimensions)
+
+    @property
+    def displacement(self) -> np.ndarray:
+        """[nodes, 2] of all nodes of the mesh, length: a copy, recovered when asked for (whole_block=True)."""
+        block = self._look()
+        return _view(self, block.displacement, ctypes.c_double, block.nodes, block.dimensions).copy()
+
+    @property
+    def velocity(self) -> np.ndarray:
+        """[nodes, 2] of all nodes of the mesh: a copy, recovered when asked for (whole_block=True)."""
+        block = self._look()
+        return _view(self, block.velocity, ctypes.c_double, block.nodes, block.dimensions).copy()
+
+    @property
+    def elements(self) -> list[np.ndarray]:
+        """The node numbers of each element, from 0, corners first, in gmsh's order."""
+        block = self._look()
+        first = _view(self, block.first_node, ctypes.c_int32, block.elements + 1)
+        nodes = _view(self, block.element_nodes, ctypes.c_int32, int(first[-1]))
+        return np.split(nodes, first[1:-1])
+
+    def finish(self) -> Answer:
+        """Writes results and pictures where there is a folder. Attributes: those of RunSummary (mu_M, ...)."""
+        summary = c.RunSummary()
+        call(lib.amontons_simulation_finish, self._handle, ctypes.byref(summary))
+        return Answer(summary)

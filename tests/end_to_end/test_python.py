@@ -1,0 +1,293 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The Python module against the program: the same numbers, to the bit; its structs against the compiler's; views without
+copies; errors with file, line and key; Ctrl-C; pictures and tables."""
+import ctypes
+import gc
+import importlib.util
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import textwrap
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
+BIN = Path(os.environ.get("AMONTONS_BIN", SOURCE / "build" / "bin"))
+MODULE = BIN.resolve().parent / "python"
+sys.path.insert(0, str(MODULE))
+import amontons                         # noqa: E402
+from amontons import _structs           # noqa: E402
+
+FIG1 = SOURCE / "validation" / "paper" / "fig1.yaml"
+SMALL = {"mesh.set.nx": 8, "mesh.set.nz": 8, "time.until": {"U": 0.004}, "output.fields": None, "output.figures": []}
+HEADERS = ["amontons_simulation.h", "amontons_stability.h", "amontons_model1d.h"]
+
+
+def has(module):
+    return importlib.util.find_spec(module) is not None
+
+
+class InFolder(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="amontons-python-"))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+
+class Structs(InFolder):
+    def test_as_the_compiler_lays_them_out(self):
+        structs = {name: kind for name, kind in vars(_structs).items()
+                   if isinstance(kind, type) and issubclass(kind, ctypes.Structure) and name != "Structure"}
+        self.assertGreater(len(structs), 15)
+        lines = []
+        for name, struct in structs.items():
+            lines.append(f'printf("{name} %zu\\n", sizeof({name}));')
+            lines += [f'printf("{name}.{field} %zu %zu\\n", offsetof({name}, {field}), sizeof((({name} *)0)->{field}));'
+                      for field, *_ in struct._fields_]
+        program = self.folder / "sizes"
+        text = "".join(f'#include "{header}"\n' for header in HEADERS) + "#include <stddef.h>\nint main(void)\n{\n"
+        subprocess.run(["cc", f"-I{SOURCE / 'src'}", "-x", "c", "-", "-o", program], check=True, text=True,
+                       input=text + "\n".join(lines) + "\n}\n")
+        said = dict(line.split(" ", 1) for line in subprocess.run([program], capture_output=True, text=True,
+                                                                  check=True).stdout.splitlines())
+        for name, struct in structs.items():
+            self.assertEqual(said.pop(name), str(ctypes.sizeof(struct)), name)
+            for field, *_ in struct._fields_:
+                place = getattr(struct, field)
+                self.assertEqual(said.pop(f"{name}.{field}"), f"{place.offset} {place.size}", f"{name}.{field}")
+        self.assertEqual(said, {})
+
+    def test_all_functions_are_known(self):
+        listing = subprocess.run(["nm", "-D", "--defined-only", BIN / "libamontons.so"], capture_output=True, text=True,
+                                 check=True).stdout
+        self.assertEqual({line.split()[-1] for line in listing.splitlines() if " amontons_" in line},
+                         set(_structs.FUNCTIONS))
+        self.assertIn("[count] stress", _structs.ContactView.__doc__)
+
+    @unittest.skipUnless(shutil.which("mypy"), "no mypy here")
+    def test_types(self):
+        done = subprocess.run(["mypy", "--ignore-missing-imports", "--cache-dir", self.folder, MODULE / "amontons"],
+                              capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout)
+
+
+class Run(InFolder):
+    def test_same_as_the_program(self):
+        words = [word for key, value in SMALL.items() for word in
+                 ("--set", f"{key}={'none' if value is None else json.dumps(value)}")]
+        subprocess.run([BIN / "amontons", "run", FIG1, *words, "-q", "-o", self.folder / "program"], check=True)
+        program = amontons.open_result(self.folder / "program")
+        seen = []
+        module = amontons.run(FIG1, SMALL, self.folder / "module", progress=lambda step: seen.append((step.U, step.mu)))
+        self.assertEqual(list(program.history), list(module.history))
+        for name in program.history:
+            self.assertEqual(program.history[name].tobytes(), module.history[name].tobytes(), name)
+        self.assertEqual(program.report["results"]["mu_max"], module.mu_max)
+        self.assertEqual(program.mu_max, module.mu_max)
+        self.assertEqual(module.history.mu.max(), module.mu_max)
+        self.assertEqual(np.array(seen)[:, 1].tobytes(), module.history.mu.tobytes())
+        self.assertEqual(module.counters["accepted"] + 1, len(module.history.U))
+        self.assertIs(module.history.slip_rate, module.history["interface/slip_rate"])
+        self.assertEqual(module.history.numbers["mu_static"], 0.38)
+        with self.assertRaisesRegex(AttributeError, "series/mu"):
+            module.history.no_such_array
+
+    def test_without_a_folder(self):
+        result = amontons.run(FIG1, {**SMALL, "output.fields": {"every_U": 2e-3}})
+        folder = result.folder
+        self.assertTrue(result.history.mu.max() > 0.3)
+        self.assertGreaterEqual(len(result.fields), 2)
+        self.assertTrue(all(field.bulk.is_file() and field.interface.is_file() for field in result.fields))
+        del result
+        gc.collect()
+        self.assertFalse(folder.exists())
+
+    def test_errors_carry_file_line_and_key(self):
+        scene = self.folder / "wrong.yaml"
+        scene.write_text("title: x\nload:\n  pressure: -3\n")
+        with self.assertRaises(amontons.InputError) as caught:
+            amontons.run(scene)
+        failure = caught.exception
+        self.assertEqual((failure.file, failure.line, failure.column, failure.key), (str(scene), 3, 13, "load.pressure"))
+        self.assertIsInstance(failure, ValueError)
+        with self.assertRaisesRegex(amontons.AmontonsError, "did you mean `load.pressure`") as caught:
+            amontons.static(FIG1, {"load.presure": 1})
+        self.assertEqual(caught.exception.key, "load.presure")
+        with self.assertRaises(amontons.ComputeError) as caught:
+            amontons.run(FIG1, {**SMALL, "time.energy_tolerance": 1e-14})
+        self.assertIsNone(caught.exception.line)
+        amontons.run(FIG1, SMALL, self.folder / "there")
+        with self.assertRaisesRegex(amontons.InputError, "there"):
+            amontons.run(FIG1, SMALL, self.folder / "there")
+
+    def test_what_a_callback_raises_comes_through(self):
+        def give_up(step):
+            if step.U > 1e-3:
+                raise ZeroDivisionError("enough")
+        with self.assertRaisesRegex(ZeroDivisionError, "enough"):
+            amontons.run(FIG1, SMALL, self.folder / "part", progress=give_up)
+        report = amontons.open_result(self.folder / "part").report
+        self.assertEqual((report["status"], report["failure"]), ("failed", "interrupted"))
+
+    def interrupt(self, work):
+        """Ctrl-C once `work` has said that it is under way; what the process prints then."""
+        script = textwrap.dedent(f"""
+            import sys; sys.path.insert(0, {str(MODULE)!r})
+            import amontons
+            try:
+                {work}
+            except KeyboardInterrupt:
+                print("stopped", flush=True)
+        """)
+        process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True, cwd=self.folder)
+        self.assertEqual(process.stdout.readline(), "begun\n")
+        process.send_signal(signal.SIGINT)
+        said = process.communicate(timeout=60)[0]
+        self.assertEqual(process.returncode, 0)
+        return said
+
+    def test_ctrl_c(self):
+        long_run = {**SMALL, "time.until": {"U": 10}}
+        said = self.interrupt(f"amontons.run({str(FIG1)!r}, {long_run!r}, 'long', "
+                              "progress=lambda step: step.t == 0 and print('begun', flush=True))")
+        self.assertEqual(said, "stopped\n")
+        self.assertEqual(amontons.open_result(self.folder / "long").report["failure"], "interrupted")
+
+    def test_ctrl_c_between_steps(self):
+        said = self.interrupt(f"[print('begun', flush=True) for k, step in enumerate(amontons.Simulation({str(FIG1)!r}, "
+                              f"{ {**SMALL, 'time.until': {'U': 10}}!r})) if k == 0]")
+        self.assertEqual(said, "stopped\n")
+
+
+class Stepped(InFolder):
+    def test_views_follow_the_steps(self):
+        result = amontons.run(FIG1, SMALL, self.folder / "run")
+        history = result.history
+        simulation = amontons.Simulation(FIG1, SMALL)
+        self.assertEqual(simulation.x.tobytes(), history.x.tobytes())
+        place = simulation.slip_rate.__array_interface__["data"][0]
+        mu, rates, status = [simulation.step.mu], [simulation.slip_rate.copy()], [simulation.status.copy()]
+        for step in simulation:
+            mu.append(step.mu)
+            rates.append(simulation.slip_rate.copy())
+            status.append(simulation.status.copy())
+        self.assertEqual(np.array(mu).tobytes(), history.mu.tobytes())
+        self.assertEqual(np.array(rates, dtype="f4").tobytes(), history.slip_rate.tobytes())   # stored as float32
+        self.assertEqual(np.array(status).tobytes(), history.status.tobytes())
+        self.assertEqual(simulation.slip_rate.__array_interface__["data"][0], place)
+        self.assertTrue(simulation.finished)
+        self.assertEqual(simulation.finish().mu_max, result.mu_max)
+        with self.assertRaises(ValueError):
+            simulation.slip[0] = 1
+
+    def test_arrays_outlive_the_name(self):
+        pressure = amontons.Simulation(FIG1, SMALL).pressure
+        gc.collect()
+        self.assertAlmostEqual(pressure.mean(), 0.003, delta=0.001)
+
+    def test_whole_block(self):
+        simulation = amontons.Simulation(FIG1, SMALL, whole_block=True)
+        start = simulation.displacement
+        for _ in simulation:
+            pass
+        moved = simulation.displacement - start
+        floor = np.flatnonzero(simulation.position[:, 1] < 1e-9)
+        floor = floor[np.argsort(simulation.position[floor, 0])]
+        np.testing.assert_allclose(moved[floor, 0], simulation.slip, atol=1e-15)
+        self.assertEqual((moved.shape, len(simulation.elements)), ((81, 2), 64))
+        self.assertEqual(simulation.velocity.shape, (81, 2))
+        with self.assertRaisesRegex(amontons.InputError, "whole_block"):
+            amontons.Simulation(FIG1, SMALL).displacement
+
+
+class Commands(InFolder):
+    def program(self, *words):
+        done = subprocess.run([BIN / "amontons", *map(str, words)], capture_output=True, text=True, cwd=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def test_static(self):
+        scene = SOURCE / "validation/freefem/friction.yaml"
+        answer = amontons.static(scene, folder=self.folder / "static")
+        report = json.loads((self.folder / "static/static.json").read_text())
+        self.assertEqual(answer.shear_force, report["results"]["shear_force"])
+        self.assertEqual(answer.sticking + answer.slipping + answer.open, report["model"]["contact_nodes"])
+        self.assertIn("shear_force=", repr(answer))
+
+    def test_stability(self):
+        answer = amontons.stability(FIG1, SMALL, self.folder / "path", slidings=0)
+        report = json.loads((self.folder / "path/stability.json").read_text())
+        self.assertIn(answer.l_c, list(report["results"].values()))
+        self.assertEqual(len(answer.points), answer.as_dict()["points"])
+        self.assertTrue((np.diff(answer.points["front"]) >= 0).all())
+
+    def test_model1d(self):
+        answer = amontons.model1d(FIG1, theory_only=True, folder=self.folder / "line")
+        report = json.loads((self.folder / "line/model1d.json").read_text())
+        self.assertTrue(any(answer.l_c in part.values() for part in report.values() if isinstance(part, dict)))
+        self.assertGreater(len(answer.points), 10)
+
+    def test_sweep(self):
+        study = self.folder / "study.yaml"
+        settings = ", ".join(f"{key}: {'none' if value is None else json.dumps(value)}" for key, value in SMALL.items())
+        study.write_text(f"scene: {FIG1}\nset: {{{settings}}}\nvary: {{load.pressure: [0.002, 0.006]}}\n"
+                         "record: [mu_max]\n")
+        ended = []
+        table = amontons.sweep(study, folder=self.folder / "sweep", jobs=2,
+                               progress=lambda view: ended.append(view.finished))
+        self.assertEqual(ended, [1, 2])
+        self.assertEqual(list(table["load.pressure"]), [0.002, 0.006])
+        mu = amontons.run(FIG1, {**SMALL, "load.pressure": 0.006}).mu_max
+        self.assertAlmostEqual(table["mu_max"][1], mu, places=8)
+        if has("pandas"):
+            self.assertEqual(type(table).__name__, "DataFrame")
+        sys.modules["pandas"] = None   # as where it is not installed
+        try:
+            plain = amontons.read_table(self.folder / "sweep/sweep.csv")
+        finally:
+            del sys.modules["pandas"]
+        self.assertIsInstance(plain, dict)
+        self.assertEqual(list(plain["mu_max"]), list(table["mu_max"]))
+
+    def test_info_and_keys(self):
+        self.assertEqual(amontons.keys(), self.program("info", "keys"))
+        self.assertEqual(amontons.info(FIG1, SMALL), self.program("info", FIG1, *[
+            word for key, value in SMALL.items()
+            for word in ("--set", f"{key}={'none' if value is None else json.dumps(value)}")]))
+        amontons.info(FIG1, SMALL, picture=self.folder / "mesh.png")
+        self.assertEqual((self.folder / "mesh.png").read_bytes()[:4], b"\x89PNG")
+        self.assertEqual(amontons.data_folder(), SOURCE)
+        self.assertIn(amontons.version(), self.program("--version"))
+
+    def test_pictures(self):
+        result = amontons.run(FIG1, SMALL, self.folder / "run")
+        self.assertEqual([path.name for path in amontons.render(result, ["force"])], ["force.png"])
+        if not has("matplotlib"):
+            self.skipTest("no matplotlib here")
+        import matplotlib
+        matplotlib.use("Agg")
+        axes = result.plot_force()
+        line = axes.lines[0].get_xydata()
+        np.testing.assert_array_equal(line[:, 1], result.history.mu)
+        axes.figure.savefig(self.folder / "force.png")
+        result.plot_slip_map().figure.savefig(self.folder / "map.png")
+
+    @unittest.skipUnless(has("matplotlib"), "no matplotlib here")
+    def test_page(self):
+        """The examples of docs/python.md, as they stand there."""
+        blocks = re.findall(r"```python\n(.*?)```", (SOURCE / "docs/python.md").read_text(), re.S)
+        said = [subprocess.run([sys.executable, "-c", block], capture_output=True, text=True, cwd=self.folder, check=True,
+                               env=dict(os.environ, PYTHONPATH=str(MODULE), MPLBACKEND="Agg")).stdout for block in blocks]
+        self.assertEqual(len(said), 2)
+        self.assertTrue((self.folder / "force.png").is_file())
+        self.assertIn("slip may grow; fastest at x =", said[1])
+
+
+if __name__ == "__main__":
+    unittest.main()
