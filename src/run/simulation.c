@@ -161,9 +161,7 @@ bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *fini
     simulation->timing.solve += clock_seconds() - started;
     TRY(record_step(simulation, err));
     bool implicit = simulation->scene.time.scheme != SCHEME_EXPLICIT;
-    if (implicit)
-        TRY(pace_check(&simulation->pace, control->counters.accepted, control->now.time,
-                       simulation->t_end, err));
+    if (implicit) TRY(step_control_gets_on(control, simulation->t_end, err));
     // What is left is less than a rung that is built: not worth a factorisation.
     remaining = simulation->t_end - control->now.time;
     *finished = remaining <= 1e-9 * simulation->t_end ||

@@ -10,7 +10,6 @@
 #include "record/contact_arrays.h"
 #include "record/fields.h"
 #include "record/history.h"
-#include "run/pace.h"
 #include "run/report.h"
 #include "run/result_folder.h"
 #include "stepping/explicit_reference.h"
@@ -24,7 +23,6 @@ struct Simulation {
     Rod rod;   // where it is and what it does now; owned
     int64_t relaxation_steps;
     StepControl control;
-    Pace pace;
     ExplicitReference explicit_reference;   // empty under another scheme
     int64_t explicit_steps;   // of it in a recording interval
     Observation seen;   // the last accepted step

@@ -30,6 +30,10 @@ enum { UNCERTIFIED_DROP = 3 };
 // in the paper, out of it: with 0.03 the second peak of Figure 1's block moved by up to 1 %.
 static const double SMALL_OSCILLATION = 0.01;
 
+// Steps to go, at which a run is given up. A thousand stick-slip cycles on 20 cells are 2e5 steps,
+// and cost a minute.
+static const double STEPS_LEFT_MAX = 1e8;
+
 // The ladder begins at step_max doubled as often as relaxing may need; which rung a run may take at
 // the longest is `coarsest`.
 bool step_control_create(const Block *block, const StepControlDef *def, StepControl *control,
@@ -72,6 +76,8 @@ void step_control_restart(StepControl *control)
     control->now.time = 0;
     control->counters = (StepCounters){0};
     control->hold = control->hold_end = 0;   // counted in accepted steps
+    control->looked_steps = 0;
+    control->looked_time = 0;
     for (int32_t k = 0; k < LADDER_RUNGS_MAX; k++) control->ladder.accepted[k] = 0;
     control->ledger = energy_open(&control->now);
     oscillation_record_clear(&control->oscillations);
@@ -230,6 +236,25 @@ bool step_control_fits(const StepControl *control, double remaining)
         if (ladder->rung[k]) return ladder_step(ladder, k) <= remaining * (1 + 1e-9);
     }
     return remaining > 0;
+}
+
+bool step_control_gets_on(StepControl *control, double end, Error *err)
+{
+    int64_t steps = control->counters.accepted - control->looked_steps;
+    if (steps < STEPS_LOOKED) return true;
+    double step = (control->now.time - control->looked_time) / (double)steps;
+    double left = (end - control->now.time) / step;
+    control->looked_steps = control->counters.accepted;
+    control->looked_time = control->now.time;
+    if (left > STEPS_LEFT_MAX)
+        FAIL(err, ERROR_COMPUTE,
+             "steps of %.2g are the longest that are accepted, and the end is %.1e of "
+             "them away: slip has come to a state that weakens faster than viscosity can damp on "
+             "an element. Smaller elements at the contact, less pressure or a larger "
+             "friction.critical_velocity would help",
+             step, left);
+cleanup:
+    return error_is_clean(err);
 }
 
 // Looks for real growth in `now` on the rungs that are built: some small factorisations, so only

@@ -17,6 +17,8 @@
 #include "stepping/sdirk.h"
 #include "stepping/oscillation_record.h"
 
+enum { STEPS_LOOKED = 20000 };   // an event takes some hundred
+
 typedef struct StepControlDef {
     TableauKind scheme;
     double tolerance;   // of the local error of u in one step, length. The estimate is that error
@@ -56,6 +58,8 @@ typedef struct StepControl {
     bool settles;   // see step_control_settle
     int64_t hold;   // steps for which no longer one is tried, after growth was met
     int64_t hold_end;   // accepted steps when that is over
+    int64_t looked_steps;   // accepted when step_control_gets_on looked last
+    double looked_time;   // reached then
     StepCounters counters;
 } StepControl;
 
@@ -69,6 +73,11 @@ bool step_control_advance(StepControl *control, double remaining, Error *err);
 
 // Whether a rung that is built is at most `remaining` long: what is less is not worth a new one.
 bool step_control_fits(const StepControl *control, double remaining);
+
+// After each accepted step. ERROR_COMPUTE: at the pace of the last STEPS_LOOKED the time `end`
+// would take more than 1e8 more: a state lets no step be accepted but very short ones, and does not
+// change.
+bool step_control_gets_on(StepControl *control, double end, Error *err);
 
 // Until the next restart only the state reached in the end matters: steps may be as long as
 // relax_step, and nothing is asked of energy.

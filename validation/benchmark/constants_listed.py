@@ -166,6 +166,8 @@ NOT_A_CHOICE = {
     "stepping/explicit_reference.c": {
         "BLOCK_SIZE": "two 2 x 2 blocks", "NODE_SIZE": "u and v of a node"},
     "stepping/growth.h": {"GROWTH_KEPT": "rates shown", "GROWTH_SHIFTS_MAX": SIZE},
+    "stepping/step_control.h": {"STEPS_LOOKED": "steps between looks whether a run gets on"},
+    "stepping/step_control.c": {"STEPS_LEFT_MAX": "steps to go at which a run is given up"},
     "stepping/ladder.h": {"LADDER_RUNGS_MAX": SIZE},
     "stepping/tableau.c": {"VALUES_MAX": "stages and v_n"},
     "stepping/tableau.h": {"TABLEAU_STAGES_MAX": "of SDIRK3"},

@@ -196,6 +196,54 @@ static void test_energy_balance(void **state)
     assert_true(largest[0] > 2 * allowed && largest[1] <= allowed);
 }
 
+// A run to t = 1000, as far as it has come.
+typedef struct Run {
+    StepControl control;
+    Error err;
+} Run;
+
+// `count` steps of dt each; false: refused.
+static bool go_on(Run *run, int64_t count, double dt)
+{
+    for (int64_t k = 0; k < count; k++) {
+        run->control.now.time += dt;
+        run->control.counters.accepted++;
+        if (!step_control_gets_on(&run->control, 1000, &run->err)) return false;
+    }
+    return true;
+}
+
+// Many short steps between long ones, as in an event, are no standstill.
+static void test_short_steps_that_end(void **state)
+{
+    (void)state;
+    Run run = {0};
+    assert_true(go_on(&run, STEPS_LOOKED / 2, 1e-2));
+    assert_true(go_on(&run, STEPS_LOOKED - 10, 1e-9));
+    assert_true(go_on(&run, STEPS_LOOKED, 1e-2));
+}
+
+// 1000 away at 1e-6: 1e9 steps.
+static void test_standstill(void **state)
+{
+    (void)state;
+    Run run = {0};
+    assert_true(go_on(&run, STEPS_LOOKED / 2, 1e-2));
+    assert_false(go_on(&run, 3 * STEPS_LOOKED, 1e-6));
+    assert_in_range(run.control.counters.accepted, STEPS_LOOKED, 2 * STEPS_LOOKED);
+    assert_int_equal(run.err.code, ERROR_COMPUTE);
+    assert_non_null(strstr(run.err.message, "steps of 1e-06"));
+    assert_non_null(strstr(run.err.message, "9.0e+08"));
+}
+
+// 1e7 steps to go are many, and no reason to refuse.
+static void test_long_runs(void **state)
+{
+    (void)state;
+    Run run = {0};
+    assert_true(go_on(&run, 2 * STEPS_LOOKED, 1e-4));
+}
+
 // In the loop nothing is allocated but new rungs.
 static void test_allocations(void **state)
 {
@@ -244,6 +292,9 @@ int main(void)
         cmocka_unit_test(test_remaining),
         cmocka_unit_test(test_gives_up),
         cmocka_unit_test(test_energy_balance),
+        cmocka_unit_test(test_short_steps_that_end),
+        cmocka_unit_test(test_standstill),
+        cmocka_unit_test(test_long_runs),
         cmocka_unit_test(test_allocations),
         cmocka_unit_test(test_memory_faults),
     };
