@@ -77,6 +77,13 @@ void warnings_of_slip(const Scene *scene, const Interface *interface, const Even
     if (!least || least->slip_cells >= CELLS_ENOUGH) return;
     if (interface->pad_count > 1 && interface->pad_name)
         snprintf(where, sizeof where, "pad \"%s\"", interface->pad_name[least->pad]);
+    if (least->slip_cells == 0) {
+        warnings_add(warnings,
+                     "slip is not resolved: a node of %s jumped, with no slow slip on it before: "
+                     "%s, and compare mu_M and mu_hold",
+                     where, finer_mesh(scene));
+        return;
+    }
     warnings_add(warnings,
                  "slip is not resolved: slow slip turned fast when only %.3g cells of %s slipped "
                  "(a length of %.3g); with fewer than %g mu_M and mu_hold can be several per cent "

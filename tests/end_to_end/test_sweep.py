@@ -323,7 +323,7 @@ class Sweep(unittest.TestCase):
 
     def test_warnings(self):
         """On the terminal, in both tables and in both pictures, of the points whose run.json has them."""
-        study = self.study(STUDY.replace("[0.003, 0.006]", "[0.003, 0.012]") + "rank: {by: mu_max}\n"
+        study = self.study(STUDY.replace("[0.003, 0.006]", "[0.003, 0.06]").replace("nx: 10", "nx: 20") + "rank: {by: mu_max}\n"
                            "plot: {x: load.pressure, y: mu_max, series: mesh.set.length}\n")
         done = self.sweep(study=study)
         rows = self.table()
@@ -331,7 +331,7 @@ class Sweep(unittest.TestCase):
         self.assertEqual([row["warnings"] for row in rows], [" // ".join(words) for words in said])
         count = sum(1 for words in said if words)
         self.assertIn(count, range(1, 8))
-        self.assertRegex(done.stdout, rf"\n{count} of 8 points: slip is not resolved: .* at \d+ to \d+ of 11 contact nodes.*\n  points ")
+        self.assertRegex(done.stdout, rf"\n{count} of 8 points: slip is not resolved: .* at 21 of 21 contact nodes.* elements [\d.]+ to [\d.]+ times .*\n  points ")
         self.assertEqual(len(re.findall(r"  warned  ", done.stderr)), count)
         with h5py.File(self.folder / "out/sweep.h5") as file:
             words = file.attrs["warnings words"].split("|")
