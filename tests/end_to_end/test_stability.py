@@ -125,7 +125,7 @@ class Answers(InFolder):
         table = rows(start.stdout)
         self.assertAlmostEqual(table[-1, 0], 1)
         # The last row is where the front was found at the end, perhaps after the block fell: the
-        # one before still bears nearly mu_S.
+        # one before is still nearly at mu_S.
         self.assertGreater(table[-2, 3], 0.35)
         self.assertLess(rows(self.done.stdout)[0, 3], 0.2)   # at rest after sliding: about mu_K
 
