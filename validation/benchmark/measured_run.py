@@ -101,7 +101,8 @@ def commit():
         found = git("log", "-1", "--format=%h", *program).stdout.strip()
         if found:
             return found + "-dirty" * (git("diff", "--quiet", "HEAD", *program).returncode == 1)
-    return subprocess.run([PROGRAM, "--version"], capture_output=True, text=True).stdout.strip()
+    said = subprocess.run([PROGRAM, "--version"], capture_output=True, text=True).stdout
+    return said.partition("\n")[0]
 
 
 def markdown_row(cells):
