@@ -123,16 +123,30 @@ void map_page_draw_field(const Page *page, const ResultView *view, const MapPage
     if (axes->y.high > covered) gap_draw(page, axes, covered, axes->y.high);
 }
 
+// The x up to which the nodes of one pad, from its trailing end on, do not stick.
+static double pad_front(const ResultView *view, int64_t row, int32_t first, int32_t last)
+{
+    static const double stick = 1;
+    const double *status = view->status + row * view->nodes;
+    double front = view->x[first];
+    for (int32_t i = first; i <= last && status[i] != stick; ++i) front = view->x[i];
+    return front;
+}
+
+// A front a pad: one line over all of them would leap over gaps, and would not see what goes on
+// ahead of the first node that sticks.
 bool map_page_draw_front(const Page *page, const ResultView *view, const MapPage *map, Error *err)
 {
     Stroke stroke = {.color = INK, .width = FRONT_WIDTH * page->point};
     Point *line = NULL;
-    int64_t count = 0;
     TRY(line = NEW_ARRAY(Point, view->rows, err));
-    for (int64_t row = 0; row < view->rows; ++row)
-        line[count++] = axes_place(&map->axes, view->U[row], view->front[row]);
     canvas_clip(page->canvas, &map->axes.box);
-    shape_line(page->canvas, &stroke, line, count);
+    for (int32_t first = 0, last = 0; first < view->nodes; first = ++last) {
+        while (last + 1 < view->nodes && view->pad[last + 1] == view->pad[first]) ++last;
+        for (int64_t row = 0; row < view->rows; ++row)
+            line[row] = axes_place(&map->axes, view->U[row], pad_front(view, row, first, last));
+        shape_line(page->canvas, &stroke, line, view->rows);
+    }
     canvas_clip(page->canvas, NULL);
 cleanup:
     memory_free(line);

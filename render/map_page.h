@@ -27,7 +27,7 @@ bool map_page_fill(const ResultView *view, const double *status, MapPage *map, E
 
 // Draws the grid, whose values are now 0 to 1 of the colour map or a HeatLevel, and the pads' gaps.
 void map_page_draw_field(const Page *page, const ResultView *view, const MapPage *map);
-// The front l(U) as a thin line.
+// The front l(U) of each pad as a thin line; the statuses have been read.
 bool map_page_draw_front(const Page *page, const ResultView *view, const MapPage *map, Error *err);
 // Frame, axes, the pads' names and bar: last.
 void map_page_draw_frame(const Page *page, const ResultView *view, const MapPage *map);

@@ -152,7 +152,6 @@ bool result_view_open(const char *folder, ResultView *view, Error *err)
     view->si = strcmp(units, "si") == 0;
     TRY(scalar_read(view, SERIES_ROD, &view->U, err));
     TRY(scalar_read(view, SERIES_MU, &view->mu, err));
-    TRY(scalar_read(view, SERIES_FRONT, &view->front, err));
     TRY(range_check(view, err));
     TRY(nodes_read(view, err));
     TRY(lines_read(view, "pads", &view->pad_names, err));
@@ -185,7 +184,6 @@ void result_view_close(ResultView *view)
     array_file_close(view->file, &ignored);
     memory_free(view->U);
     memory_free(view->mu);
-    memory_free(view->front);
     memory_free(view->x);
     memory_free(view->pad);
     memory_free(view->pad_names);

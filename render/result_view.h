@@ -24,7 +24,6 @@ typedef struct ResultView {
     int64_t rows;   // accepted steps, at least 2
     double *U;   // [rows] rod displacement, length; owned
     double *mu;   // [rows] 1; owned
-    double *front;   // [rows] length; owned
     int32_t nodes;   // contact nodes, at least 1
     double *x;   // [nodes] ascending, length; owned
     double *pad;   // [nodes] number of the contact curve; owned

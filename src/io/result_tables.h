@@ -23,7 +23,7 @@ typedef enum ResultColumns {
     X(SERIES_STEP, "series/step_size", ARRAY_FLOAT64, ONE, "time",                                 \
       "dt of the step that ended here")                                                            \
     X(SERIES_FRONT, "series/front", ARRAY_FLOAT64, ONE, "length",                                  \
-      "l: the slip region grown from the trailing edge ends at this x")                            \
+      "l: the slip region grown from the trailing edge, over gaps too, ends at this x")            \
     X(SERIES_MAX_SLIP_RATE, "series/max_slip_rate", ARRAY_FLOAT64, ONE, "velocity",                \
       "largest |slip rate| on the interface")                                                      \
     X(SERIES_CERTIFIED, "series/certified", ARRAY_UINT8, ONE, "1",                                 \

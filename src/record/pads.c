@@ -75,6 +75,15 @@ static int32_t count_slipped(const Pads *pads, const Interface *interface, int32
     return slipped;
 }
 
+// How much of pad p slipped before it turned fast, if it is on this pad that a rapid event has
+// begun; NaN where the event of another pad has run over it.
+static double slow_length(const Events *events, int32_t p)
+{
+    if (!events->began) return NAN;
+    const Event *event = &events->list[events->count - 1];
+    return event->pad == p ? event->slip_length : NAN;
+}
+
 // now: loads where mu was largest so far, and the first U of what happens once. *detaching: one
 // more where the pad has just lost its last sticking node; those of one step share their order.
 static void follow_pad(Pads *pads, const Observation *seen, int32_t p, int32_t *detaching)
@@ -98,7 +107,7 @@ static void follow_pad(Pads *pads, const Observation *seen, int32_t p, int32_t *
         pad->rapid = true;
         now->U_rapid = seen->U;
         now->t_rapid = seen->t;
-        now->slow_length = pads->events->pads_before[p].slipping;
+        now->slow_length = slow_length(pads->events, p);
     }
     if (sum->fastest < pads->events->rate_stop) pad->rapid = false;
 }

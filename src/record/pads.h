@@ -17,7 +17,8 @@ typedef struct PadCycle {
     double U_detached;   // when all of it has slipped since the sliding before, length
     int32_t order;   // of that, from 1; pads that detach in the same step share it
     double U_rapid, t_rapid;   // when it slips rapidly for the last time before sliding
-    double slow_length;   // how much of it slipped just before: l_c of the pad, length
+    double slow_length;   // how much of it slipped just before: l_c of the pad, length; NaN: slip
+        // of another pad ran over it
 } PadCycle;
 
 typedef struct Pad {

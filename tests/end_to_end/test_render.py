@@ -336,6 +336,28 @@ class Variants(unittest.TestCase):
         row, column = frame.pixel(0.98, x[pad == 2].mean())
         self.assertTrue(is_color(picture[row, column], STICK))
 
+    def test_a_front_a_pad(self):
+        """The pad in the middle slips up to its node 10, the others stick: a line on each, none across a gap."""
+        def slips(data, _):
+            middle = np.flatnonzero(data["nodes/pad"] == 1)[:11]
+            for array, rest, value in ("slip_rate", 0, 0.5 * fixture.V), ("status", 1, 2):
+                data[f"interface/{array}"][:] = rest
+                data[f"interface/{array}"][:, middle] = value
+        data, _ = fixture.make(self.folder, nodes=90, pads=3, change=slips)
+        self.draw("contact-density")
+        picture = read_picture(self.folder, "contact-density")
+        frame = Frame(picture, BLUE)
+        x, pad = data["nodes/x"], data["nodes/pad"]
+        for across in (0.2, 0.7):
+            column = frame.pixel(across, 0.5)[1]
+            inside = slice(frame.pixel(0, 0.98)[0], frame.pixel(0, 0.02)[0])
+            lines = groups(is_color(picture[inside, column], INK, 60))
+            wanted = [frame.pixel(0, place)[0] - inside.start
+                      for place in (x[pad == 2][0], x[pad == 1][10])]   # that of the first pad lies on the frame
+            self.assertEqual(len(lines), 2)
+            for line, row in zip(lines, wanted):
+                self.assertAlmostEqual(line, row, delta=3)
+
     def test_pads_are_marked(self):
         """A bar beside the frame along each pad, none along the gaps and for a plain block; names of
         one's own take the room they need."""
@@ -465,7 +487,7 @@ class Variants(unittest.TestCase):
             data["series/mu"] = np.linspace(0, 0.1, len(data["series/mu"]))
 
         def holes(data, _):
-            for name in ("series/mu", "series/rod_displacement", "series/front"):
+            for name in ("series/mu", "series/rod_displacement"):
                 data[name] = data[name].copy()
                 data[name][::7] = np.nan
             data["interface/slip_rate"][::5, ::3] = np.nan

@@ -93,7 +93,7 @@ static void test_cycle(void **state)
     assert_near("rapid", left->t_rapid, 3, 0);
     assert_near("rapid", right->U_rapid, 0.4, 1e-15);
     assert_near("l_c", left->slow_length, 0.375, 1e-15);
-    assert_near("l_c", right->slow_length, 0, 0);
+    assert_true(isnan(right->slow_length));   // the left pad's slip ran over it
     fixture_destroy(&fixture);
 }
 
@@ -120,6 +120,7 @@ static void test_next_cycle(void **state)
     assert_near("then", pads->list[0].last.U_detached, 0.6, 1e-15);
     assert_true(pads->list[1].last.order == 1 && pads->list[0].last.order == 2);
     assert_near("l_c", pads->list[0].last.slow_length, 0.625, 1e-15);
+    assert_true(isnan(pads->list[1].last.slow_length));
     fixture_destroy(&fixture);
 }
 
