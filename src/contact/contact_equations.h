@@ -3,7 +3,7 @@
 // Mech. Eng. 92, 1991, in their status form), and their derivatives. With r = S v - g, an unknown
 // that is not held has the equation
 //
-//     open, or rod node let go        E_k = r_k
+//     open node, rod node off         E_k = r_k
 //     slipping tangent t of normal n  E_t = r_t + s mu(|v_t|) r_n,       s = +1, -1: sign of slip
 //     soft rod node that touches      E_x = r_x + stiffness (v_x - bound_x)
 //

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Rounding of sweeps adds up, to and fro as well, and S itself is at hand: the copy is renewed when
-// it was swept so often that renewing costs less than it has cost already.
+// Rounding of sweeps adds up. So the copy is made anew from S when it was swept so often that this
+// costs less than the sweeps so far.
 #include "contact/contact_matrix.h"
 
 #include "base/dense.h"

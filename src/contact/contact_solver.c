@@ -52,7 +52,7 @@ void contact_solver_destroy(ContactSolver *solver)
 typedef struct Solve {
     ContactSolver *solver;   // not owned
     ContactEquations equations;   // free: tangents of nodes that slip, rod nodes that are soft or
-        // have let go; ascending. Open nodes are free as well, and condensed out
+        // do not touch; ascending. Open nodes are free as well, and condensed out
     int32_t open_count;   // unknowns of open nodes, in solver->open
     ContactScales scales;
     int32_t iterations, limit;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Active-set Newton for the contact problem of one stage (Alart and Curnier, Comp. Meth. Appl.
 // Mech. Eng. 92, 1991, in its status form). For given statuses the unknowns are the slipping
-// tangents, both components of open nodes and the rod nodes that are soft or have let go; all else
+// tangents, both components of open nodes and the rod nodes that are soft or do not touch; all else
 // is held. One Newton step on those (contact/contact_equations), then every status is checked
 // against its own conditions and changed where it violates them. Open nodes are condensed out
 // (contact/contact_matrix). The linear system is dense and unsymmetric; its factors are kept with

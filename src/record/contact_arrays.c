@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-// law is borrowed for good.
+// law must outlive the arrays.
 bool contact_arrays_create(const Interface *interface, const FrictionLaw *law,
                            ContactArrays *arrays, Error *err)
 {

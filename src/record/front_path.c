@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-// At a node its neighbour has no say: the front may have stopped there.
+// So near to a node the next one does not count: the front may have stopped there.
 static const double AT_NODE = 1e-6;   // of the way to the next
 
 static void place_stations(const Interface *interface, FrontPath *path)

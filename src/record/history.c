@@ -13,7 +13,7 @@
 static const double FLUSH_EVERY = 2.0;   // s; what a kill -9 may cost
 
 // head: title, units and numbers are set; what belongs to the nodes is added here and points into
-// `history` and `interface`, which must outlive the call. contact is borrowed for good.
+// `history` and `interface`, which must outlive the call. `contact` must outlive the history.
 bool history_create(const char *folder, ResultHead *head, const Interface *interface,
                     const ContactArrays *contact, History *history, Error *err)
 {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is read off an accepted step, once, for everybody who records: forces, front, rates, and how
-// well the step keeps its balances. Each is handed to the recorders in the order in which they were
-// added; a recorder is whoever wants to see steps: events first (the others read them), then drops,
-// pads, history, fields, the caller.
+// What is read off an accepted step, once, for all recorders: forces, front, rates, and how well
+// the step keeps its balances. It is handed to them in the order in which they were added: events
+// first (the others read them), then drops, pads, history, fields, the caller.
 #ifndef AMONTONS_RECORD_OBSERVATION_H
 #define AMONTONS_RECORD_OBSERVATION_H
 

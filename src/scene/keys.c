@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The table. A key's place in Scene is an offset, so that one function sets every number and one
 // shows it; choices stand in the order of their enums. A new key needs its line here, a field in
-// scene/scene.h, and somebody who reads it; parsing, --set, run.json and the reference follow by
-// themselves.
+// scene/scene.h, and code that reads it; parsing, --set, run.json and the reference follow.
 #include "scene/keys.h"
 
 #include "base/text.h"

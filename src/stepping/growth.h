@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // How fast does a small disturbance of a quasi-static state grow? Around a state, with the moving
-// unknowns u (slipping tangents, open nodes, rod nodes let go, everything inside the block; what
-// sticks, is pressed or is pushed stays put), disturbances u exp(lambda t) obey
+// unknowns u (slipping tangents, open nodes, rod nodes that do not touch, everything inside the
+// block; what sticks, is pressed or is pushed does not move), disturbances u exp(lambda t) obey
 //
 //     P(lambda) u = 0,   P = lambda^2 M + lambda (C - W) + K,   row of a slipping tangent:
 //                        P_t + s mu(v) P_n                      (s: direction of slip)

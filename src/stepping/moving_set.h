@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The interface unknowns F that a small disturbance of a state moves, and the linearised equations
-// on them: tangents of slipping nodes, both unknowns of open nodes, rod nodes let go or soft. All
-// else stays put. A slipping node obeys r_t = -d mu(|v_t|) r_n, d the direction of slip, and r_n
-// answers to all that moves, so a disturbance v' of the velocities leaves in its row
+// on them: tangents of slipping nodes, both unknowns of open nodes, rod nodes that do not touch or
+// are soft. All else does not move. A slipping node obeys r_t = -d mu(|v_t|) r_n, d the direction
+// of slip, and r_n answers to all that moves, so a disturbance v' of the velocities leaves in its
+// row
 //
 //     (S v')_t + d mu (S v')_n - w v'_t,     w = -mu'(|v_t|) r_n >= 0, its weakening
 //                                            (linear law: (mu_S - mu_K) r_n / v_c below v_c).

@@ -116,7 +116,7 @@ static double estimate_error(Sdirk *scheme, const State *from, const State *to, 
 }
 
 // scheme->viscous = C v of a stage that was solved, from its own equation: rhs + r - M v/(gamma dt)
-// - gamma dt K v, M v and K v at hand.
+// - gamma dt K v, given M v and K v.
 static void find_viscous(Sdirk *scheme, const double *momentum, const double *elastic,
                          const ContactSolution *contact, double scaled)
 {

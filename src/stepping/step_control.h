@@ -83,8 +83,8 @@ bool step_control_gets_on(StepControl *control, double end, Error *err);
 // relax_step, and nothing is asked of energy.
 void step_control_settle(StepControl *control);
 
-// Explicit steps of one length in place of those that step_control_advance chooses; the ladder that
-// got the block here is let go. `scheme` is at `now`.
+// Explicit steps of one length in place of those that step_control_advance chooses; the ladder
+// so far is freed. `scheme` is at `now`.
 void step_control_use_explicit(StepControl *control, const ExplicitReference *scheme);
 bool step_control_advance_explicit(StepControl *control, ExplicitReference *scheme, int64_t steps,
                                    Error *err);
