@@ -193,3 +193,9 @@ bool json_find_text(const char *text, const char *path, char *value, int32_t siz
     value[length] = 0;
     return true;
 }
+
+bool json_is_whole(const char *text)
+{
+    const char *end = skip_value(text);
+    return end && !*skip_space(end);
+}

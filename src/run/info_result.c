@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A result in text: run.json says how the run ended (JSON is YAML, so the YAML reader reads it),
-// history.h5 what happened.
+// A result in text: run.json says how the run ended, history.h5 what happened.
 #include "run/info.h"
 
 #include "base/memory.h"
+#include "io/json_reader.h"
 #include "io/result_file.h"
-#include "io/yaml_document.h"
+#include "io/text_file.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-enum { PATH_SIZE = 1100, EVENTS_SHOWN_MAX = 200 };
+enum { PATH_SIZE = 1100, EVENTS_SHOWN_MAX = 200, REPORT_BYTES_MAX = 1 << 28 };
 
 // "  label   value +- error" for each of these entries of run.json that is there; the error is that
 // of `path`_error.
@@ -36,41 +36,48 @@ static const struct {
     {"errors.moment", "moment error"},
 };
 
-// A number with a point to six digits; all else as it stands.
-static void write_value(const char *text, FILE *out)
+// A number, to six digits where it is not whole, or a text; null: none.
+static void write_value(const char *text, const char *path, FILE *out)
 {
-    char *end = NULL;
-    double number = strtod(text, &end);
-    if (strchr(text, '.') && *end == 0)
-        fprintf(out, "%.6g", number);
+    char words[ERROR_MESSAGE_SIZE];
+    double number = NAN;
+    if (json_find_text(text, path, words, sizeof words))
+        fputs(words, out);
+    else if (!json_find_number(text, path, &number) || isnan(number))
+        fputs("none", out);
     else
-        fputs(text, out);
+        fprintf(out, fabs(number) < 1e15 && number == floor(number) ? "%.0f" : "%.6g", number);
 }
 
-// What is missing in run.json (a failed run has no mu_M) is left out.
+// What is missing in run.json (a failed run has no mu_M) is left out. It may be long: each event is
+// in it, and no tree is made of it.
 static bool write_run(const char *folder, FILE *out, Error *err)
 {
-    char path[PATH_SIZE];
-    YamlDocument *run = NULL;
+    char path[PATH_SIZE], *text = NULL;
+    int32_t size = 0, lines = 1;
     snprintf(path, sizeof path, "%s/run.json", folder);
     if (access(path, F_OK) != 0) {
         fprintf(out, "  no run.json: the run was killed, or is still under way\n");
         return true;
     }
-    TRY(yaml_read(path, &run, err));
+    TRY(text_file_read(path, REPORT_BYTES_MAX, &text, &size, err));
+    if (!json_is_whole(text)) {
+        for (const char *at = text; *at; at++) lines += *at == '\n';
+        FAIL(err, ERROR_INPUT, "%s:%d: ends before its last bracket: no run.json of ours", path,
+             lines);
+    }
     for (size_t k = 0; k < sizeof entries / sizeof entries[0]; k++) {
-        YamlNode node = yaml_look_up(run, entries[k].path);
-        if (node == YAML_NO_NODE) continue;
+        double error = NAN;
+        if (!json_may_hold(text, entries[k].path)) continue;
         fprintf(out, "  %-18s ", entries[k].label);
-        write_value(yaml_kind(run, node) == YAML_SCALAR ? yaml_text(run, node) : "none", out);
+        write_value(text, entries[k].path, out);
         snprintf(path, sizeof path, "%s_error", entries[k].path);
-        node = yaml_look_up(run, path);
-        if (node != YAML_NO_NODE && yaml_kind(run, node) == YAML_SCALAR)
-            fprintf(out, " +- %.1g", strtod(yaml_text(run, node), NULL));
+        if (json_find_number(text, path, &error) && isfinite(error))
+            fprintf(out, " +- %.1g", error);
         fputc('\n', out);
     }
 cleanup:
-    yaml_destroy(run);
+    memory_free(text);
     return error_is_clean(err);
 }
 

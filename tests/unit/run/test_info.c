@@ -124,6 +124,25 @@ static void test_scene(void **state)
     assert_faults_are_clean(path);
 }
 
+// A run of some seconds: thousands of events, 200000 values in run.json.
+static void test_long_result(void **state)
+{
+    static const char *const parts[] = {"mu_M               0.25\n", "accepted steps     7\n",
+                                        NULL};
+    enum { EVENTS = 50000, EACH = 60 };
+    char *text = malloc(EVENTS * EACH + 200);
+    char *end = text + sprintf(text, "{\"status\": \"done\", \"results\": {\"mu_M\": 0.25, "
+                                     "\"events\": [");
+    (void)state;
+    for (int32_t k = 0; k < EVENTS; k++)
+        end += sprintf(end, "%s{\"kind\": \"bounded\", \"U\": %d, \"x\": [1, 2]}",
+                       k > 0 ? ",\n" : "", k);
+    strcpy(end, "]}, \"steps\": {\"accepted\": 7}}");
+    write_text("run.json", text);
+    free(text);
+    assert_info_holds(folder, parts);
+}
+
 static void test_broken_results(void **state)
 {
     (void)state;
@@ -147,6 +166,7 @@ int main(void)
     assert_non_null(mkdtemp(folder));
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_result),
+        cmocka_unit_test(test_long_result),
         cmocka_unit_test(test_scene),
         cmocka_unit_test(test_broken_results),
     };
