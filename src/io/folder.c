@@ -19,8 +19,11 @@ bool folder_make(const char *path, Error *err)
         mkdir(part, 0777);   // a failure shows when the last one is made
         *slash = '/';
     }
-    if (mkdir(part, 0777) != 0 && errno != EEXIST)
-        FAIL(err, ERROR_FILE, "cannot make the folder %s: %s", path, strerror(errno));
+    if (mkdir(part, 0777) != 0 && errno != EEXIST) {
+        bool wrong_name = errno == ENAMETOOLONG || errno == ENOTDIR;   // no disk can help it
+        FAIL(err, wrong_name ? ERROR_INPUT : ERROR_FILE, "cannot make the folder %s: %s", path,
+             strerror(errno));
+    }
 cleanup:
     return error_is_clean(err);
 }

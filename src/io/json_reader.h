@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Looks single values up in a JSON text of our own (io/json_writer): nothing is kept, what is not
-// asked for is skipped. Called by study/sweep and run/info for run.json, which may hold thousands of
-// events.
+// asked for is skipped. Called by study/sweep and run/info for run.json, which may hold thousands
+// of events.
 #ifndef AMONTONS_IO_JSON_READER_H
 #define AMONTONS_IO_JSON_READER_H
 

@@ -15,8 +15,9 @@ bool model_read_mesh(Model *model, Error *err)
     const Scene *scene = model->scene;
     double started = clock_seconds();
     MeshFile file = {0};
-    TRY(mesh_file_read(scene->mesh.file, scene->mesh.parameters, scene->mesh.parameter_count, &file,
-                       err));
+    bool done = mesh_file_read(scene->mesh.file, scene->mesh.parameters,
+                               scene->mesh.parameter_count, &file, err);
+    TRY(scene_blame(scene, "mesh.file", done, err));
     TRY(mesh_build(&file, scene->mesh.file, &model->mesh, err));
     const Mesh *mesh = &model->mesh;
     model->length = mesh->x_max - mesh->x_min;
@@ -66,13 +67,15 @@ static bool add_loads(Model *model, Error *err)
     double reference = load_reference(scene), unit = 0;
     if (scene->load.pressure != 0) {
         double traction[2] = {0, -scene->load.pressure / reference};
-        TRY(mesh_curve(&model->mesh, scene->groups.top, &curve, err));
+        bool found = mesh_curve(&model->mesh, scene->groups.top, &curve, err);
+        TRY(scene_blame(scene, "groups.top", found, err));
         bulk_add_traction(&model->mesh, &curve, traction, bulk);
     }
     for (int32_t k = 0; k < scene->load.traction_count; k++) {
         const SceneTraction *given = &scene->load.tractions[k];
         double traction[2] = {given->x / reference, given->z / reference};
-        TRY(mesh_curve(&model->mesh, given->group, &curve, err));
+        bool found = mesh_curve(&model->mesh, given->group, &curve, err);
+        TRY(scene_blame(scene, "load.tractions", found, err));
         bulk_add_traction(&model->mesh, &curve, traction, bulk);
     }
     for (int32_t dof = 1; dof < bulk->dof_count; dof += 2) unit -= bulk->load[dof];
@@ -100,7 +103,12 @@ bool model_build_bulk(Model *model, Error *err)
                         .rod_height = middle,
                         .rod_width = width,
                         .rod_in_part = scene->rod.ends == ROD_ENDS_EXACT};
-    TRY(interface_build(&model->mesh, &def, &model->interface, err));
+    const Interface *interface = &model->interface;
+    bool done = interface_build(&model->mesh, &def, &model->interface, err);
+    const char *last = interface->rod_node             ? "rod.height"
+                       : interface->contact_count == 0 ? "groups.contact"
+                                                       : "groups.rod";
+    TRY(scene_blame(scene, last, done, err));
     model->full_dofs = model->bulk.dof_count;
 cleanup:
     return error_is_clean(err);
@@ -113,7 +121,8 @@ bool model_hold_supports(Model *model, Error *err)
     for (int32_t k = 0; k < scene->load.support_count; k++) {
         const SceneSupport *support = &scene->load.supports[k];
         MeshCurve curve;
-        if (!mesh_curve(&model->mesh, support->group, &curve, err)) return false;
+        bool found = mesh_curve(&model->mesh, support->group, &curve, err);
+        if (!scene_blame(scene, "load.supports", found, err)) return false;
         for (int32_t i = 0; i < curve.node_count; i++) {
             if (support->x) bulk_hold(2 * curve.nodes[i], &model->bulk);
             if (support->z) bulk_hold(2 * curve.nodes[i] + 1, &model->bulk);

@@ -217,7 +217,8 @@ static bool find_key(Model *model, char key[HASH_TEXT_SIZE], Error *err)
     const Scene *scene = model->scene;
     key[0] = 0;
     if (!is_reducible(scene) || scene->load.support_count > 0) return true;
-    return shape_key(scene, reduction_tolerance(scene), key, err);
+    bool done = shape_key(scene, reduction_tolerance(scene), key, err);
+    return scene_blame(scene, "mesh.file", done, err);
 }
 
 // Modes of another mesh: gmsh made this one otherwise than the one that was reduced. Always false.

@@ -37,7 +37,7 @@ static bool make_folder(const char *folder, Error *err)
     struct stat what;
     TRY(folder_make(folder, err));
     if (stat(folder, &what) != 0 || !S_ISDIR(what.st_mode))
-        FAIL(err, ERROR_FILE, "%s is a file, not a folder: choose another result folder (-o)",
+        FAIL(err, ERROR_INPUT, "%s is a file, not a folder: choose another result folder (-o)",
              folder);
     if (access(folder, W_OK | X_OK) != 0)
         FAIL(err, ERROR_FILE, "cannot write into %s: %s", folder, strerror(errno));

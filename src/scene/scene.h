@@ -119,6 +119,7 @@ typedef struct Scene {
         SceneNames figures;   // names of render's RENDER_FIGURES
     } output;
     bool given[SCENE_KEYS_MAX];   // by key of scene_keys(): stands in the file or a --set
+    int32_t line[SCENE_KEYS_MAX];   // where, in the file `path`, from 1; 0: not in that file
 } Scene;
 
 // Reads and checks a scene; `overrides` ([override_count]) are "key=value" as typed after --set,
@@ -128,6 +129,11 @@ typedef struct Scene {
 // is allowed; an unknown key comes with the nearest known one.
 bool scene_read(const char *path, const char *const *overrides, int32_t override_count,
                 Scene *scene, Error *err);
+
+// Passes on whether a use of the value of `key` was `done`. If not, the error is wrong input, and
+// says where that value stands: "FILE:LINE: KEY: ...", without a line where the file does not give
+// it.
+bool scene_blame(const Scene *scene, const char *key, bool done, Error *err);
 
 // The same with settings that stand in other documents (a study's, study/sweep/study): `key` as
 // after --set, the value a node. Errors show the place in those documents.

@@ -170,6 +170,7 @@ static bool store_defaults(Reader *reader, const char *group, Scene *scene, Erro
         if (length && (strncmp(key->name, group, length) != 0 || key->name[length] != '.'))
             continue;
         scene->given[k] = false;
+        scene->line[k] = 0;
         reader->sources[k] = (SceneValue){0};
         if (key->standard)
             TRY(scene_value_set(key, &value, scene, err));
@@ -196,6 +197,8 @@ static bool store_setting(Reader *reader, const Setting *setting, Scene *scene, 
         scene->given[scene_key_index(fields)] = true;
     }
     scene->given[setting->key] = true;
+    bool inside = value.document == reader->file;
+    scene->line[setting->key] = inside ? yaml_line(value.document, value.node) : 0;
     reader->sources[setting->key] = value;
 cleanup:
     return error_is_clean(err);
@@ -318,6 +321,17 @@ bool scene_read_settings(const char *path, const SceneSetting *settings, int32_t
 cleanup:
     destroy_reader(&reader);
     return error_is_clean(err);
+}
+
+bool scene_blame(const Scene *scene, const char *key, bool done, Error *err)
+{
+    int32_t index = scene_key_index(key);
+    if (done || err->code != ERROR_INPUT) return done;
+    if (scene->line[index] > 0)
+        error_context(err, "%s:%d: %s", scene->path, scene->line[index], key);
+    else
+        error_context(err, "%s: %s%s", scene->path, key, scene->given[index] ? ", as set" : "");
+    return false;
 }
 
 // --- the public face ----------------------------------------------------------------------------

@@ -127,6 +127,31 @@ class Misuse(InFolder):
         line, caret = shown.splitlines()[-2:]
         self.assertEqual(line[caret.index("^"):][:4], "yung")
 
+    def test_what_the_mesh_contradicts(self):
+        """Found after the scene was read: the same place, as line and key."""
+        text = FIG1.read_text().replace("../../meshes", str(SOURCE / "meshes")) + "groups: {rod: rod}\n"
+        for line, old, new, key in ((4, "block.geo", "blok.geo", "mesh.file"), (9, "height: 0.25", "height: 3", "rod.height"),
+                                    (19, "rod: rod", "rod: stick", "groups.rod"), (19, "rod: rod", "top: lid", "groups.top"),
+                                    (19, "rod: rod", "contact: sole", "groups.contact")):
+            with self.subTest(key):
+                path = self.scene(text.replace(old, new))
+                self.assert_refused(["run", path, "-q", "--overwrite", *COARSE, *PLAIN], f"scene.yaml:{line}: {key}: ")
+        self.assert_refused(["run", FIG1, "-q", *COARSE, *PLAIN, "groups.top=lid"], "fig1.yaml: groups.top, as set: ")
+
+    def test_numbers_beyond_all_measure(self):
+        """Sizes whose products are 0 or infinite: steps of such a size were halved for ever."""
+        for setting in ("load.pressure=4.9e-324", "friction.critical_velocity=5e-324", "mesh.set.length=1e300"):
+            self.assert_refused(["run", FIG1, "-q", *COARSE, *PLAIN, setting], "numbers of a size from 1e-60 to 1e+60")
+
+    def test_result_folders_that_cannot_be(self):
+        """Wrong input, not a disk that fails."""
+        (self.folder / "file").write_text("x")
+        self.assert_refused(["run", FIG1, "-o", "file"], "is a file, not a folder")
+        self.assert_refused(["run", FIG1, "-o", "file/below"], "cannot make the folder")
+        self.assert_refused(["run", FIG1, "-o", 300 * "x"], "too long")
+        self.assert_refused(["stability", FIG1, "-o", "file"], "is a file, not a folder")
+        self.assert_refused(["sweep", SOURCE / "validation/pads/designs.yaml", "-o", "file"], "cannot make the folder")
+
     def test_files_of_no_known_kind(self):
         self.assert_refused(["info", "none"], "none: No such file")
         self.assert_refused(["info", self.folder], "not a result folder")

@@ -39,7 +39,7 @@ static void test_folders(void **state)
     snprintf(path, sizeof path, "%s/file", root);
     fclose(fopen(path, "w"));
     snprintf(below, sizeof below, "%s/under", path);
-    assert_fails(below, ERROR_FILE, "under: Not a directory");
+    assert_fails(below, ERROR_INPUT, "under: Not a directory");
     memset(lengthy, 'x', sizeof lengthy);
     lengthy[sizeof lengthy - 1] = 0;
     assert_fails(lengthy, ERROR_INPUT, "too long");

@@ -170,9 +170,9 @@ static void test_impossible_folders(void **state)
     char folder[PLACE_SIZE + 32];
     place_write(place, "file", "x");
     snprintf(folder, sizeof folder, "%s/file", place);
-    expect_error(folder, true, ERROR_FILE, "is a file, not a folder");
+    expect_error(folder, true, ERROR_INPUT, "is a file, not a folder");
     snprintf(folder, sizeof folder, "%s/file/below", place);
-    expect_error(folder, true, ERROR_FILE, "cannot make the folder");
+    expect_error(folder, true, ERROR_INPUT, "cannot make the folder");
     char endless[9000];
     memset(endless, 'x', sizeof endless);
     endless[sizeof endless - 1] = 0;
