@@ -10,6 +10,7 @@ packages=$(realpath "$1")
 mirror=${2-http://deb.debian.org/debian}
 root=$(mktemp -d /var/tmp/amontons-root-XXXXXX)
 trap 'umount "$root/dev/pts" "$root/proc" 2>/dev/null || true; rm -rf --one-file-system "$root"' EXIT
+chmod 755 "$root"
 set -x
 
 debootstrap --variant=minbase bookworm "$root" "$mirror" >"$root.log" 2>&1 || { tail "$root.log"; exit 1; }
@@ -20,7 +21,7 @@ mount -t devpts devpts "$root/dev/pts"
 cp /etc/resolv.conf "$root/etc/"
 cp "$packages"/*.deb "$root/var/tmp/"
 inside() { env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive ${http_proxy:+http_proxy="$http_proxy"} chroot "$root" "$@"; }
-as_user() { env -i PATH=/usr/bin:/bin HOME=/srv/user LC_ALL=C.UTF-8 chroot --userspec=user "$root" bash -c "cd && $1"; }
+as_user() { env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/srv/user LC_ALL=C.UTF-8 chroot --userspec=user "$root" bash -c "cd && $1"; }
 
 inside apt-get -q update | tail -n 1
 inside bash -c 'apt-get -q -y install --no-install-recommends /var/tmp/*.deb gcc libc6-dev make cmake pkg-config' | grep -E '^(The following|[0-9]+ upgraded|Setting up (amontons|libamontons|python3-amontons))'

@@ -201,6 +201,24 @@ def keys() -> str:
     return printed(lib.amontons_scene_reference)
 
 
+def cache() -> dict[str, Any]:
+    """The cache of reductions: `amontons cache`. folder, files, bytes, limit; entries: a list of (name, bytes, when it was
+    last used in s since 1970), the longest unused first."""
+    kept: list[tuple[str, int, float]] = []
+    summary = c.CacheSummary()
+    show = _callback(c.CacheCallback, lambda entry: kept.append((plain(entry.name), entry.bytes, entry.used)),
+                     ctypes.c_int(0))
+    call(lib.amontons_cache_list, show, None, ctypes.byref(summary))
+    return {**plain(summary), "entries": kept}
+
+
+def clean_cache() -> dict[str, Any]:
+    """Removes all of the cache: `amontons cache --clean`. files, bytes: what that was."""
+    removed = c.CacheSummary()
+    call(lib.amontons_cache_clean, ctypes.byref(removed))
+    return plain(removed)
+
+
 def data_folder() -> Path:
     """The folder of the meshes and example scenes that come with the library."""
     folder = ctypes.create_string_buffer(c.AMONTONS_PATH_SIZE)

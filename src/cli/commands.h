@@ -11,5 +11,6 @@ int command_model1d(int argc, char **argv);
 int command_sweep(int argc, char **argv);
 int command_render(int argc, char **argv);
 int command_info(int argc, char **argv);
+int command_cache(int argc, char **argv);
 
 #endif

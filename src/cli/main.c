@@ -25,6 +25,7 @@ static const Command commands[] = {
     {"sweep", command_sweep, "STUDY", "computes many runs over varied keys, into one table"},
     {"render", command_render, "RESULT", "draws the pictures of a stored result again"},
     {"info", command_info, "FILE", "prints what a mesh, a scene or a result holds"},
+    {"cache", command_cache, "", "says how large the cache of reductions is, or cleans it"},
 };
 
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };

@@ -71,6 +71,10 @@ static error_t take_word(int key, char *word, struct argp_state *state)
 // The exit status.
 static int check_words(const CommandText *text, const Reading *reading)
 {
+    if (!text->argument)
+        return reading->argument ? report_misuse("%s takes no argument, `%s` is one", text->name,
+                                                 reading->argument)
+                                 : 0;
     if (!reading->argument)
         return report_misuse("%s needs a %s, as in `%s`", text->name, text->what, text->example);
     if (reading->too_many) return report_misuse("%s takes one %s", text->name, text->what);

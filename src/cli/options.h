@@ -28,7 +28,7 @@ typedef struct Option {
 
 typedef struct CommandText {
     const char *name;   // "run"
-    const char *argument;   // "SCENE"
+    const char *argument;   // "SCENE"; NULL: none is taken
     const char *what;   // "scene", of which one must be given
     const char *example;   // `amontons run validation/paper/fig1.yaml`
     const char *help;   // before the list of options; and behind it, after a \v

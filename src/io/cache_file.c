@@ -5,6 +5,7 @@
 
 #include "base/hash.h"
 #include "base/memory.h"
+#include "io/cache_folder.h"
 #include "io/folder.h"
 #include "io/part_file.h"
 
@@ -26,20 +27,10 @@ typedef struct ArrayHead {
     int64_t spare;
 } ArrayHead;
 
-// Also false where the path would be too long.
 bool cache_file_path(const char *key, const char *ending, char path[CACHE_PATH_SIZE])
 {
     char folder[PATH_MAX];
-    const char *given = getenv("AMONTONS_CACHE"), *base = getenv("XDG_CACHE_HOME");
-    const char *home = getenv("HOME");
-    int length = -1;
-    if (given)
-        length = snprintf(folder, sizeof folder, "%s", given);
-    else if (base && base[0])
-        length = snprintf(folder, sizeof folder, "%s/amontons", base);
-    else if (home && home[0])
-        length = snprintf(folder, sizeof folder, "%s/.cache/amontons", home);
-    if (length <= 0 || length >= (int)sizeof folder) return false;
+    if (!cache_folder_path(folder)) return false;
     Error unseen = {0};   // a failure shows when the file is opened
     folder_make(folder, &unseen);
     snprintf(path, CACHE_PATH_SIZE, "%s/%s.%s", folder, key, ending);
@@ -59,6 +50,17 @@ static bool write_counted(PartFile *part, Hash *hash, const void *bytes, int64_t
 {
     hash_bytes(hash, bytes, (size_t)size);
     return part_file_write(part, bytes, size, err);
+}
+
+// A cache that cannot be looked through stays as it is: what was written is there.
+static void stay_below_limit(const char *path)
+{
+    Error unseen = {0};
+    CacheFolder folder = {0};
+    int64_t bytes = 0;
+    if (cache_folder_read(&folder, &unseen))
+        cache_folder_trim(&folder, cache_folder_limit(), path, &bytes);
+    cache_folder_destroy(&folder);
 }
 
 bool cache_file_write(const char *path, const char *key, const CacheArray *arrays, int32_t count,
@@ -85,6 +87,7 @@ bool cache_file_write(const char *path, const char *key, const CacheArray *array
     hash_write(&hash, digest);
     TRY(part_file_write(&part, digest, KEY_SIZE, err));
     TRY(part_file_commit(&part, err));
+    stay_below_limit(path);
 cleanup:
     part_file_discard(&part);
     return error_is_clean(err);
@@ -99,6 +102,9 @@ static bool read_bytes(const char *path, void **bytes, int64_t *size, Error *err
     int descriptor = open(path, O_RDONLY | O_CLOEXEC);
     if (descriptor < 0) return true;
     if (fstat(descriptor, &what) == 0 && S_ISREG(what.st_mode)) {
+        // Read now: io/cache_folder removes what was not for the longest time.
+        const struct timespec times[2] = {{.tv_nsec = UTIME_NOW}, {.tv_nsec = UTIME_OMIT}};
+        futimens(descriptor, times);
         *bytes = memory_bytes(what.st_size, err);
         while (*bytes && *size < what.st_size) {
             ssize_t got = read(descriptor, (char *)*bytes + *size, (size_t)(what.st_size - *size));

@@ -16,8 +16,7 @@
 enum { CACHE_NAME_SIZE = 32, CACHE_ARRAYS_MAX = 32, CACHE_PATH_SIZE = PATH_MAX + 64 };
 enum { CACHE_NOTE_SIZE = 256 };   // of a note: why something was not used, or not kept
 
-// CACHE/<key>.<ending>, where CACHE is $AMONTONS_CACHE, else $XDG_CACHE_HOME/amontons, else
-// ~/.cache/amontons; the folder is made. false: there is no cache ($AMONTONS_CACHE is empty).
+// CACHE/<key>.<ending> in the folder of io/cache_folder, which is made. false: there is no cache.
 bool cache_file_path(const char *key, const char *ending, char path[CACHE_PATH_SIZE]);
 
 typedef struct CacheArray {
@@ -33,7 +32,7 @@ typedef struct CacheFile {
 } CacheFile;
 
 // Writes beside `path` and renames. Where another process is writing the same file nothing is done,
-// which is no error.
+// which is no error. Where the cache is then above its limit, files unused for the longest time go.
 bool cache_file_write(const char *path, const char *key, const CacheArray *arrays, int32_t count,
                       Error *err);
 

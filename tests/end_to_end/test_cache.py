@@ -348,5 +348,27 @@ class NotTrusted(Cached):
             self.assertIsNone(reports[k]["model"]["cache_note"])
 
 
+class Command(Cached):
+    def ask(self, *words, cache=None):
+        environment = dict(os.environ, AMONTONS_CACHE=str(self.cache if cache is None else cache))
+        done = subprocess.run([BIN / "amontons", "cache", *words], env=environment, capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return done.stdout
+
+    def test_lists_and_cleans(self):
+        self.run_scene(settings=[*SHORT, *PLAIN])
+        files = self.files()
+        said = self.ask()
+        size = sum(path.stat().st_size for path in files)
+        self.assertIn(f"{self.cache}: {len(files)} files, {size / 1e6:.1f} MB; at most 2000.0 MB are kept\n", said)
+        for path in files:
+            self.assertIn(f" {path.name}\n", said)
+        (self.cache / "of the user").touch()
+        self.assertIn(f"removed {len(files)} files", self.ask("--clean"))
+        self.assertEqual([path.name for path in self.files()], ["of the user"])
+        self.assertIn(": 0 files", self.ask())
+        self.assertIn("there is no cache", self.ask(cache=""))
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -17,7 +17,7 @@ MODULES = Path(os.environ.get("AMONTONS_MODULES", SOURCE / "build/bin"))
 
 LAYERS = ["base", "io", "bulk", "contact", "stepping", "record", "scene", "model", "run", "study", "cli"]
 BELOW_SCENE = LAYERS[:LAYERS.index("scene")]
-PUBLIC = ("amontons.h", "amontons_model1d.h", "amontons_simulation.h", "amontons_stability.h")
+PUBLIC = ("amontons.h", "amontons_cache.h", "amontons_model1d.h", "amontons_simulation.h", "amontons_stability.h")
 STUDIES = ["study/stability", "study/line", "study/sweep"]
 OWN_INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
 

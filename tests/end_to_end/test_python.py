@@ -27,7 +27,7 @@ from amontons import _structs           # noqa: E402
 
 FIG1 = SOURCE / "validation" / "paper" / "fig1.yaml"
 SMALL = {"mesh.set.nx": 8, "mesh.set.nz": 8, "time.until": {"U": 0.004}, "output.fields": None, "output.figures": []}
-HEADERS = ["amontons_simulation.h", "amontons_stability.h", "amontons_model1d.h"]
+HEADERS = ["amontons_simulation.h", "amontons_stability.h", "amontons_model1d.h", "amontons_cache.h"]
 
 
 def has(module):
@@ -277,6 +277,18 @@ class Commands(InFolder):
         np.testing.assert_array_equal(line[:, 1], result.history.mu)
         axes.figure.savefig(self.folder / "force.png")
         result.plot_slip_map().figure.savefig(self.folder / "map.png")
+
+    def test_cache(self):
+        os.environ["AMONTONS_CACHE"] = str(self.folder / "cache")
+        try:
+            amontons.run(FIG1, SMALL)
+            files = sorted(path.name for path in (self.folder / "cache").iterdir())
+            found = amontons.cache()
+            self.assertEqual(sorted(name for name, *_ in found["entries"]), files)
+            self.assertEqual(found["bytes"], sum(size for _, size, _ in found["entries"]))
+            self.assertEqual((amontons.clean_cache()["files"], amontons.cache()["files"]), (len(files), 0))
+        finally:
+            os.environ["AMONTONS_CACHE"] = ""
 
     @unittest.skipUnless(has("matplotlib"), "no matplotlib here")
     def test_page(self):

@@ -91,7 +91,7 @@ class Program(unittest.TestCase):
     def test_table_has_every_command(self):
         """... that --help lists, and every word of the launcher."""
         said = subprocess.run([PROGRAM, "--help"], capture_output=True, text=True).stdout
-        commands = set(re.findall(r"^  (\w+) +[A-Z]+ ", said, re.M))
+        commands = set(re.findall(r"^  (\w+)  ", said, re.M))
         self.assertGreaterEqual(commands, {"run", "static", "info"})
         rows = "".join(re.findall(r"^\| `\./amontons .*", README, re.M))
         self.assertEqual(set(re.findall(r"`\./amontons (\w+)", rows)), commands | LAUNCHER)

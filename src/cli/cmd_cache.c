@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// `amontons cache`: how large the cache is, what was used when, and how to get rid of it.
+#include "amontons_cache.h"
+#include "cli/commands.h"
+#include "cli/options.h"
+
+#include <stdio.h>
+#include <time.h>
+
+enum { SHOWN_MAX = 20 };
+
+static const CommandText text = {
+    .name = "cache",
+    .help =
+        "Says where reductions of blocks are kept for the next run of the same shape, how large "
+        "the files are and when they were last used."
+        "\vThe folder is $AMONTONS_CACHE, else ~/.cache/amontons. When a new file makes it larger "
+        "than $AMONTONS_CACHE_LIMIT (bytes, or as in 500M, 10G; default 2G) those go that were "
+        "not used for the longest time. A run that finds nothing makes its reduction anew. "
+        "Examples:\n\n"
+        "  amontons cache\n"
+        "  amontons cache --clean"};
+
+// The last ones of the list: those used last.
+typedef struct Shown {
+    int64_t count;
+    CacheEntry list[SHOWN_MAX];
+    char names[SHOWN_MAX][64];
+} Shown;
+
+static void keep_entry(const CacheEntry *entry, void *context)
+{
+    Shown *shown = context;
+    int k = (int)(shown->count++ % SHOWN_MAX);
+    shown->list[k] = *entry;
+    snprintf(shown->names[k], sizeof shown->names[k], "%s", entry->name);
+}
+
+static void print_entries(const Shown *shown)
+{
+    int64_t count = shown->count < SHOWN_MAX ? shown->count : SHOWN_MAX;
+    if (count > 0) printf("\n  last used              MB  file\n");
+    for (int64_t back = 1; back <= count; back++) {
+        int k = (int)((shown->count - back) % SHOWN_MAX);
+        time_t used = (time_t)shown->list[k].used;
+        char when[32] = "";
+        struct tm local;
+        if (localtime_r(&used, &local)) strftime(when, sizeof when, "%Y-%m-%d %H:%M", &local);
+        printf("  %s %8.2f  %s\n", when, 1e-6 * (double)shown->list[k].bytes, shown->names[k]);
+    }
+    if (shown->count > count)
+        printf("  ... and %lld more, unused for longer\n", (long long)(shown->count - count));
+}
+
+int command_cache(int argc, char **argv)
+{
+    const char *none = NULL;
+    bool clean = false;
+    CacheSummary summary;
+    Shown shown = {0};
+    Error err = {0};
+    const Option options[] = {{"clean", 0, NULL, "Remove all files of the cache", .flag = &clean},
+                              {0}};
+    int status = options_read(&text, options, argc, argv, &none);
+    if (status != 0) return status;
+    bool done = clean ? amontons_cache_clean(&summary, &err)
+                      : amontons_cache_list(keep_entry, &shown, &summary, &err);
+    if (!done) return report_error(&err);
+    if (!*summary.folder) {
+        printf("there is no cache: AMONTONS_CACHE is empty\n");
+        return 0;
+    }
+    printf("%s: %s%lld files, %.1f MB", summary.folder, clean ? "removed " : "",
+           (long long)summary.files, 1e-6 * (double)summary.bytes);
+    printf(clean ? "\n" : "; at most %.1f MB are kept\n", 1e-6 * (double)summary.limit);
+    print_entries(&shown);
+    return 0;
+}

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What `amontons cache` asks of io/cache_folder.
+#include "amontons_cache.h"
+#include "io/cache_folder.h"
+
+#include <stdio.h>
+
+// A path that is too long for AMONTONS_PATH_SIZE is cut: it is shown only.
+static CacheSummary summary_of(const CacheFolder *folder)
+{
+    CacheSummary summary = {
+        .files = folder->count, .bytes = folder->bytes, .limit = cache_folder_limit()};
+    snprintf(summary.folder, sizeof summary.folder, "%.*s", AMONTONS_PATH_SIZE - 1, folder->path);
+    return summary;
+}
+
+bool amontons_cache_list(CacheCallback on_entry, void *context, CacheSummary *summary, Error *err)
+{
+    CacheFolder folder = {0};
+    TRY(cache_folder_read(&folder, err));
+    *summary = summary_of(&folder);
+    for (int32_t k = 0; on_entry && k < folder.count; k++) {
+        CacheEntry entry = {.name = folder.entries[k].name,
+                            .bytes = folder.entries[k].bytes,
+                            .used = folder.entries[k].used};
+        on_entry(&entry, context);
+    }
+cleanup:
+    cache_folder_destroy(&folder);
+    return error_is_clean(err);
+}
+
+bool amontons_cache_clean(CacheSummary *removed, Error *err)
+{
+    CacheFolder folder = {0};
+    TRY(cache_folder_read(&folder, err));
+    *removed = summary_of(&folder);
+    removed->files = cache_folder_trim(&folder, 0, NULL, &removed->bytes);
+    if (removed->files < folder.count)
+        FAIL(err, ERROR_FILE, "%d of %d files in %s could not be removed",
+             folder.count - (int32_t)removed->files, folder.count, folder.path);
+cleanup:
+    cache_folder_destroy(&folder);
+    return error_is_clean(err);
+}
