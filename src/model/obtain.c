@@ -13,6 +13,7 @@
 #include "model/shape_cache.h"
 
 #include <math.h>
+#include <stdio.h>
 
 // Of the interior's responses, in the energy norm.
 static const double REDUCTION_TOLERANCES[] = {
@@ -218,6 +219,9 @@ static bool find_key(Model *model, char key[HASH_TEXT_SIZE], Error *err)
     key[0] = 0;
     if (!is_reducible(scene) || scene->load.support_count > 0) return true;
     bool done = shape_key(scene, reduction_tolerance(scene), key, err);
+    if (done && !key[0] && scene->reduction.cache)
+        snprintf(model->cache_note, sizeof model->cache_note,
+                 "the mesh file draws on more than its own text: meshed anew");
     return scene_blame(scene, "mesh.file", done, err);
 }
 

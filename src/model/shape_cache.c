@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Whether a scene's shape is known is decided without gmsh: by the bytes of its mesh file, the
-// parameters it is given, and the keys of the scene that choose nodes.
+// parameters it is given, and the keys of the scene that choose nodes. A .geo that draws on more
+// than these (io/mesh_source) is meshed every time.
 //
 // What is read is checked against the counts that stand in the file itself (io/cache_file checks
 // that the file is whole), and anything that does not fit means that the shape is made anew.
@@ -8,14 +9,14 @@
 
 #include "base/memory.h"
 #include "io/cache_file.h"
-#include "io/text_file.h"
+#include "io/mesh_source.h"
 #include "model/basis_cache.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { MESH_BYTES_MAX = 1 << 28, COUNTS = 3 };
+enum { COUNTS = 3 };
 
 // Stands in every key, beside the basis's: a new meaning of the arrays below needs a new number.
 static const char FORMAT[] = "shape 8";
@@ -43,28 +44,6 @@ double load_reference(const Scene *scene)
         largest =
             fmax(largest, fmax(fabs(scene->load.tractions[k].x), fabs(scene->load.tractions[k].z)));
     return largest > 0 ? largest : 1;
-}
-
-// The mesh file's bytes; *whole is false when it draws on others.
-static bool hash_mesh(const Scene *scene, Hash *hash, bool *whole, Error *err)
-{
-    char *bytes = NULL;
-    int32_t size = 0;
-    TRY(text_file_read(scene->mesh.file, MESH_BYTES_MAX, &bytes, &size, err));
-    size_t length = strlen(scene->mesh.file);
-    bool is_geo = length > 4 && strcmp(scene->mesh.file + length - 4, ".geo") == 0;
-    // gmsh would read these too; a comment that says so costs a meshing, not a wrong answer.
-    *whole = !is_geo || (!strstr(bytes, "Include") && !strstr(bytes, "Merge"));
-    hash_text(hash, is_geo ? "geo" : "msh");
-    hash_bytes(hash, bytes, (size_t)size);
-    for (int32_t k = 0; k < scene->mesh.parameter_count; k++) {
-        hash_text(hash, scene->mesh.parameters[k].name);
-        hash_text(hash, scene->mesh.parameters[k].text);
-        hash_number(hash, scene->mesh.parameters[k].value);
-    }
-cleanup:
-    memory_free(bytes);
-    return error_is_clean(err);
 }
 
 // Where the rod and the loads act. Of the loads only their ratios: the basis answers to a unit
@@ -98,7 +77,8 @@ bool shape_key(const Scene *scene, double tolerance, char key[HASH_TEXT_SIZE], E
     double eta = scene->material.eta1 + scene->material.eta2;
     hash_text(&hash, BASIS_FORMAT);
     hash_text(&hash, FORMAT);
-    TRY(hash_mesh(scene, &hash, &whole, err));
+    TRY(mesh_source_hash(scene->mesh.file, scene->mesh.parameters, scene->mesh.parameter_count,
+                         &hash, &whole, err));
     hash_boundary(scene, &hash);
     hash_number(&hash, scene->material.poisson);
     hash_number(&hash, scene->material.plane);

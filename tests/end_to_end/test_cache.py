@@ -197,6 +197,7 @@ class SameBits(Cached):
             _, report = self.run_scene(*PLAIN, scene=scene)
             self.assertTrue(report["model"]["from_cache"])
             self.assertGreater(report["timing_s"]["mesh"], 0)
+            self.assertIn("draws on more than its own text", json.dumps(report))
         self.assertEqual(len(self.files()), count)
 
 

@@ -67,6 +67,25 @@ class Sweep(unittest.TestCase):
     def without_times(self, out):
         return [{key: value for key, value in row.items() if key not in TIMES} for row in self.table(out)]
 
+    def test_included_file_changes(self):
+        """The mesh that gmsh makes decides what is known before, not the bytes of the outer file alone."""
+        inner, outer = self.folder / "height.geo", self.folder / "block.geo"
+        block = (SOURCE / "meshes/block.geo").read_text()
+        self.assertEqual(block.count("    height = 0.5, "), 1)
+        outer.write_text('Include "height.geo";\n' + block.replace("    height = 0.5, ", "    height = inner, "))
+        study = self.study(f"title: t\nscene: {SOURCE}/validation/paper/fig1.yaml\n"
+                           f"set: {{mesh.file: {outer}, mesh.set: {{nx: 10, nz: 10}}, output.fields: none}}\n"
+                           "vary: {load.pressure: [0.006]}\n")
+        found = []
+        for height in (0.5, 0.5, 0.8):
+            inner.write_text(f"inner = {height};\n")
+            self.sweep("-j", "1", study=study)
+            with open(self.folder / "out/sweep.csv", newline="") as file:
+                found.append(list(csv.DictReader(file))[0])
+        self.assertEqual(found[0]["total_s"], found[1]["total_s"])   # known before
+        self.assertNotEqual(found[0]["run"], found[2]["run"])
+        self.assertNotEqual(found[0]["mu_M"], found[2]["mu_M"])
+
     def test_table_is_what_single_runs_say(self):
         self.sweep()
         rows = self.table()

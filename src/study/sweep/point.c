@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "io/json_reader.h"
 #include "io/json_writer.h"
+#include "io/mesh_source.h"
 #include "io/text_file.h"
 #include "scene/keys.h"
 #include "study/sweep/study_point.h"
@@ -14,18 +15,27 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { VALUE_SIZE = 8192, MESH_BYTES_MAX = 1 << 30, REPORT_BYTES_MAX = 1 << 28 };
+enum { VALUE_SIZE = 8192, REPORT_BYTES_MAX = 1 << 28 };
 
-// The content of the mesh file decides, not its path.
-static bool hash_mesh_file(const char *path, Hash *hash, Error *err)
+// The content of the mesh file decides, not its path; where it draws on others, the mesh that gmsh
+// makes of it with this point's parameters, every time.
+static bool hash_mesh(const Scene *scene, PointMesh *mesh, Error *err)
 {
-    char *bytes = NULL;
-    int32_t size = 0;
-    TRY(text_file_read(path, MESH_BYTES_MAX, &bytes, &size, err));
-    *hash = hash_start();
-    hash_bytes(hash, bytes, (size_t)size);
+    MeshFile made = {0};
+    bool whole = false;
+    if (strcmp(mesh->path, scene->mesh.file) == 0) return true;
+    mesh->hash = hash_start();
+    TRY(mesh_source_hash(scene->mesh.file, NULL, 0, &mesh->hash, &whole, err));
+    if (whole) {
+        memcpy(mesh->path, scene->mesh.file, SCENE_TEXT_SIZE);
+    } else {
+        Error failed = {0};   // it will be this point's own, when it is computed
+        if (mesh_file_read(scene->mesh.file, scene->mesh.parameters, scene->mesh.parameter_count,
+                           &made, &failed))
+            mesh_file_hash(&made, &mesh->hash);
+    }
 cleanup:
-    memory_free(bytes);
+    mesh_file_destroy(&made);
     return error_is_clean(err);
 }
 
@@ -37,10 +47,7 @@ bool point_hash(const Scene *scene, PointMesh *mesh, char text[HASH_TEXT_SIZE], 
     Hash hash = hash_start();
     char *words = NEW_ARRAY(char, VALUE_SIZE, err);
     TRY(words);
-    if (strcmp(mesh->path, scene->mesh.file) != 0) {
-        TRY(hash_mesh_file(scene->mesh.file, &mesh->hash, err));
-        memcpy(mesh->path, scene->mesh.file, SCENE_TEXT_SIZE);
-    }
+    TRY(hash_mesh(scene, mesh, err));
     hash_text(&hash, AMONTONS_VERSION);
     hash_bytes(&hash, &mesh->hash, sizeof mesh->hash);
     for (int32_t k = 0; k < count; k++) {

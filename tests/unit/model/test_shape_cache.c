@@ -158,13 +158,23 @@ static void test_no_key(void **state)
 {
     (void)state;
     char key[HASH_TEXT_SIZE];
-    const char *const draws[] = {"Include \"parts.geo\";\n", "Merge 'mesh.msh';\n",
+    const char *const draws[] = {"Include \"parts.geo\";\n",
+                                 "Merge 'mesh.msh';\n",
+                                 "h = StringToNumber(GetEnv(\"H\"));\n",
+                                 "v() = ShapeFromFile(\"x.brep\");\n",
+                                 "Field[1].FileName = \"sizes.dat\";\n",
                                  "Point(1) = {0, 0, 0}; // Include\n"};   // better once too often
-    for (int k = 0; k < 3; k++) {
+    for (size_t k = 0; k < sizeof draws / sizeof *draws; k++) {
         write_text("drawing.geo", draws[k]);
         key_with(1, "mesh: {file: drawing.geo}", TOLERANCE, key);
         assert_string_equal(key, "");
     }
+    write_text("drawing.geo", "Point(1) = {0, 0, 0};\n");
+    key_with(1, "mesh: {file: drawing.geo}", TOLERANCE, key);
+    assert_int_equal(strlen(key), HASH_TEXT_SIZE - 1);
+    write_text("drawing.geo.opt", "Mesh.MeshSizeFactor = 2;\n");   // gmsh reads it as well
+    key_with(1, "mesh: {file: drawing.geo}", TOLERANCE, key);
+    assert_string_equal(key, "");
     write_text("mesh.msh", "Include\n");   // a mesh holds no commands
     key_with(1, "mesh: {file: mesh.msh}", TOLERANCE, key);
     assert_int_equal(strlen(key), HASH_TEXT_SIZE - 1);
