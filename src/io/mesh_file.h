@@ -57,6 +57,9 @@ typedef struct MeshParameter {
     char text[GROUP_NAME_SIZE];   // non-empty: a string parameter, and `value` is not looked at
 } MeshParameter;
 
+// The parameter `refine` (cells so many times as small) is known to every mesh: where a .geo does
+// not declare it itself, gmsh halves all edges, so that it must be a power of two.
+//
 // Reads `path`: .msh (4.1 or 2.2, ASCII or binary), or .geo meshed in 2D with `parameters`.
 // Errors (ERROR_INPUT) name the file: missing, truncated, not a mesh, no elements, an element kind
 // that is not in ELEMENT_KINDS, a parameter the .geo does not know, a name used twice.

@@ -17,6 +17,7 @@
 
 // SCRIPT_NAME_SIZE: "/proc/self/fd/" and an int. MESH_ADAPT_QUADS: a value of Mesh.Algorithm.
 enum { SCRIPT_NAME_SIZE = 40, MESH_ADAPT_QUADS = 8, LOCALE_SIZE = 200 };
+enum { MSH_TRI_3 = 2, MSH_QUA_4 = 3, MSH_QUA_8 = 16 };   // gmsh's element types
 
 // gmsh's first error of this session, NULL: none. `log`: what gmshLoggerGet gave.
 static const char *first_error(char **log, size_t count)
@@ -157,6 +158,25 @@ static bool gmsh_load(const MeshRawRequest *request, Error *err)
     gmshModelMeshGenerate(2, &status);
     if (status || gmsh_complained()) fail_with_log(request, "meshing it", err);
 cleanup:
+    return error_is_clean(err);
+}
+
+// Halves every edge `splits` times. gmsh makes linear elements of it, which get their order back;
+// new nodes are put onto the geometry where there is one (a .geo).
+static bool gmsh_split(const MeshRawRequest *request, Error *err)
+{
+    int *types = NULL, status = 0, order = 1;
+    size_t count = 0;
+    if (request->splits == 0) return true;
+    gmshModelMeshGetElementTypes(&types, &count, 2, -1, &status);
+    for (size_t k = 0; k < count; k++) {
+        if (types[k] != MSH_TRI_3 && types[k] != MSH_QUA_4) order = 2;
+        if (types[k] == MSH_QUA_8) gmshOptionSetNumber("Mesh.SecondOrderIncomplete", 1, &status);
+    }
+    for (int32_t k = 0; k < request->splits && status == 0; k++) gmshModelMeshRefine(&status);
+    if (status == 0 && order > 1) gmshModelMeshSetOrder(order, &status);
+    if (status || gmsh_complained()) fail_with_log(request, "splitting its cells", err);
+    gmshFree(types);
     return error_is_clean(err);
 }
 
@@ -325,6 +345,7 @@ __attribute__((visibility("default"))) bool amontons_gmsh_read(const MeshRawRequ
     snprintf(locale, sizeof locale, "%s", setlocale(LC_NUMERIC, NULL));
     TRY(begun = gmsh_begin(err));
     TRY(gmsh_load(request, err));
+    TRY(gmsh_split(request, err));
     for (int dimension = 0; dimension <= 3; dimension++) TRY(fetch_nodes(dimension, raw, err));
     TRY(fetch_all_elements(raw, err));
     TRY(fetch_groups(request->path, raw, err));

@@ -45,6 +45,7 @@ typedef struct MeshRawRequest {
     bool generate;   // a .geo: mesh it in 2D
     const MeshParameter *parameters;   // [parameter_count] all known to the .geo
     int32_t parameter_count;
+    int32_t splits;   // so many times every edge is halved afterwards
 } MeshRawRequest;
 
 // The module's entry: runs gmsh from start to finish, so that a second call finds it clean. Errors

@@ -9,6 +9,7 @@
 #include "io/mesh_raw.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,7 +17,7 @@
 
 // CHUNK_SIZE: bytes read at once when looking for the end mark. HEAD_LINES: how far down the head
 // is looked for (comments may precede it).
-enum { CHUNK_SIZE = 1 << 16, HEAD_LINES = 200 };
+enum { CHUNK_SIZE = 1 << 16, HEAD_LINES = 200, SPLITS_MAX = 6 };
 
 // --- before gmsh --------------------------------------------------------------------------------
 
@@ -85,12 +86,53 @@ cleanup:
     return error_is_clean(err);
 }
 
+// A request with parameters of our own choice: an array, since `refine` may leave the list.
+typedef struct Parameters {
+    MeshParameter *list;   // [count]; owned
+    int32_t count;
+} Parameters;
+
+static bool is_refine(const MeshParameter *parameter)
+{
+    return strcmp(parameter->name, "refine") == 0 && !parameter->text[0];
+}
+
+// Takes `refine` out of the list: nothing that reads the file knows it, so its cells are split.
+// ERROR_INPUT: not a power of two.
+static bool take_refine(const char *path, Parameters *given, int32_t *splits, Error *err)
+{
+    int32_t kept = 0;
+    *splits = 0;
+    for (int32_t k = 0; k < given->count; k++) {
+        if (!is_refine(&given->list[k])) {
+            given->list[kept++] = given->list[k];
+            continue;
+        }
+        int exponent = 0;
+        double part = frexp(given->list[k].value, &exponent);
+        *splits = exponent - 1;
+        if (part != 0.5 || *splits < 0 || *splits > SPLITS_MAX)
+            FAIL(err, ERROR_INPUT,
+                 "%s: refine = %g; its cells are split in halves along each edge, so it can be 1, "
+                 "2, 4, ... %d%s",
+                 path, given->list[k].value, 1 << SPLITS_MAX,
+                 ends_with(path, ".geo") ? " (unless the .geo has a parameter `refine`)" : "");
+    }
+    given->count = kept;
+cleanup:
+    return error_is_clean(err);
+}
+
 // gmsh would ignore a parameter that the script does not take.
-static bool check_geo(const char *path, const MeshParameter *parameters, int32_t count, Error *err)
+static bool check_geo(const char *path, Parameters *given, int32_t *splits, Error *err)
 {
     GeoParameters known = {0};
+    bool refines = false;
     TRY(geo_parameters_read(path, &known, err));
-    TRY(geo_parameters_check(&known, path, parameters, count, err));
+    for (int32_t k = 0; k < known.count; k++)
+        refines = refines || strcmp(known.items[k].name, "refine") == 0;
+    if (!refines) TRY(take_refine(path, given, splits, err));
+    TRY(geo_parameters_check(&known, path, given->list, given->count, err));
 cleanup:
     geo_parameters_destroy(&known);
     return error_is_clean(err);
@@ -100,28 +142,34 @@ bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t p
                     MeshFile *mesh, Error *err)
 {
     MeshRaw raw = {0};
-    MeshRawRequest request = {.path = path,
-                              .generate = ends_with(path, ".geo"),
-                              .parameters = parameters,
-                              .parameter_count = parameter_count};
+    MeshRawRequest request = {.path = path, .generate = ends_with(path, ".geo")};
+    Parameters given = {.count = parameter_count};
     double version = 0;
     *mesh = (MeshFile){0};
     if (!request.generate && !ends_with(path, ".msh"))
         FAIL(err, ERROR_INPUT, "%s: a mesh is a .msh or a .geo file", path);
+    TRY((given.list = NEW_ARRAY(MeshParameter, parameter_count, err)));
+    if (parameter_count > 0)
+        memcpy(given.list, parameters, (size_t)parameter_count * sizeof *parameters);
     TRY(check_file(path, err));
     if (request.generate)
-        TRY(check_geo(path, parameters, parameter_count, err));
+        TRY(check_geo(path, &given, &request.splits, err));
     else
-        TRY(check_msh(path, &version, err));
-    if (!request.generate && parameter_count > 0)
-        FAIL(err, ERROR_INPUT, "%s: parameters ('%s') need a .geo; a .msh is meshed already", path,
-             parameters[0].name);
+        TRY(check_msh(path, &version, err) && take_refine(path, &given, &request.splits, err));
+    if (!request.generate && given.count > 0)
+        FAIL(
+            err, ERROR_INPUT,
+            "%s: parameters ('%s') need a .geo; a .msh is meshed already, and knows `refine` alone",
+            path, given.list[0].name);
+    request.parameters = given.list;
+    request.parameter_count = given.count;
     MeshRawReader read = (MeshRawReader)module_function("gmsh", "amontons_gmsh_read", err);
     if (!read) goto cleanup;
     TRY(read(&request, &raw, err));
     raw.version = version;
     TRY(mesh_raw_convert(&raw, path, mesh, err));
 cleanup:
+    memory_free(given.list);
     mesh_raw_destroy(&raw);
     return error_is_clean(err);
 }

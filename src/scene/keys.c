@@ -44,8 +44,9 @@ static const SceneKey keys[] = {
      .sentence =
          "The mesh: a .msh file, or a .geo that gmsh meshes; relative to the scene's folder."},
     {"mesh.set", KEY_PARAMETERS, offsetof(Scene, mesh), "length", RANGE_ANY, "{}",
-     .sentence =
-         "Parameters of a .geo file, each a number or a word; which there are, the file says."},
+     .sentence = "Parameters of a .geo file, each a number or a word; which there are, the file "
+                 "says. Every "
+                 "mesh has `refine`: cells so many times as small (2, 4, ...)."},
     {"groups.top", KEY_NAME, offsetof(Scene, groups.top), "1", RANGE_ANY, "top",
      .sentence = "The physical group that carries load.pressure."},
     {"groups.rod", KEY_NAME, offsetof(Scene, groups.rod), "1", RANGE_ANY, "rod",
@@ -170,6 +171,15 @@ static const SceneKey keys[] = {
     {"time.periodic_tolerance", KEY_NUMBER, offsetof(Scene, time.periodic_tolerance), "1",
      RANGE_PART, "1e-2",
      .sentence = "Load drops that agree within this, relative, make a periodic regime."},
+    {"accuracy.mu", KEY_NUMBER, offsetof(Scene, accuracy.mu), "1", RANGE_PART_OR_ZERO, "0",
+     .sentence = "Error bar wanted of mu_M (of mu_hold where the block does not slide as a whole), "
+                 "relative, such as 1%: the mesh is refined and runs are repeated until it is met. "
+                 "0: one run on the mesh as it is, whose error is not known."},
+    {"accuracy.within", KEY_NUMBER, offsetof(Scene, accuracy.within), "1", RANGE_NOT_NEGATIVE, "0",
+     .sentence = "Seconds of this computer's time that may go into it; 0: as many as it takes."},
+    {"accuracy.window", KEY_NUMBER, offsetof(Scene, accuracy.window), "1", RANGE_PART, "0.01",
+     .sentence = "Width of the window of pressures, relative, over which branches that coexist are "
+                 "averaged."},
     {"reduction.use", KEY_CHOICE, offsetof(Scene, reduction.use), "1", RANGE_ANY, "auto",
      .sentence = "Reduce the bulk to its interface and a small interior basis before stepping; "
                  "`auto`: where that is expected to be faster.",
@@ -245,9 +255,9 @@ static const char *last_word(const char *name)
 // whole name, then in its last word.
 const char *scene_key_nearest(const char *name)
 {
-    static const char *const groups[] = {"mesh",    "groups",     "material",  "friction",
-                                         "contact", "load",       "rod",       "start",
-                                         "time",    "time.until", "reduction", "output"};
+    static const char *const groups[] = {
+        "mesh",  "groups", "material",   "friction", "contact",   "load",  "rod",
+        "start", "time",   "time.until", "accuracy", "reduction", "output"};
     enum { GROUP_COUNT = sizeof groups / sizeof groups[0], COUNT = GROUP_COUNT + KEY_COUNT };
     const char *names[COUNT], *words[COUNT];
     for (int32_t k = 0; k < GROUP_COUNT; k++) names[k] = groups[k];

@@ -106,6 +106,11 @@ typedef struct Scene {
         double periodic_tolerance;   // peaks agree within this, relative
     } time;
     struct {
+        double mu;   // error bar wanted, relative; 0: one run, no bar
+        double within;   // of this computer's time, s; 0: no limit
+        double window;   // of pressures, relative width
+    } accuracy;
+    struct {
         SceneReduce use;
         double tolerance;   // of the interior basis, relative
         bool cache;   // keep the basis on disk for the next run of the shape

@@ -71,6 +71,10 @@ static bool apply_unit(const SceneKey *key, const SceneValue *value, SceneUnits 
     const char *text = yaml_text(value->document, value->node);
     const char *examples = unit_examples(key->unit);
     if (!*suffix) return true;
+    if (strcmp(key->unit, "1") == 0 && strcmp(suffix, "%") == 0) {
+        unit_to_si(suffix, key->unit, number);
+        return true;
+    }
     if (units == UNITS_NORMALISED)
         yaml_error(value->document, value->node, err,
                    "%s: found `%.60s`, with a unit; a normalised scene has plain numbers "
