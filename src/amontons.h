@@ -101,7 +101,10 @@ typedef struct RunSummary {
     // Answers, as record/answers.h defines them: macroscopic static friction coefficient, holding
     // coefficient, the largest mu. NaN: the block did not slide; the load did not drop.
     double mu_M, mu_hold, mu_max;
-    double mu_M_error, mu_hold_error;   // one standard error; NaN: not known
+    double mu_M_error, mu_hold_error;   // bars of 95 %, of the parts that are known; NaN: none is
+    double mu_M_parts[3], mu_hold_parts[3];   // of the bars: mesh, branches, drops; NaN: not known
+    bool levels;   // the answers are of several meshes and runs
+    const char *levels_ended;   // why no more were computed; static storage
     double mu_M_spread;   // largest less smallest of the peaks in mu_M; NaN: fewer than two
     int32_t peaks, peaks_counted;   // before bulk sliding: seen; those in mu_M
     int32_t period;   // peaks repeat after so many slidings; 0: they do not
@@ -125,6 +128,16 @@ typedef struct RunSummary {
     char folder[AMONTONS_PATH_SIZE];   // where everything lies
 } RunSummary;
 
+// Of a scene that asks for an error bar (accuracy.mu): a mesh whose runs are done.
+typedef struct LevelView {
+    int32_t level, contact_nodes, runs;   // level: 1, 2, ...
+    const char *answer;   // "mu_M", or "mu_hold" where the block does not slide as a whole
+    double value, bar;   // bar: of the parts that are known
+    double mesh;   // its part of the bar; NaN: first level
+    double seconds, seconds_next;   // wall time; expected of the next mesh, NaN: not known
+} LevelView;
+typedef void (*LevelCallback)(const LevelView *view, void *context);
+
 // Called after every accepted step (run) on the thread of the run. Must not keep `view`.
 typedef void (*StepCallback)(const StepView *view, void *context);
 
@@ -132,7 +145,8 @@ typedef struct RunOptions {
     const char *folder;   // the result folder, created; NULL: nothing is written at all
     bool overwrite;   // replace an earlier result in it (else ERROR_INPUT)
     StepCallback on_step;   // NULL: none
-    void *context;   // handed to on_step
+    LevelCallback on_level;   // NULL: none
+    void *context;   // handed to on_step and on_level
     const volatile sig_atomic_t *stop;   // non-zero: finish the step, keep what is there, return
         // ERROR_INTERRUPT; NULL: never
     bool whole_block;   // amontons_simulation_block will be called: the mesh is made, also where
@@ -159,7 +173,8 @@ bool amontons_scene_reference(FILE *out, Error *err);   // every key, as Markdow
 
 // --- one simulation -----------------------------------------------------------------------------
 // Everything: mesh, relax, time loop, results, pictures, run.json. On failure what was computed
-// stays in the folder and run.json says why.
+// stays in the folder and run.json says why. A scene with accuracy.mu is run on meshes of falling
+// cell size until its error bar is met; results are those of the last mesh.
 bool amontons_run(const Scene *scene, const RunOptions *options, RunSummary *summary, Error *err);
 
 // --- statics ------------------------------------------------------------------------------------

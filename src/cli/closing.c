@@ -16,6 +16,19 @@ static void print_estimate(const char *name, double value, double error)
     if (!isnan(error)) printf(" +- %.1g", error);
 }
 
+// Of a bar: mesh, branches, drops.
+static void print_parts(const double parts[3])
+{
+    static const char *const names[] = {"mesh", "branches", "drops"};
+    const char *separator = " (";
+    for (int32_t k = 0; k < 3; k++) {
+        if (isnan(parts[k])) continue;
+        printf("%s%s %.1g", separator, names[k], parts[k]);
+        separator = ", ";
+    }
+    if (*separator == ',') printf(")");
+}
+
 // The macroscopic static friction coefficient, from how many peaks, and whether they repeat.
 static void print_mu_M(const RunSummary *summary)
 {
@@ -26,6 +39,11 @@ static void print_mu_M(const RunSummary *summary)
         return;
     }
     print_estimate("mu_M", summary->mu_M, summary->mu_M_error);
+    if (summary->levels) {
+        print_parts(summary->mu_M_parts);
+        printf(": static friction; %s\n", summary->levels_ended);
+        return;
+    }
     printf(": static friction, mean of the last %d of %d peaks, each before the whole block "
            "slid\n",
            summary->peaks_counted, summary->peaks);
@@ -33,8 +51,9 @@ static void print_mu_M(const RunSummary *summary)
     printf("                  they differ by at most %.4f", summary->mu_M_spread);
     if (summary->period > 1) printf(" and repeat after %d slidings", summary->period);
     printf("%s\n", summary->period > 0 ? "" : "; not periodic yet");
-    if (!isnan(summary->mu_M_error))
-        printf("                  +- is that of %d peaks; the error of the mesh comes on top\n",
+    if (!isnan(summary->mu_M_error) && !summary->levels)
+        printf("                  +- is that of %d peaks; the error of the mesh is not known\n"
+               "                  (--to 1%% finds it)\n",
                summary->peaks_counted);
 }
 
@@ -46,6 +65,7 @@ static void print_mu_hold(const RunSummary *summary)
         return;
     }
     print_estimate("mu_hold", summary->mu_hold, summary->mu_hold_error);
+    if (summary->levels) print_parts(summary->mu_hold_parts);
     printf("%s: what the contact holds, the %s of %d load ratios at which the load dropped\n",
            summary->drops_enough ? "" : " so far",
            summary->drop_period > 0 ? "lowest" : "lowest tenth", summary->drops);

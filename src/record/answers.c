@@ -9,6 +9,7 @@
 
 enum { DROPS_ENOUGH = 30 };
 static const double MEAN_ERROR = 0.02;
+static const double BAR = 2;   // standard errors, of 95 % of normal deviates
 
 // The regime, and from which drop of the list on it lasts.
 static SeriesRegime find_regime(const Drops *drops, int32_t *first)
@@ -47,6 +48,8 @@ static void answer_drops(const Drops *drops, Answers *answers)
     answers->enough = is_enough(&answers->regime, &answers->mu_drops);
     answers->mu_hold = period > 0 ? lowest_branch(drops, count)
                                   : series_lowest_decile(drops->series, count);
+    if (period == 0) answers->mu_hold.error *= BAR;
+    answers->mu_hold_parts = (ErrorParts){NAN, NAN, answers->mu_hold.error};
 }
 
 static void answer_peaks(const Drops *drops, Answers *answers)
@@ -57,6 +60,8 @@ static void answer_peaks(const Drops *drops, Answers *answers)
     answers->peaks_counted = count;
     if (regime->period > 0) answers->period = count / (regime->count / regime->period);
     answers->mu_M = series_mean(drops->series, count, answers->period > 0 ? answers->period : 1);
+    answers->mu_M.error *= BAR;
+    answers->mu_M_parts = (ErrorParts){NAN, NAN, answers->mu_M.error};
     for (int32_t k = 0; k < count; k++) {
         answers->mu_M_low = fmin(answers->mu_M_low, drops->series[k].value);
         answers->mu_M_high = fmax(answers->mu_M_high, drops->series[k].value);
@@ -187,10 +192,20 @@ static double lowest_pad_sliding(const Drops *drops)
     return low;
 }
 
+static void write_parts(JsonWriter *json, const char *name, const ErrorParts *parts)
+{
+    json_begin_object(json, name);
+    json_number(json, "mesh", parts->mesh);
+    json_number(json, "branches", parts->branches);
+    json_number(json, "drops", parts->drops);
+    json_end(json);
+}
+
 void answers_write_json(const Answers *answers, const Drops *drops, double length, JsonWriter *json)
 {
     json_number(json, "mu_M", answers->mu_M.value);
     json_number(json, "mu_M_error", answers->mu_M.error);
+    write_parts(json, "mu_M_error_parts", &answers->mu_M_parts);
     json_number(json, "mu_M_spread", answers->mu_M_spread);
     json_number(json, "mu_M_low", answers->mu_M_low);
     json_number(json, "mu_M_high", answers->mu_M_high);
@@ -200,6 +215,7 @@ void answers_write_json(const Answers *answers, const Drops *drops, double lengt
     write_branches(drops, DROP_BULK, answers->first, drops->tolerance, json);
     json_number(json, "mu_hold", answers->mu_hold.value);
     json_number(json, "mu_hold_error", answers->mu_hold.error);
+    write_parts(json, "mu_hold_error_parts", &answers->mu_hold_parts);
     json_number(json, "mu_max", answers->mu_max);
     json_number(json, "l_sc_over_L", answers->subcritical_length / length);
     json_number(json, "l_c_over_L", answers->critical_length / length);

@@ -8,23 +8,29 @@
 //             repeats; where none does the lowest decile (one in ten comes earlier), as the lowest
 //             would sink with every drop waited for
 //   mu_max    the largest mu of all steps
-// Errors are what the length of the run leaves open, not those of mesh and steps.
+// Errors are bars that hold in 19 of 20 cases. A run alone knows the part that its finite number of
+// drops leaves open; what mesh and branches add takes several runs (record/error_bars).
 #ifndef AMONTONS_RECORD_ANSWERS_H
 #define AMONTONS_RECORD_ANSWERS_H
 
 #include "io/json_writer.h"
 #include "record/drops.h"
 
+typedef struct ErrorParts {   // NaN: not known
+    double mesh, branches, drops;
+} ErrorParts;
+
 typedef struct Answers {
     SeriesRegime regime;   // of the load drops
     int32_t first;   // number in drops->list of the first drop that counts
     bool enough;   // load drops repeat, or 30 and more of them have a mean known to 2 %
-    Estimate mu_M;   // error: one standard error
+    Estimate mu_M;   // error: twice the standard error
+    ErrorParts mu_M_parts, mu_hold_parts;   // of the errors
     double mu_M_low, mu_M_high;   // smallest and largest peak that counts; NaN: none
     double mu_M_spread;   // their difference; NaN: fewer than two
     int32_t peaks, peaks_counted;   // bulk slidings; those that count
     int32_t period;   // bulk slidings in a round; 0: load drops do not repeat, or none is one
-    Estimate mu_hold;   // error: half the range of the lowest branch, or one standard error
+    Estimate mu_hold;   // error: half the range of the lowest branch, or twice the standard error
     Estimate mu_drops;   // mean of the load drops
     double mu_max;
     double critical_length;   // mean l_c of the peaks that count, length; NaN: none

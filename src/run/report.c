@@ -186,6 +186,7 @@ bool report_write(const char *folder, const RunReport *report, Error *err)
     write_timing(json, report->model, report->timing);
     write_model(json, report->model, report->relaxation_steps);
     write_results(json, report);
+    if (report->levels) levels_write_json(report->levels, json);
     write_errors(json, report->errors);
     json_end(json);
     return json_finish(json, err);

@@ -6,7 +6,7 @@
 
 #include "amontons.h"
 #include "model/model.h"
-#include "record/answers.h"
+#include "record/error_bars.h"
 #include "record/pads.h"
 
 // The largest of each kind of error over a run's accepted steps, relative (record/observation).
@@ -39,6 +39,7 @@ typedef struct RunReport {
     const Answers *answers;
     const Event *least_resolved;   // before which the fewest cells slipped; NULL: none
     const Pads *pads;
+    const Levels *levels;   // NULL: one run
     const RunWarnings *warnings;
 } RunReport;
 

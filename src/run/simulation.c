@@ -175,16 +175,22 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Closes history, draws, reports. failure: NULL, or why the run ended early; it is reported, and
-// what was computed is kept.
-static bool finish_run(Simulation *simulation, const Error *failure, RunSummary *summary,
+// Of several meshes and runs, where there are; of this run else.
+static Answers answers_to_report(const Simulation *simulation)
+{
+    Answers answers = answers_of(&simulation->drops);
+    if (simulation->levels) levels_answer_for(simulation->levels, &answers);
+    return answers;
+}
+
+bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary *summary,
                        Error *err)
 {
     double started = clock_seconds();
     simulation->timing.outside -= clock_processor_seconds();
     events_close(&simulation->events, &simulation->seen);
     simulation->errors.reduction = ladder_reduction_error(&simulation->control.ladder);
-    Answers answers = answers_of(&simulation->drops);
+    Answers answers = answers_to_report(simulation);
     const Event *least = drops_least_resolved(&simulation->drops, answers.first);
     warnings_of_slip(&simulation->scene, &simulation->model.interface, least,
                      &simulation->warnings);
@@ -211,6 +217,7 @@ static bool finish_run(Simulation *simulation, const Error *failure, RunSummary 
                             .answers = &answers,
                             .least_resolved = least,
                             .pads = &simulation->pads,
+                            .levels = simulation->levels,
                             .warnings = &simulation->warnings};
         TRY(report_write(simulation->folder.path, &report, err));
     }
@@ -221,7 +228,7 @@ cleanup:
 
 bool amontons_simulation_finish(Simulation *simulation, RunSummary *summary, Error *err)
 {
-    return finish_run(simulation, NULL, summary, err);
+    return simulation_finish(simulation, NULL, summary, err);
 }
 
 void amontons_simulation_destroy(Simulation *simulation)
@@ -242,27 +249,39 @@ void amontons_simulation_destroy(Simulation *simulation)
     memory_free(simulation);
 }
 
-// The loop itself allocates nothing but rungs and output. A failure anywhere is written into
-// run.json with what there was until then.
-bool amontons_run(const Scene *scene, const RunOptions *options, RunSummary *summary, Error *err)
+bool simulation_loop(Simulation *simulation, Error *err)
 {
-    Simulation *simulation = NULL;
-    bool finished = false;
-    *summary = (RunSummary){.mu_M = NAN};
-    TRY(amontons_simulation_create(scene, options, &simulation, err));
-    while (!finished) {
+    const volatile sig_atomic_t *stop = simulation->options.stop;
+    for (bool finished = false; !finished;) {
         TRY(amontons_simulation_step(simulation, NULL, &finished, err));
-        if (options->stop && *options->stop)
+        if (stop && *stop)
             FAIL(err, ERROR_INTERRUPT,
                  "stopped at U = %g (t = %g); what was computed is kept in %s", simulation->seen.U,
                  simulation->seen.t, simulation->folder.path);
     }
+cleanup:
+    return error_is_clean(err);
+}
+
+// The loop itself allocates nothing but rungs and output. A failure anywhere is written into
+// run.json with what there was until then.
+bool simulation_run(const Scene *scene, const RunOptions *options, RunSummary *summary, Error *err)
+{
+    Simulation *simulation = NULL;
+    *summary = (RunSummary){.mu_M = NAN};
+    TRY(amontons_simulation_create(scene, options, &simulation, err));
+    TRY(simulation_loop(simulation, err));
     TRY(amontons_simulation_finish(simulation, summary, err));
 cleanup:
+    simulation_end(simulation, summary, err);
+    return error_is_clean(err);
+}
+
+void simulation_end(Simulation *simulation, RunSummary *summary, const Error *err)
+{
     if (simulation && !error_is_clean(err)) {
         Error second = {0};   // the first error is the one that counts
-        finish_run(simulation, err, summary, &second);
+        simulation_finish(simulation, err, summary, &second);
     }
     amontons_simulation_destroy(simulation);
-    return error_is_clean(err);
 }

@@ -39,11 +39,23 @@ struct Simulation {
     RunTiming timing;
     RunErrors errors;
     RunWarnings warnings;
+    const Levels *levels;   // several meshes and runs, of which this is one; NULL: it is alone
     double last_unquiet;   // when slip was last rapid or not certified, time
     double started;   // wall clock, s
     int64_t allocations_before;   // memory_counters() when the time loop began
     int32_t figures;   // drawn
     double figures_seconds;
 };
+
+// What amontons_run and run/accuracy are made of, beside the pieces in amontons.h.
+bool simulation_run(const Scene *scene, const RunOptions *options, RunSummary *summary, Error *err);
+bool simulation_loop(Simulation *simulation, Error *err);   // steps to the end of the scene
+
+// Closes history, draws, reports. failure: NULL, or why the run ended early; it is reported, and
+// what was computed is kept.
+bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary *summary,
+                       Error *err);
+// Destroys; where `err` is set what was computed is reported first. simulation NULL is fine.
+void simulation_end(Simulation *simulation, RunSummary *summary, const Error *err);
 
 #endif

@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static ContactView contact_view(const Interface *interface, const ContactArrays *contact)
 {
@@ -158,6 +159,13 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
                             .field_files = simulation->fields.written,
                             .figures = simulation->figures};
     note_slip(simulation, answers->first, summary);
+    const ErrorParts *mu_M = &answers->mu_M_parts, *mu_hold = &answers->mu_hold_parts;
+    memcpy(summary->mu_M_parts, (double[]){mu_M->mesh, mu_M->branches, mu_M->drops},
+           sizeof summary->mu_M_parts);
+    memcpy(summary->mu_hold_parts, (double[]){mu_hold->mesh, mu_hold->branches, mu_hold->drops},
+           sizeof summary->mu_hold_parts);
+    summary->levels = simulation->levels != NULL;
+    summary->levels_ended = simulation->levels ? simulation->levels->ended : NULL;
     snprintf(summary->folder, sizeof summary->folder, "%s", simulation->folder.path);
     list_phases(simulation, summary);
 }

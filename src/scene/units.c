@@ -27,9 +27,8 @@ static const Unit dimensions[] = {
 };
 
 static const Unit bases[] = {
-    {"m", 0, {1, 0, 0}, NULL},  {"s", 0, {0, 0, 1}, NULL},  {"g", -3, {0, 1, 0}, NULL},
-    {"%", -2, {0, 0, 0}, NULL}, {"N", 0, {1, 1, -2}, NULL}, {"Pa", 0, {-1, 1, -2}, NULL},
-    {"J", 0, {2, 1, -2}, NULL},
+    {"m", 0, {1, 0, 0}, NULL},  {"s", 0, {0, 0, 1}, NULL},    {"g", -3, {0, 1, 0}, NULL},
+    {"N", 0, {1, 1, -2}, NULL}, {"Pa", 0, {-1, 1, -2}, NULL}, {"J", 0, {2, 1, -2}, NULL},
 };
 
 static const struct {

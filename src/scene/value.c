@@ -72,7 +72,7 @@ static bool apply_unit(const SceneKey *key, const SceneValue *value, SceneUnits 
     const char *examples = unit_examples(key->unit);
     if (!*suffix) return true;
     if (strcmp(key->unit, "1") == 0 && strcmp(suffix, "%") == 0) {
-        unit_to_si(suffix, key->unit, number);
+        *number /= 100;
         return true;
     }
     if (units == UNITS_NORMALISED)

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// An answer on meshes of falling cell size, several runs on each, and the error bar that follows.
+// The runs of a level differ in pressure by less than anybody knows it: where branches coexist they
+// fall on one or the other, and their mean is what an experiment finds. A bar is meant to hold the
+// answer of the limit in 19 of 20 cases; its parts, added in quadrature:
+//
+//   drops      twice the standard error that the finite number of load drops leaves
+//   branches   twice the standard error of the mean over runs, their spread taken from all levels
+//   mesh       the last difference between two levels (what first order leaves on the finer one),
+//              or half of the one before where that is more; one and a half times the difference
+//              where there are only two levels; never less than steps and reduction leave
+//
+// How often bars hold, and by how much, is measured by validation/benchmark/promise.py.
+#ifndef AMONTONS_RECORD_ERROR_BARS_H
+#define AMONTONS_RECORD_ERROR_BARS_H
+
+#include "record/answers.h"
+
+enum { LEVELS_MAX = 6, LEVEL_RUNS_MAX = 9 };
+
+typedef enum AnswerKind { ANSWER_MU_M, ANSWER_MU_HOLD, ANSWER_KINDS } AnswerKind;
+
+typedef struct LevelRun {
+    double pressure;   // over the scene's
+    Estimate answer[ANSWER_KINDS];   // value NaN: the run has none; error: a bar
+    int32_t peaks, period;   // that count; they repeat after so many, 0: they do not
+    int64_t steps;
+} LevelRun;
+
+// parts.mesh is NaN on the first level.
+typedef struct ErrorBar {
+    double value, bar;   // bar: of the parts that are known
+    ErrorParts parts;
+} ErrorBar;
+
+typedef struct Level {
+    double refine;   // mesh.set.refine
+    int32_t contact_nodes;
+    int32_t run_count;
+    LevelRun runs[LEVEL_RUNS_MAX];
+    ErrorBar answer[ANSWER_KINDS];
+    double seconds;   // wall time
+} Level;
+
+typedef struct Levels {
+    double wanted;   // bar over value
+    bool met;
+    AnswerKind asked;   // what `wanted` is of
+    const char *ended;   // why no more was computed; static storage
+    int32_t count;
+    Level list[LEVELS_MAX];   // [count] the coarsest first
+} Levels;
+
+extern const char *const ANSWER_NAMES[ANSWER_KINDS];   // "mu_M", "mu_hold"
+
+// Adds a run to the last level, which has room, and estimates anew.
+void levels_add_run(Levels *levels, double pressure, const Answers *answers, int64_t steps);
+
+// Fills the bars of the last level from the runs of all, and `asked`: mu_M where every run of that
+// level has it, else mu_hold.
+void levels_estimate(Levels *levels);
+const ErrorBar *levels_answer(const Levels *levels, AnswerKind kind);   // of the last level; NULL
+
+// Puts value, error and parts of both answers in the place of those of one run.
+void levels_answer_for(const Levels *levels, Answers *answers);
+
+// ln(difference before / last difference) / ln 2 of the asked answer; NaN: not three levels.
+double levels_order(const Levels *levels);
+
+void levels_write_json(const Levels *levels, JsonWriter *json);   // one object, `accuracy`
+
+#endif

@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// amontons_run: one run, or, where the scene asks for an error bar (accuracy.mu), runs on meshes of
+// falling cell size until the bar (record/error_bars) is met.
+//
+// A level is a mesh, mesh.set.refine times as fine as the scene's; the first is the coarsest with
+// enough contact nodes. Its runs write nothing and end as soon as their answer is known; they
+// differ in pressure within accuracy.window, and share mesh and basis. What is done next
+// follows from the largest part of the bar: a finer mesh, or more runs on this one. The last run is
+// the scene itself on the last mesh, with all that it asks to be written, and counts too.
+#include "base/clock.h"
+#include "base/memory.h"
+#include "run/simulation_state.h"
+
+#include <math.h>
+#include <string.h>
+
+enum {
+    CONTACT_NODES_MIN = 21,   // of the first level
+    PAD_NODES_MIN = 5,   // of it on each piece of the contact
+    PEAKS_MIN = 8,   // that count in a run, before its answer can be known
+    RUNS_FIRST = 2,   // on every level, at either end of the window
+    COARSER_MAX = 3,   // halvings of the scene's mesh that are tried
+};
+static const double DROPS_SHARE = 0.2;   // of the bar wanted, for the drops of each run
+static const double LONGER = 4;   // than the scene's end, for a run whose answer is not known
+static const double GROWTH = 5;   // of a level's time, before two levels are known
+
+typedef struct Accuracy {
+    const Scene *scene;
+    const RunOptions *options;
+    Levels levels;
+    double started;   // wall clock, s
+    bool out_of_time;
+} Accuracy;
+
+static Level *last_level(Accuracy *accuracy)
+{
+    return &accuracy->levels.list[accuracy->levels.count - 1];
+}
+
+static double seconds_left(const Accuracy *accuracy)
+{
+    double within = accuracy->scene->accuracy.within;
+    return within > 0 ? within - (clock_seconds() - accuracy->started) : INFINITY;
+}
+
+// The parameter `refine` of every mesh, times what the scene may have set it to. ERROR_INPUT: there
+// is no room for it.
+static bool set_refine(Scene *scene, double refine, Error *err)
+{
+    int32_t k = 0, count = scene->mesh.parameter_count;
+    while (k < count && strcmp(scene->mesh.parameters[k].name, "refine") != 0) k++;
+    if (refine == 1) return true;
+    if (k < count) {
+        scene->mesh.parameters[k].value *= refine;
+        return true;
+    }
+    if (k == SCENE_LIST_MAX)
+        FAIL(err, ERROR_INPUT, "%s: mesh.set: no room for `refine` beside %d parameters",
+             scene->path, k);
+    scene->mesh.parameters[k] = (MeshParameter){.name = "refine", .value = refine};
+    scene->mesh.parameter_count++;
+cleanup:
+    return error_is_clean(err);
+}
+
+static void scale_loads(Scene *scene, double factor)
+{
+    scene->load.pressure *= factor;
+    for (int32_t k = 0; k < scene->load.traction_count; k++) {
+        scene->load.tractions[k].x *= factor;
+        scene->load.tractions[k].z *= factor;
+    }
+}
+
+// The scene of a run that writes nothing; owned by the caller.
+static Scene *scene_of_run(const Accuracy *accuracy, double refine, double pressure, Error *err)
+{
+    Scene *scene = NEW_ARRAY(Scene, 1, err);
+    if (!scene) return NULL;
+    *scene = *accuracy->scene;
+    scene->output.history = scene->output.fields = false;
+    scene->output.figures.count = 0;
+    scene->time.until_U *= LONGER;
+    scene->time.until_t *= LONGER;
+    scene->time.until_periodic = false;
+    scale_loads(scene, pressure);
+    if (set_refine(scene, refine, err)) return scene;
+    memory_free(scene);
+    return NULL;
+}
+
+// What more slidings could still change is a small part of the bar wanted.
+static bool is_known(const Accuracy *accuracy, const Answers *answers)
+{
+    const Estimate *mu_M = &answers->mu_M;
+    double allowed = DROPS_SHARE * accuracy->scene->accuracy.mu;
+    if (answers->peaks_counted >= PEAKS_MIN) return mu_M->error <= allowed * mu_M->value;
+    return answers->peaks == 0 && answers->enough;
+}
+
+// Steps until the answer is known, time is up (never on the first level), or the end.
+static bool step_until_known(Accuracy *accuracy, Simulation *simulation, Error *err)
+{
+    const volatile sig_atomic_t *stop = accuracy->options->stop;
+    for (bool finished = false; !finished;) {
+        TRY(amontons_simulation_step(simulation, NULL, &finished, err));
+        if (stop && *stop)
+            FAIL(err, ERROR_INTERRUPT, "stopped on mesh %d of an error bar; nothing was written",
+                 accuracy->levels.count);
+        if (!simulation->events.ended) continue;
+        Answers answers = answers_of(&simulation->drops);
+        finished = finished || is_known(accuracy, &answers);
+        accuracy->out_of_time = accuracy->levels.count > 1 && seconds_left(accuracy) < 0;
+        finished = finished || accuracy->out_of_time;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool contact_is_resolved(const Interface *interface)
+{
+    for (int32_t pad = 0; pad < interface->pad_count; pad++) {
+        int32_t nodes = 0;
+        for (int32_t i = 0; i < interface->contact_count; i++) nodes += interface->pad[i] == pad;
+        if (nodes < PAD_NODES_MIN) return false;
+    }
+    return interface->contact_count >= CONTACT_NODES_MIN;
+}
+
+// One run of the last level. *coarse (NULL: not asked): the mesh has too few contact nodes, nothing
+// was stepped.
+static bool run_member(Accuracy *accuracy, double pressure, bool *coarse, Error *err)
+{
+    Level *level = last_level(accuracy);
+    RunOptions options = {.on_step = accuracy->options->on_step,
+                          .context = accuracy->options->context,
+                          .stop = accuracy->options->stop};
+    Simulation *simulation = NULL;
+    double started = clock_seconds();
+    Scene *scene = scene_of_run(accuracy, level->refine, pressure, err);
+    TRY(scene);
+    TRY(amontons_simulation_create(scene, &options, &simulation, err));
+    level->contact_nodes = simulation->model.interface.contact_count;
+    if (coarse && (*coarse = !contact_is_resolved(&simulation->model.interface))) goto cleanup;
+    TRY(step_until_known(accuracy, simulation, err));
+    Answers answers = answers_of(&simulation->drops);
+    if (!accuracy->out_of_time)
+        levels_add_run(&accuracy->levels, pressure, &answers,
+                       simulation->control.counters.accepted);
+cleanup:
+    amontons_simulation_destroy(simulation);
+    memory_free(scene);
+    level->seconds += clock_seconds() - started;
+    return error_is_clean(err);
+}
+
+// Pressures over the scene's: the ends of the window, then points between them, in pairs that leave
+// the mean where it is.
+static double pressure_of(const Accuracy *accuracy, int32_t run)
+{
+    static const double places[] = {1, 0.5, 0.75, 0.25};
+    double half = accuracy->scene->accuracy.window / 2;
+    double place = places[run / 2 % (int32_t)(sizeof places / sizeof *places)];
+    return 1 + (run % 2 == 0 ? -half : half) * place;
+}
+
+static bool add_runs(Accuracy *accuracy, int32_t count, Error *err)
+{
+    int32_t first = last_level(accuracy)->run_count;
+    first -= first % 2 == 1 && count % 2 == 0;   // the run in full is no half of a pair
+    for (int32_t k = first; k < first + count && !accuracy->out_of_time; k++)
+        TRY(run_member(accuracy, pressure_of(accuracy, k), NULL, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+static void begin_level(Accuracy *accuracy, double refine)
+{
+    accuracy->levels.list[accuracy->levels.count++] = (Level){.refine = refine};
+}
+
+// From a mesh that is so many times coarser than the scene's up: one that gmsh refuses or that has
+// too few contact nodes is passed over. The scene's own mesh is taken whatever it is.
+static bool first_level(Accuracy *accuracy, Error *err)
+{
+    for (int32_t halvings = COARSER_MAX; halvings >= 0; halvings--) {
+        bool coarse = false, last = halvings == 0;
+        begin_level(accuracy, ldexp(1, -halvings));
+        run_member(accuracy, pressure_of(accuracy, 0), last ? NULL : &coarse, err);
+        if (!coarse && (last || error_is_clean(err))) break;
+        if (err->code == ERROR_INPUT || err->code == ERROR_LIBRARY) *err = (Error){0};
+        TRY(error_is_clean(err));
+        accuracy->levels.count--;
+    }
+    TRY(error_is_clean(err));
+    TRY(add_runs(accuracy, RUNS_FIRST - 1, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// --- what next ----------------------------------------------------------------------------------
+
+static const ErrorBar *asked(const Accuracy *accuracy)
+{
+    return levels_answer(&accuracy->levels, accuracy->levels.asked);
+}
+
+static bool is_met(const Accuracy *accuracy)
+{
+    const ErrorBar *answer = asked(accuracy);
+    return !isnan(answer->parts.mesh) && answer->bar <= accuracy->levels.wanted * answer->value;
+}
+
+// Wall time that the next level will take, from the last ones, s.
+static double next_seconds(const Accuracy *accuracy)
+{
+    int32_t last = accuracy->levels.count - 1;
+    const Level *level = &accuracy->levels.list[last];
+    double growth = last > 0 ? level[0].seconds / level[-1].seconds : GROWTH;
+    return level->seconds * fmax(growth, 2) * RUNS_FIRST / level->run_count;
+}
+
+static void show_level(const Accuracy *accuracy)
+{
+    const RunOptions *options = accuracy->options;
+    const ErrorBar *answer = asked(accuracy);
+    const Level *level = &accuracy->levels.list[accuracy->levels.count - 1];
+    LevelView view = {.level = accuracy->levels.count,
+                      .contact_nodes = level->contact_nodes,
+                      .runs = level->run_count,
+                      .answer = ANSWER_NAMES[accuracy->levels.asked],
+                      .value = answer->value,
+                      .bar = answer->bar,
+                      .mesh = answer->parts.mesh,
+                      .seconds = level->seconds,
+                      .seconds_next = next_seconds(accuracy)};
+    if (options->on_level) options->on_level(&view, options->context);
+}
+
+static bool end_here(Accuracy *accuracy, const char *why)
+{
+    accuracy->levels.ended = why;
+    return true;
+}
+
+// More runs where branches and drops leave more than the mesh does, else a finer mesh. A level that
+// time cuts short does not count.
+static bool go_on(Accuracy *accuracy, bool *ended, Error *err)
+{
+    const ErrorBar *answer = asked(accuracy);
+    Level *level = last_level(accuracy);
+    double between = hypot(answer->parts.branches, answer->parts.drops);
+    bool known = !isnan(answer->parts.mesh);
+    if (isnan(answer->value)) return *ended = end_here(accuracy, "no load drop in any run");
+    if (is_met(accuracy)) return *ended = end_here(accuracy, "the error bar is met");
+    if (known && between > answer->parts.mesh && level->run_count + 2 <= LEVEL_RUNS_MAX - 1) {
+        if (level->seconds / level->run_count * 2 > seconds_left(accuracy))
+            return *ended = end_here(accuracy, "time: accuracy.within");
+        TRY(add_runs(accuracy, 2, err));
+        goto cleanup;
+    }
+    if (accuracy->levels.count == LEVELS_MAX)
+        return *ended = end_here(accuracy, "no finer mesh is tried");
+    if (next_seconds(accuracy) > seconds_left(accuracy))
+        return *ended = end_here(accuracy, "time: accuracy.within");
+    begin_level(accuracy, 2 * level->refine);
+    TRY(add_runs(accuracy, RUNS_FIRST, err));
+    if (accuracy->out_of_time && last_level(accuracy)->run_count < RUNS_FIRST)
+        accuracy->levels.count--;
+    if (accuracy->out_of_time) *ended = end_here(accuracy, "time: accuracy.within");
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool find_levels(Accuracy *accuracy, Error *err)
+{
+    bool ended = false;
+    TRY(first_level(accuracy, err));
+    show_level(accuracy);
+    while (!ended) {
+        int32_t before = accuracy->levels.count, runs = last_level(accuracy)->run_count;
+        TRY(go_on(accuracy, &ended, err));
+        bool new = accuracy->levels.count != before || last_level(accuracy)->run_count != runs;
+        if (new) show_level(accuracy);
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// Branches, not the mesh, are why the bar is not met, and more runs may mend it.
+static bool levels_lack_runs(const Accuracy *accuracy)
+{
+    const Levels *levels = &accuracy->levels;
+    const ErrorBar *answer = asked(accuracy);
+    return !is_met(accuracy) && answer->parts.mesh < levels->wanted * answer->value &&
+           levels->list[levels->count - 1].run_count + 2 <= LEVEL_RUNS_MAX;
+}
+
+// The scene itself on the last mesh, with its files. It counts as one more run; a branch that it
+// found is a reason for more of them.
+static bool run_in_full(Accuracy *accuracy, RunSummary *summary, Error *err)
+{
+    Levels *levels = &accuracy->levels;
+    Simulation *simulation = NULL;
+    Scene *scene = NEW_ARRAY(Scene, 1, err);
+    TRY(scene);
+    *scene = *accuracy->scene;
+    TRY(set_refine(scene, last_level(accuracy)->refine, err));
+    TRY(amontons_simulation_create(scene, accuracy->options, &simulation, err));
+    TRY(simulation_loop(simulation, err));
+    Answers answers = answers_of(&simulation->drops);
+    bool has_answer = !isnan((levels->asked == ANSWER_MU_M ? answers.mu_M : answers.mu_hold).value);
+    if (has_answer) levels_add_run(levels, 1, &answers, simulation->control.counters.accepted);
+    while (levels_lack_runs(accuracy) && seconds_left(accuracy) > 0)
+        TRY(add_runs(accuracy, 2, err));
+    levels->met = is_met(accuracy);
+    simulation->levels = levels;
+    TRY(amontons_simulation_finish(simulation, summary, err));
+cleanup:
+    simulation_end(simulation, summary, err);
+    memory_free(scene);
+    return error_is_clean(err);
+}
+
+bool amontons_run(const Scene *scene, const RunOptions *options, RunSummary *summary, Error *err)
+{
+    if (!(scene->accuracy.mu > 0)) return simulation_run(scene, options, summary, err);
+    *summary = (RunSummary){.mu_M = NAN};
+    ResultFolder folder = {0};
+    Accuracy *accuracy = NEW_ARRAY(Accuracy, 1, err);
+    TRY(accuracy);
+    accuracy->scene = scene;
+    accuracy->options = options;
+    accuracy->started = clock_seconds();
+    accuracy->levels.wanted = scene->accuracy.mu;
+    TRY(result_folder_claim(options->folder, options->overwrite, &folder, err));
+    TRY(find_levels(accuracy, err));
+    result_folder_release(&folder);   // the last run claims it for itself
+    TRY(run_in_full(accuracy, summary, err));
+cleanup:
+    result_folder_release(&folder);
+    memory_free(accuracy);
+    return error_is_clean(err);
+}
