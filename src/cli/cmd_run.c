@@ -10,6 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { SETTING_SIZE = 80 };
+
 static const CommandText text = {
     .name = "run",
     .argument = "SCENE",
@@ -60,11 +62,11 @@ static double seconds_of(const char *word)
     return NAN;
 }
 
-// --to and --within become values of the scene. to, within: NULL where not given; both strings
-// last as long as `words`. Status 0 or 2.
-static int ask_accuracy(const char *to, const char *within, SceneWords *words)
+// --to and --within become values of the scene, which `words` points at. to, within: NULL where not
+// given. Status 0 or 2.
+static int ask_accuracy(const char *to, const char *within, char settings[2][SETTING_SIZE],
+                        SceneWords *words)
 {
-    static char settings[2][80];
     OptionWords *list = &words->settings;
     if (within && !to)
         return report_misuse("--within: needs --to, the error bar wanted (--to 1%%)");
@@ -73,11 +75,11 @@ static int ask_accuracy(const char *to, const char *within, SceneWords *words)
                              within);
     if (list->count + 2 > OPTION_WORDS_MAX) return report_misuse("--to: too many --set before it");
     if (to) {
-        snprintf(settings[0], sizeof settings[0], "accuracy.mu=%.50s", to);
+        snprintf(settings[0], SETTING_SIZE, "accuracy.mu=%.50s", to);
         list->list[list->count++] = settings[0];
     }
     if (within) {
-        snprintf(settings[1], sizeof settings[1], "accuracy.within=%.17g", seconds_of(within));
+        snprintf(settings[1], SETTING_SIZE, "accuracy.within=%.17g", seconds_of(within));
         list->list[list->count++] = settings[1];
     }
     return 0;
@@ -112,6 +114,7 @@ int command_run(int argc, char **argv)
     bool profile = false;
     char folder[256];
     const char *to = NULL, *within = NULL;
+    char settings[2][SETTING_SIZE];
     const Option own[] = {
         {"to", 0, "PART", "Refine until the error bar of mu_M is this part of it", .word = &to},
         {"within", 0, "TIME", "Stop refining in time for this: 300s, 5min, 1h", .word = &within},
@@ -119,7 +122,7 @@ int command_run(int argc, char **argv)
          .flag = &profile},
         {0}};
     int status = scene_words_read(&text, own, argc, argv, &words);
-    if (status == 0) status = ask_accuracy(to, within, &words);
+    if (status == 0) status = ask_accuracy(to, within, settings, &words);
     if (status == 0) status = scene_words_open(&words, &scene);
     if (status != 0) return status;
     default_folder(words.scene, "-result", folder, sizeof folder);

@@ -46,6 +46,7 @@ static void answer_drops(const Drops *drops, Answers *answers)
     int32_t period = answers->regime.period;
     answers->mu_drops = series_mean(drops->series, count, period > 0 ? period : 1);
     answers->enough = is_enough(&answers->regime, &answers->mu_drops);
+    answers->mu_drops.error *= BAR;
     answers->mu_hold = period > 0 ? lowest_branch(drops, count)
                                   : series_lowest_decile(drops->series, count);
     if (period == 0) answers->mu_hold.error *= BAR;

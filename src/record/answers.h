@@ -31,7 +31,7 @@ typedef struct Answers {
     int32_t peaks, peaks_counted;   // bulk slidings; those that count
     int32_t period;   // bulk slidings in a round; 0: load drops do not repeat, or none is one
     Estimate mu_hold;   // error: half the range of the lowest branch, or twice the standard error
-    Estimate mu_drops;   // mean of the load drops
+    Estimate mu_drops;   // mean of the load drops; error: twice the standard error
     double mu_max;
     double critical_length;   // mean l_c of the peaks that count, length; NaN: none
     double subcritical_length;   // mean l_sc of those that have one

@@ -48,13 +48,13 @@ class Point:
         self.drops, self.period, self.enough = drops["counted"], drops["period"], drops["enough"]
 
     def average(self):
-        """Mean of the load drops, with its standard error where they do not repeat."""
+        """Mean of the load drops, with its error bar (95 %) where they do not repeat."""
         if self.mean_error is None or self.period:
             return self.mean
         return f"{self.mean:.3f} ± {self.mean_error:.3f}" + ("" if self.enough else ", too few")
 
     def low_end(self):
-        """mu_hold, with its standard error where drops do not repeat."""
+        """mu_hold, with its error bar (95 %) where drops do not repeat."""
         if self.hold_error is None or self.period:
             return self.hold
         return f"{self.hold:.3f} ± {self.hold_error:.3f}"
@@ -147,8 +147,8 @@ def study_count(study, name, points, plain, pressures, title):
                     level(whole.hold, [0.6, 12.4], color)]
         if open_ones:
             content.append({"label": "", "x": [p.n for p in open_ones], "y": [p.mean for p in open_ones], "color": color,
-                            "low": [p.mean - 2 * p.mean_error for p in open_ones], "line": "none",
-                            "high": [p.mean + 2 * p.mean_error for p in open_ones], "marker": "square",
+                            "low": [p.mean - p.mean_error for p in open_ones], "line": "none",
+                            "high": [p.mean + p.mean_error for p in open_ones], "marker": "square",
                             "filled": False})
         rows += [[stress(P), "none" if p is whole else p.n, p.low_end(), p.average(), p.drops, p.period, p.mu,
                   p.first_pad, p.branches(), p.l_c] for p in [whole] + here]

@@ -1,0 +1,98 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""An error bar asked for: met, made of what run.json says, and holding the answer of a fine mesh; refused and cut short
+with a sentence."""
+import json
+import math
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+SOURCE = Path(os.environ["AMONTONS_SOURCE"])
+PROGRAM = Path(os.environ["AMONTONS_BIN"], "amontons")
+SCENE = SOURCE / "validation/paper/fig1.yaml"
+# validation/benchmark/README.md: quads of order 2, 80 x 80, at a tolerance of 5e-4; its error is that of 20 peaks.
+REFERENCE, REFERENCE_ERROR = 0.26172, 0.0005
+SETTINGS = ["load.pressure=0.006", "time.until.U=0.03", "output.fields=none", "output.figures=[]"]
+
+
+class Accuracy(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory(prefix="amontons-accuracy-")
+        self.addCleanup(scratch.cleanup)
+        self.folder = Path(scratch.name, "result")
+
+    def run_it(self, *words, settings=SETTINGS):
+        words = [PROGRAM, "run", SCENE, "-o", self.folder, *words]
+        for setting in settings:
+            words += ["--set", setting]
+        return subprocess.run([str(word) for word in words], capture_output=True, text=True)
+
+    def report(self):
+        return json.loads((self.folder / "run.json").read_text())
+
+    def test_met(self):
+        ended = self.run_it("--to", "2%")
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        report = self.report()
+        found, results = report["accuracy"], report["results"]
+        self.assertTrue(found["met"])
+        self.assertEqual((found["wanted"], found["of"]), (0.02, "mu_M"))
+        levels = found["levels"]
+        self.assertGreaterEqual(len(levels), 2)
+        # 80 cells of the scene: the first mesh has a quarter of them, 21 nodes; each has twice the one before.
+        self.assertEqual([level["refine"] for level in levels], [0.25 * 2**k for k in range(len(levels))])
+        self.assertEqual([level["contact_nodes"] for level in levels], [20 * 2**k + 1 for k in range(len(levels))])
+        last = levels[-1]
+        self.assertEqual(last["runs"][-1]["pressure"], 1)      # with the files, on the last mesh
+        self.assertEqual(report["model"]["contact_nodes"], last["contact_nodes"])
+        values = [run["mu_M"] for run in last["runs"]]
+        self.assertAlmostEqual(results["mu_M"], sum(values) / len(values), places=12)
+        parts = results["mu_M_error_parts"]
+        self.assertAlmostEqual(results["mu_M_error"], math.hypot(*parts.values()), places=12)
+        self.assertLessEqual(results["mu_M_error"], 0.02 * results["mu_M"])
+        self.assertLess(abs(results["mu_M"] - REFERENCE), results["mu_M_error"] + REFERENCE_ERROR)
+        for word in ("mesh 1: 21 contact nodes", "mesh 2: 41 contact nodes"):
+            self.assertIn(word, ended.stderr)
+        self.assertRegex(ended.stdout, r"mu_M +0\.26\d+ \+- [\d.e-]+ \(mesh .*, branches .*, drops .*\)")
+        self.assertTrue((self.folder / "history.h5").exists())
+
+    def test_cut_short(self):
+        """One mesh is done whatever time there is; its bar says that the mesh's part is not known."""
+        ended = self.run_it("--to", "0.1%", "--within", "0.001s")
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        report = self.report()
+        self.assertFalse(report["accuracy"]["met"])
+        self.assertIn("time", report["accuracy"]["ended"])
+        self.assertEqual(len(report["accuracy"]["levels"]), 1)
+        self.assertIsNone(report["results"]["mu_M_error_parts"]["mesh"])
+
+    def test_split(self):
+        """A .msh has no parameters: its cells are halved. The scene's mesh is taken as it is where no coarser one is."""
+        mesh = self.folder.parent / "block.msh"
+        script = self.folder.parent / "block.geo"
+        script.write_text((SOURCE / "meshes/block.geo").read_text())
+        subprocess.run(["gmsh", "-2", "-setnumber", "nx", "10", "-setnumber", "nz", "10", script, "-o", mesh], check=True,
+                       capture_output=True)
+        ended = self.run_it("--to", "50%", settings=[*SETTINGS, f"mesh={{file: {mesh}}}"])
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        levels = self.report()["accuracy"]["levels"]
+        self.assertEqual([(level["refine"], level["contact_nodes"]) for level in levels], [(1, 11), (2, 21)])
+
+    def test_refused(self):
+        for words, said in ((["--within", "5min"], "--to"), (["--to", "1%", "--within", "5 parsecs"], "300s, 5min or 1h"),
+                            (["--to", "200%"], "a number from 0 to 1"), (["--to", "1 um"], "no unit")):
+            ended = self.run_it(*words, settings=[*SETTINGS, "units=si"] if "um" in words[1] else SETTINGS)
+            self.assertEqual(ended.returncode, 2, words)
+            self.assertIn(said, ended.stderr)
+        self.folder.mkdir()
+        (self.folder / "run.json").write_text("{}")      # known before anything is computed
+        ended = self.run_it("--to", "1%")
+        self.assertEqual(ended.returncode, 2)
+        self.assertNotIn("mesh 1", ended.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
