@@ -10,11 +10,7 @@
 #include "io/mesh_file.h"
 #include "io/yaml_document.h"
 
-enum {
-    SCENE_TEXT_SIZE = 512,
-    SCENE_LIST_MAX = 32,
-    SCENE_KEYS_MAX = 64,   // of scene/keys's table
-};
+enum { SCENE_TEXT_SIZE = 512, SCENE_LIST_MAX = 32, SCENE_KEYS_MAX = 64 };   // of scene/keys
 
 typedef enum SceneUnits { UNITS_NORMALISED, UNITS_SI } SceneUnits;
 typedef enum ScenePlane { PLANE_STRESS, PLANE_STRAIN } ScenePlane;
@@ -82,7 +78,7 @@ typedef struct Scene {
         double displacement;   // of the rod in `amontons static`
         double height, width;   // of the strip's centre, and its extent; 0: H/2 and 0.1 H
         SceneRodKind kind;
-        SceneRodEnds ends;   // exact (default) or at nodes
+        SceneRodEnds ends;
     } rod;
     struct {
         SceneStartFriction friction;
@@ -106,8 +102,7 @@ typedef struct Scene {
         double periodic_tolerance;   // peaks agree within this, relative
     } time;
     struct {
-        double mu;   // error bar wanted, relative; 0: one run, no bar
-        double within;   // of this computer's time, s; 0: no limit
+        double mu, within;   // bar wanted, relative (0: one run); of this computer's time, s
         double window;   // of pressures, relative width
     } accuracy;
     struct {
