@@ -83,8 +83,8 @@ static void print_mu_hold(const RunSummary *summary)
 static void print_resolution(const RunSummary *summary)
 {
     if (isnan(summary->slip_cells)) return;
-    printf("  resolution      %.3g cells of the contact slipped where slow slip turned fast",
-           summary->slip_cells);
+    printf("  resolution      %.3g cell%s of the contact slipped where slow slip turned fast",
+           summary->slip_cells, summary->slip_cells == 1 ? "" : "s");
     if (*summary->slip_pad) printf(", on %s over %.3g", summary->slip_pad, summary->slip_length);
     printf("\n");
 }

@@ -28,6 +28,7 @@ static const struct {
     {"results.mu_max", "mu_max"},
     {"results.l_c_over_L", "l_c / L"},
     {"results.l_sc_over_L", "l_sc / L"},
+    {"results.slip_cells", "slip cells"},
     {"steps.accepted", "accepted steps"},
     {"steps.rejected", "rejected steps"},
     {"timing_s.total", "time taken, s"},

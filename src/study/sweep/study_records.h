@@ -14,6 +14,7 @@
     X("peaks", "results.mu_M_peaks", true, "how many they are")                                    \
     X("l_c", "results.l_c_over_L", true, "critical length over L, from the dynamics")              \
     X("l_sc", "results.l_sc_over_L", true, "front over L where the certificate is lost")           \
+    X("slip_cells", "results.slip_cells", false, "cells that slipped where slow slip turned fast") \
     X("steps", "steps.accepted", true, "steps accepted")                                           \
     X("unsolved", "steps.unsolved_retries", true, "steps undone, the contact without solution")    \
     X("solve_s", "timing_s.solve", true, "time in the loop of steps, s")                           \
