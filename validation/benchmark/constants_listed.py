@@ -186,10 +186,15 @@ NOT_A_CHOICE = {
                         "LINE_ARRAYS": "of the interface's file"},
     "record/front_path.h": {"FRONT_STATIONS": "shown"},
     "record/front_path.c": {"AT_NODE": "rounding of coordinates"},
+    "record/answers.c": {"BAR": "95 % of normal deviates"},
+    "record/error_bars.c": {
+        "BAR": "95 % of normal deviates", "TWO_LEVELS": "of error bars: fifteen cases (there)",
+        "STEPS": "of error bars: what this table's tolerances move"},
+    "record/error_bars.h": {"LEVELS_MAX": SIZE, "LEVEL_RUNS_MAX": SIZE},
     "record/history.c": {"FLUSH_EVERY": "seconds of a run that a kill may cost"},
     "record/observation.h": {"RECORDERS_MAX": SIZE},
     "model/basis_cache.c": {"WAIT_MAX": "seconds for another run's basis", "COUNTS": "stored"},
-    "model/shape_cache.c": {"NAME_NUMBERS": "stored", "BASIS_NUMBERS": "stored", "MESH_BYTES_MAX": "of a mesh file", "COUNTS": "stored"},
+    "model/shape_cache.c": {"NAME_NUMBERS": "stored", "BASIS_NUMBERS": "stored", "COUNTS": "stored"},
     "model/model.c": {
         "standard_middle": "the rod's default place", "standard_width": "the rod's default"},
     "model/obtain.c": {
