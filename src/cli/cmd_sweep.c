@@ -27,7 +27,7 @@ static const CommandText text = {
         "    mesh.set.length: [0.25, 1, 4]\n"
         "    load.pressure: {log: [1e-4, 1e-2], points: 7}\n"
         "  record: [mu_M, period, results.mu_max]\n"
-        "  rank: {by: mu_M, order: highest, top: 10, against: {mesh.set.length: 1}}\n"
+        "  rank: {by: mu_M, order: highest, top: 10, against: {mesh.set.length: 1}, refine: 0.5%}\n"
         "  plot: {x: load.pressure, y: mu_M, series: mesh.set.length, log: x}\n"
         "\v`set` changes keys of the scene for all points; a value that begins with `=` is a "
         "formula over the scene's numbers. `vary` takes every combination of its values. `cases` "
@@ -43,7 +43,9 @@ static const CommandText text = {
         "`top` how many are printed, `against` what the gain is measured from: first (the first "
         "point), best, or keys: then the same point with these values. `+-` is the error of "
         "the number before it. Where the difference of two points is within their errors, their "
-        "order is `not decided`. `plot` draws DIR/figures/plot.png: `x` and `y` each a result or a "
+        "order is `not decided`; `refine: 0.5%` computes such points again, with accuracy.mu "
+        "halved until the order is decided or 0.5% is reached. `plot` draws DIR/figures/plot.png: "
+        "`x` and `y` each a result or a "
         "key that "
         "varies, `series` a key, `log`: x, y, both or none.\n\n"
         "Each point ends when its peaks are periodic, and keeps no history and no pictures, "
@@ -150,6 +152,7 @@ static int close_sweep(const SweepDisplay *display, const char *folder, const ch
     if (!display->quiet) {
         printf("%d points: %d computed in %.1f s", summary->points, summary->computed,
                summary->seconds);
+        if (summary->refined) printf(" (%d again, to decide ranks)", summary->refined);
         if (summary->reused) printf(", %d computed before", summary->reused);
         if (summary->failed) printf(", %d failed", summary->failed);
         printf("\nTable in %s: sweep.csv and sweep.h5; each point's run.json in points/\n", folder);

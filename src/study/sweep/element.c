@@ -3,7 +3,7 @@
 // has to pass through a shell:
 //
 //     {"directory": ..., "study": ..., "folder": ..., "set_count": 1, "set": ["rod.kind=push"],
-//      "points": [3, 7], "hashes": ["97e1...", "62f1..."]}
+//      "points": [3, 7], "accuracies": [0, 0.005], "hashes": ["97e1...", "62f1..."]}
 //
 // Element e computes points[e]. Its scene is made anew and must have the hash that it had when the
 // sweep began: a study that was changed meanwhile would answer another question.
@@ -46,6 +46,9 @@ bool elements_write(const Sweep *sweep, const char *path, const int32_t *points,
     json_end(json);
     json_begin_list(json, "points");
     for (int32_t k = 0; k < count; k++) json_integer(json, NULL, points[k]);
+    json_end(json);
+    json_begin_list(json, "accuracies");
+    for (int32_t k = 0; k < count; k++) json_number(json, NULL, sweep->points[points[k]].accuracy);
     json_end(json);
     json_begin_list(json, "hashes");
     for (int32_t k = 0; k < count; k++) json_text(json, NULL, sweep->points[points[k]].hash);
@@ -113,6 +116,8 @@ static bool read_element(const char *text, int32_t element, Sweep *sweep, int32_
     if (*point >= sweep->study.point_count)
         FAIL(err, ERROR_INPUT, "%s has fewer points than when the sweep began", study);
     TRY((sweep->points = NEW_ARRAY(SweepPoint, sweep->study.point_count, err)));
+    snprintf(path, sizeof path, "accuracies.%d", element);
+    json_find_number(text, path, &sweep->points[*point].accuracy);
     find(text, "hashes", element, sweep->points[*point].hash, HASH_TEXT_SIZE);
 cleanup:
     memory_free(settings);
@@ -127,7 +132,7 @@ static bool check_scene(const Sweep *sweep, int32_t point, Error *err)
     char hash[HASH_TEXT_SIZE];
     Scene *scene = NEW_ARRAY(Scene, 1, err);
     TRY(scene);
-    TRY(study_point_scene(&sweep->study, point, scene, err));
+    TRY(point_scene(sweep, point, scene, err));
     TRY(point_hash(scene, &mesh, hash, err));
     if (strcmp(hash, sweep->points[point].hash) != 0)
         FAIL(err, ERROR_INPUT, "the study, its scene or a mesh was changed after the sweep began");

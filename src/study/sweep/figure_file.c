@@ -73,7 +73,7 @@ bool figure_begin(Figure *figure, Error *err)
     snprintf(path, sizeof path, "%s/figures", figure->sweep->folder);
     TRY(folder_make(path, err));
     TRY((figure->scene = NEW_ARRAY(Scene, 1, err)));
-    TRY(study_point_scene(&figure->sweep->study, 0, figure->scene, err));
+    TRY(point_scene(figure->sweep, 0, figure->scene, err));
     figure_path(figure, "json", path);
     TRY((figure->json = json_create(path, err)));
     json_begin_object(figure->json, NULL);

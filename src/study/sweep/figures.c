@@ -33,7 +33,7 @@ static bool write_names(Figure *figure, const Ranking *ranking, int32_t shown, E
     json_begin_list(figure->json, "names");
     for (int32_t k = shown - 1; k >= 0; k--) {
         char name[NAME_SIZE] = "";
-        TRY(study_point_scene(study, ranking->rows[k].point, figure->scene, err));
+        TRY(point_scene(figure->sweep, ranking->rows[k].point, figure->scene, err));
         for (int32_t c = 0; c < study->column_count; c++) {
             if (!study_is_chosen(study, study->columns[c])) continue;
             study_scene_value(figure->scene, study->columns[c], cell, sizeof cell, &ignored);

@@ -74,6 +74,15 @@ cleanup:
     return error_is_clean(err);
 }
 
+bool point_scene(const Sweep *sweep, int32_t point, Scene *scene, Error *err)
+{
+    double accuracy = sweep->points[point].accuracy;
+    TRY(study_point_scene(&sweep->study, point, scene, err));
+    if (accuracy > 0) scene->accuracy.mu = accuracy;
+cleanup:
+    return error_is_clean(err);
+}
+
 // By hash, not by number: a study that is changed finds its old points again.
 static void point_folder(const Sweep *sweep, int32_t point, char folder[POINT_PATH_SIZE])
 {
@@ -132,7 +141,7 @@ bool point_run(const Sweep *sweep, int32_t point, Error *err)
     Scene *scene = NEW_ARRAY(Scene, 1, err);
     TRY(scene);
     point_folder(sweep, point, folder);
-    TRY(study_point_scene(&sweep->study, point, scene, err));
+    TRY(point_scene(sweep, point, scene, err));
     TRY(amontons_run(scene, &options, &summary, err));
 cleanup:
     memory_free(scene);
@@ -147,7 +156,7 @@ bool point_write_failure(const Sweep *sweep, int32_t point, const char *failure,
     Scene *scene = NEW_ARRAY(Scene, 1, err);
     JsonWriter *json = NULL;
     TRY(scene);
-    TRY(study_point_scene(&sweep->study, point, scene, err));
+    TRY(point_scene(sweep, point, scene, err));
     point_folder(sweep, point, folder);
     mkdir(folder, 0777);   // a failure shows when the report is written
     report_path(sweep, point, path);

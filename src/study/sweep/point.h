@@ -25,6 +25,8 @@ typedef struct SweepPoint {
     int32_t same_as;   // an earlier point with the same scene; its own index: none
     int32_t baseline;   // the point that `rank` measures it against; -1: none
     bool reused;   // was finished when the sweep began
+    double accuracy;   // accuracy.mu that its rank called for; 0: as the study has it
+    bool settled;   // a smaller accuracy is of no use
     double seconds;   // in this sweep
 } SweepPoint;
 
@@ -36,7 +38,9 @@ typedef struct Sweep {
     SweepPoint *points;   // [study.point_count]; owned
     double started;   // wall clock, s
     bool checked;   // what the study records is in run.json
+    int32_t planned;   // points to compute or to find: all, and those computed again
     int32_t computed, failed, finished;
+    int32_t refined;   // of those computed: again, for their rank
 } Sweep;
 
 enum { POINT_PATH_SIZE = AMONTONS_PATH_SIZE + 64, POINT_WORDS_SIZE = 512 };
@@ -46,6 +50,8 @@ typedef struct PointMesh {
     char path[SCENE_TEXT_SIZE];
 } PointMesh;
 
+// The scene of a point as it is to be computed: the study's, with the point's accuracy.
+bool point_scene(const Sweep *sweep, int32_t point, Scene *scene, Error *err);
 // A name for all that decides what a point comes to: version, mesh file, every key but the title.
 bool point_hash(const Scene *scene, PointMesh *mesh, char hash[HASH_TEXT_SIZE], Error *err);
 // run.json of the point (memory_free); NULL without an error when there is none.

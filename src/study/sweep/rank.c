@@ -179,7 +179,7 @@ static bool write_row(CsvWriter *csv, const Sweep *sweep, const SweepTable *tabl
     double ignored = 0;
     Scene *scene = NEW_ARRAY(Scene, 1, err);
     TRY(scene);
-    TRY(study_point_scene(study, row->point, scene, err));
+    TRY(point_scene(sweep, row->point, scene, err));
     TRY(row_notes(sweep, ranking, row, note, err));
     csv_number(csv, isnan(row->value) ? (double)NAN : (double)(row - ranking->rows) + 1);
     csv_number(csv, row->from > 0 ? row->from : (double)NAN);
@@ -261,7 +261,7 @@ static bool print_row(const Sweep *sweep, const Ranking *ranking, int32_t k, Pri
     double ignored = 0;
     Scene *scene = NEW_ARRAY(Scene, 1, err);
     TRY(scene);
-    TRY(study_point_scene(study, from->point, scene, err));
+    TRY(point_scene(sweep, from->point, scene, err));
     add_number(row, &count, "%.0f", k + 1);
     for (int32_t c = 0; c < study->column_count; c++)
         if (study_is_chosen(study, study->columns[c]))
@@ -283,7 +283,7 @@ static bool print_title(const Sweep *sweep, bool has_error, FILE *out, Error *er
     char words[POINT_WORDS_SIZE] = "";
     Scene *scene = NEW_ARRAY(Scene, 1, err);
     TRY(scene);
-    TRY(study_point_scene(study, 0, scene, err));
+    TRY(point_scene(sweep, 0, scene, err));
     fprintf(out, "\n%s, %s first; gain over ", ranked_by(study)->name,
             study->rank.lowest ? "lowest" : "highest");
     if (study->rank.against == AGAINST_BEST) fprintf(out, "the best");

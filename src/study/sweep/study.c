@@ -32,6 +32,17 @@ int32_t study_column(const Study *study, const char *name)
     return -1;
 }
 
+// A key that is given in several places is one column.
+bool study_add_column(Study *study, const char *key, Error *err)
+{
+    if (study_column(study, key) >= 0) return true;
+    if (study->column_count == STUDY_COLUMNS_MAX)
+        FAIL(err, ERROR_INPUT, "%s: more than %d keys vary", study->path, STUDY_COLUMNS_MAX);
+    snprintf(study->columns[study->column_count++], STUDY_NAME_SIZE, "%s", key);
+cleanup:
+    return error_is_clean(err);
+}
+
 // `key` itself, or a map that it is in.
 static bool sets(const char *given, const char *key)
 {

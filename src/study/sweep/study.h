@@ -10,7 +10,7 @@
 //       mesh.set.length: [0.25, 1, 4]
 //       load.pressure: {log: [1e-4, 1e-2], points: 7}
 //     record: [mu_M, period, results.mu_max]
-//     rank: {by: mu_M, order: highest, top: 10, against: {rod.kind: push}}
+//     rank: {by: mu_M, order: highest, top: 10, against: {rod.kind: push}, refine: 0.5%}
 //     plot: {x: load.pressure, y: mu_M, series: mesh.set.length, log: x}
 //
 // A value that begins with `=` is a formula (study/sweep/formula) over the numbers of the scene;
@@ -61,6 +61,7 @@ typedef struct StudyRank {
     int32_t top;   // rows to show
     RankAgainst against;   // what a gain is measured from: the first point, the best, or ...
     YamlNode baseline;   // ... the same point with these keys, a map; YAML_NO_NODE else
+    double refine;   // smallest accuracy.mu that points without a decided rank may get; 0: none
 } StudyRank;
 
 typedef struct StudyAxisData {
@@ -101,6 +102,8 @@ typedef struct Study {
 void study_destroy(Study *study);   // also of one half read
 
 // --- what the files that read a study share
+// Makes `key` a column, once.
+bool study_add_column(Study *study, const char *key, Error *err);
 // The index in `columns` of the key `name`; -1: it does not vary.
 int32_t study_column(const Study *study, const char *name);
 // Whether `vary` or `cases` sets the key, alone or in a map; a formula of `set` does not count.

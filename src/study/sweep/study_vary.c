@@ -13,17 +13,6 @@
 static const char AXIS_ALLOWED[] = "a list of values, {log: [from, to], points: n} or "
                                    "{linear: [from, to], points: n}";
 
-// A key that is given in several places is one column.
-static bool add_column(Study *study, const char *key, Error *err)
-{
-    if (study_column(study, key) >= 0) return true;
-    if (study->column_count == STUDY_COLUMNS_MAX)
-        FAIL(err, ERROR_INPUT, "%s: more than %d keys vary", study->path, STUDY_COLUMNS_MAX);
-    snprintf(study->columns[study->column_count++], STUDY_NAME_SIZE, "%s", key);
-cleanup:
-    return error_is_clean(err);
-}
-
 // The keys that a value given under `key` sets: itself, or those of the map below it.
 static bool add_columns(Study *study, const char *key, const YamlDocument *document, YamlNode node,
                         Error *err)
@@ -31,7 +20,7 @@ static bool add_columns(Study *study, const char *key, const YamlDocument *docum
     bool opens = yaml_kind(document, node) == YAML_MAP;
     bool is_map_of_keys = strcmp(key, "mesh.set") == 0 || strcmp(key, "output.fields") == 0 ||
                           (scene_key_is_group(key) && scene_key_index(key) < 0);
-    if (!opens || !is_map_of_keys) return add_column(study, key, err);
+    if (!opens || !is_map_of_keys) return study_add_column(study, key, err);
     for (YamlNode item = yaml_first(document, node); item != YAML_NO_NODE;
          item = yaml_next(document, item)) {
         char path[STUDY_NAME_SIZE];
@@ -73,7 +62,7 @@ static bool read_set(Study *study, Error *err)
          item = yaml_next(study->file, item)) {
         TRY(check_key(study, item, err));
         if (study_is_formula(study->file, item))
-            TRY(add_column(study, yaml_key(study->file, item), err));
+            TRY(study_add_column(study, yaml_key(study->file, item), err));
     }
 cleanup:
     return error_is_clean(err);

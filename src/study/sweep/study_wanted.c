@@ -203,15 +203,34 @@ cleanup:
     return error_is_clean(err);
 }
 
+// A share such as 0.005 or 0.5%. Points that are computed again differ in accuracy.mu: a column.
+static bool read_refine(Study *study, const WantedKey *key, Error *err)
+{
+    if (key->node == YAML_NO_NODE) return true;
+    const char *text = yaml_text(study->file, key->node);
+    double *share = &study->rank.refine;
+    int32_t length = text_number(text, share);
+    bool percent = length > 0 && strcmp(text + length, "%") == 0;
+    if (percent) *share /= 100;
+    if (length == 0 || (text[length] && !percent) || !(*share > 0 && *share < 1))
+        return yaml_refuse(study->file, key->node, key->name,
+                           "the smallest error bar worth computing, as in 0.5%", err);
+    return study_add_column(study, "accuracy.mu", err);
+}
+
 // What is ranked by becomes a column of the table where it is none yet.
 static bool read_rank(Study *study, Error *err)
 {
     static const char *const orders[] = {"highest", "lowest"};
-    WantedKey keys[] = {{.name = "by"}, {.name = "order"}, {.name = "top"}, {.name = "against"}};
+    WantedKey keys[] = {{.name = "by"},
+                        {.name = "order"},
+                        {.name = "top"},
+                        {.name = "against"},
+                        {.name = "refine"}};
     StudyRank *rank = &study->rank;
     int32_t order = 0;
     if (yaml_look_up(study->file, "rank") == YAML_NO_NODE) return true;
-    TRY(find_keys(study, "rank", keys, 4, err));
+    TRY(find_keys(study, "rank", keys, 5, err));
     if (keys[0].node == YAML_NO_NODE) {
         yaml_error(study->file, yaml_look_up(study->file, "rank"), err,
                    "rank: `by` must be given, as in {by: mu_M}");
@@ -220,6 +239,7 @@ static bool read_rank(Study *study, Error *err)
     TRY(read_record(study, keys[0].node, "by", &rank->record, err));
     TRY(read_choice(study, &keys[1], orders, 2, &order, err));
     TRY(read_against(study, &keys[3], err));
+    TRY(read_refine(study, &keys[4], err));
     double top = TOP_STANDARD;
     bool good = keys[2].node == YAML_NO_NODE || study_plain_number(study, keys[2].node, &top);
     if (!good || top != floor(top) || top < 1 || top > TOP_MAX)

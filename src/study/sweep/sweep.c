@@ -7,6 +7,7 @@
 #include "io/folder.h"
 #include "study/sweep/figures.h"
 #include "study/sweep/pool.h"
+#include "study/sweep/refine.h"
 #include "study/sweep/slurm.h"
 #include "study/sweep/study_point.h"
 #include "study/sweep/study_read.h"
@@ -78,8 +79,13 @@ static bool plan_points(Sweep *sweep, Error *err)
     TRY((sweep->points = NEW_ARRAY(SweepPoint, sweep->study.point_count, err)));
     for (int32_t k = 0; k < sweep->study.point_count; k++) {
         SweepPoint *point = &sweep->points[k];
-        TRY(study_point_scene(&sweep->study, k, scene, err));
+        TRY(point_scene(sweep, k, scene, err));
         TRY(point_hash(scene, &mesh, point->hash, err));
+        if (sweep->study.rank.refine > 0 && !(scene->accuracy.mu > 0))
+            FAIL(err, ERROR_INPUT,
+                 "%s: rank: `refine` halves accuracy.mu, which must be given to begin with, as in "
+                 "`set: {accuracy.mu: 3%%}`",
+                 sweep->study.path);
         for (point->same_as = 0; point->same_as < k; point->same_as++)
             if (strcmp(sweep->points[point->same_as].hash, point->hash) == 0) break;
     }
@@ -113,6 +119,35 @@ cleanup:
     return error_is_clean(err);
 }
 
+static bool compute_waiting(Sweep *sweep, Error *err)
+{
+    bool whole = sweep->options->slurm ? slurm_run(sweep, err) : pool_run(sweep, err);
+    sweep_share_results(sweep);
+    return whole;
+}
+
+// Rounds of smaller errors for points whose rank is open. ERROR_INTERRUPT: stopped in one of them;
+// its points then have the results they had.
+static bool decide_ranks(Sweep *sweep, Error *err)
+{
+    SweepPoint *before = NULL;
+    int32_t count = 1;
+    while (sweep->study.rank.refine > 0 && count > 0) {
+        int32_t computed = sweep->computed;
+        Error ended = {0};
+        TRY(refine_begin(sweep, &before, &count, err));
+        compute_waiting(sweep, err);
+        sweep->refined += sweep->computed - computed;
+        if (!refine_end(sweep, before, &ended) && error_is_clean(err)) *err = ended;
+        TRY(error_is_clean(err));
+        memory_free(before);
+        before = NULL;
+    }
+cleanup:
+    memory_free(before);
+    return error_is_clean(err);
+}
+
 // A stopped sweep still leaves its table, with what is not done marked as pending.
 bool amontons_sweep(const char *path, const SweepOptions *options, SweepSummary *summary,
                     Error *err)
@@ -127,11 +162,11 @@ bool amontons_sweep(const char *path, const SweepOptions *options, SweepSummary 
     dense_use_one_thread();   // before forking
     TRY(study_read(path, options->overrides, options->override_count, &sweep->study, err));
     TRY(plan_points(sweep, err));
+    sweep->planned = sweep->study.point_count;
     TRY(take_folder(sweep, err));
     TRY(sweep_take_finished(sweep, err));
     TRY(slurm_end_leftovers(sweep, err));
-    bool whole = options->slurm ? slurm_run(sweep, &stopped) : pool_run(sweep, &stopped);
-    sweep_share_results(sweep);
+    bool whole = compute_waiting(sweep, &stopped) && decide_ranks(sweep, &stopped);
     sweep_summarise(sweep, summary);
     if (!whole && stopped.code != ERROR_INTERRUPT) {
         *err = stopped;

@@ -184,7 +184,7 @@ static bool write_row(TableWriter *writer, int32_t point, Scene *scene, Error *e
     const SweepPoint *at = &sweep->points[point];
     char run[HASH_TEXT_SIZE + 8], *report = NULL;
     const char *results = NULL;   // what a failed point came to before it failed is none
-    TRY(study_point_scene(&sweep->study, point, scene, err));
+    TRY(point_scene(sweep, point, scene, err));
     if (at->status != POINT_PENDING) report = point_report(sweep, point, err);
     TRY(error_is_clean(err));
     csv_number(writer->csv, point);

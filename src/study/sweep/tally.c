@@ -20,8 +20,7 @@ static void report_point(Sweep *sweep, int32_t k, const char *report)
     if (point->status == POINT_FAILED) sweep->failed++;
     if (!sweep->options->on_point) return;
     scene = NEW_ARRAY(Scene, 1, &ignored);
-    if (scene && study_point_scene(&sweep->study, k, scene, &ignored))
-        point_words(sweep, scene, words);
+    if (scene && point_scene(sweep, k, scene, &ignored)) point_words(sweep, scene, words);
     memory_free(scene);
     SweepView view = {.words = words,
                       .mu_M = NAN,
@@ -30,7 +29,7 @@ static void report_point(Sweep *sweep, int32_t k, const char *report)
                       .seconds_left = NAN,
                       .finished = sweep->finished,
                       .failed = sweep->failed,
-                      .points = sweep->study.point_count,
+                      .points = sweep->planned,
                       .reused = point->reused};
     if (report) {
         json_find_number(report, "results.mu_M", &view.mu_M);
@@ -43,7 +42,7 @@ static void report_point(Sweep *sweep, int32_t k, const char *report)
     }
     if (sweep->computed > 0)
         view.seconds_left = (clock_seconds() - sweep->started) / sweep->computed *
-                            (sweep->study.point_count - sweep->finished);
+                            (sweep->planned - sweep->finished);
     sweep->options->on_point(&view, sweep->options->context);
 }
 
@@ -138,6 +137,7 @@ void sweep_summarise(const Sweep *sweep, SweepSummary *summary)
 {
     *summary = (SweepSummary){.points = sweep->study.point_count,
                               .computed = sweep->computed,
+                              .refined = sweep->refined,
                               .seconds = clock_seconds() - sweep->started};
     for (int32_t k = 0; k < sweep->study.point_count; k++) {
         const SweepPoint *point = &sweep->points[k];

@@ -200,7 +200,11 @@ static void test_rank_and_plot(void **state)
     assert_int_equal(study->rank.top, 10);
     assert_true(study_is_chosen(study, "mesh.set.nx") && study_is_chosen(study, "rod.height"));
     assert_false(study_is_chosen(study, "rod.width") || study_is_chosen(study, "mesh.settle"));
-    assert_false(study->plot.wanted);
+    assert_false(study->plot.wanted || study->rank.refine > 0);
+    drop(study);
+    study = read_body("vary: {rod.height: [1]}\nrank: {by: mu_M, refine: 0.5%}\n");
+    assert_true(study->rank.refine == 0.5 / 100);
+    assert_string_equal(study->columns[1], "accuracy.mu");
     drop(study);
 }
 
@@ -262,7 +266,9 @@ static void test_faults(void **state)
         {"rank: {by: mu_N}\n", ":2:12: by: unknown name `mu_N`; did you mean `mu_M`?"},
         {"rank: {by: mu_M, order: best}\n", "order: found `best`; allowed: highest, lowest"},
         {"rank: {by: mu_M, top: 0}\n", ":2:23: top: found `0`; allowed: a whole number"},
-        {"rank: {by: mu_M, bottom: 3}\n", "unknown key `bottom`; allowed: by, order, top, against"},
+        {"rank: {by: mu_M, bottom: 3}\n",
+         "unknown key `bottom`; allowed: by, order, top, against, refine"},
+        {"rank: {by: mu_M, refine: 100%}\n", ":2:26: refine: found `100%`; allowed: the smallest"},
         {"rank: {by: mu_M, against: last}\n", "against: found `last`; allowed: first, best"},
         {"rank: {by: mu_M, against: {load.pressure: 1}}\n", "neither `vary` nor `cases` has"},
         {"plot: {y: mu_M}\n", "plot: `x` must be given"},

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A refined point is an ordinary point with another accuracy.mu: it has a hash and a folder of its
+// own, so that the same command finds it again, and goes the same way to the same table.
+#include "study/sweep/refine.h"
+
+#include "base/memory.h"
+#include "io/json_reader.h"
+#include "study/sweep/rank.h"
+#include "study/sweep/tally.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double SMALLER = 0.9;   // of the error before: a round was of use
+
+// Points with the same scene are computed once; those of an earlier round count.
+static void find_same(Sweep *sweep)
+{
+    for (int32_t k = 0; k < sweep->study.point_count; k++) {
+        SweepPoint *point = &sweep->points[k];
+        for (point->same_as = 0; point->same_as < k; point->same_as++)
+            if (strcmp(sweep->points[point->same_as].hash, point->hash) == 0) break;
+    }
+}
+
+// Half the error bar that was asked for or, where that is smaller, of the one that came out,
+// relative. Not below the limit; 0: the point is there already.
+static double next_accuracy(double asked, const RankRow *row, double limit)
+{
+    double came_out = row->error / fabs(row->value);
+    if (came_out < asked) asked = came_out;
+    return asked > limit ? fmax(asked / 2, limit) : 0;
+}
+
+// Looks for what an earlier sweep left. *chosen: there is a next accuracy.
+static bool choose(Sweep *sweep, const RankRow *row, PointMesh *mesh, bool *chosen, Error *err)
+{
+    int32_t k = row->point;
+    SweepPoint *point = &sweep->points[k];
+    char *report = NULL;
+    Scene *scene = NEW_ARRAY(Scene, 1, err);
+    TRY(scene);
+    TRY(point_scene(sweep, k, scene, err));
+    double accuracy = next_accuracy(scene->accuracy.mu, row, sweep->study.rank.refine);
+    *chosen = accuracy > 0;
+    if (!*chosen) goto cleanup;
+    point->accuracy = scene->accuracy.mu = accuracy;
+    TRY(point_hash(scene, mesh, point->hash, err));
+    report = point_report(sweep, k, err);
+    TRY(error_is_clean(err));
+    point->status = sweep->options->fresh ? POINT_PENDING : point_status(report);
+    point->reused = point->status != POINT_PENDING;
+cleanup:
+    memory_free(scene);
+    memory_free(report);
+    return error_is_clean(err);
+}
+
+// Those shown, and others that might be among them.
+static bool is_open(const Sweep *sweep, const RankRow *row)
+{
+    return row->from < row->to && row->from <= sweep->study.rank.top &&
+           !sweep->points[row->point].settled;
+}
+
+static bool choose_all(Sweep *sweep, const Ranking *ranking, int32_t *count, Error *err)
+{
+    PointMesh mesh = {0};
+    *count = 0;
+    for (int32_t k = 0; k < ranking->ranked; k++) {
+        bool chosen = false;
+        if (!is_open(sweep, &ranking->rows[k])) continue;
+        TRY(choose(sweep, &ranking->rows[k], &mesh, &chosen, err));
+        *count += chosen;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+bool refine_begin(Sweep *sweep, SweepPoint **before, int32_t *count, Error *err)
+{
+    SweepTable table = {0};
+    Ranking ranking = {0};
+    int32_t points = sweep->study.point_count;
+    TRY((*before = NEW_ARRAY(SweepPoint, points, err)));
+    memcpy(*before, sweep->points, (size_t)points * sizeof **before);
+    TRY(table_write(sweep, &table, err));
+    TRY(ranking_make(sweep, &table, &ranking, err));
+    TRY(choose_all(sweep, &ranking, count, err));
+    find_same(sweep);
+    for (int32_t k = 0; k < points; k++) sweep->planned += sweep_is_waiting(sweep, k);
+cleanup:
+    table_destroy(&table);
+    ranking_destroy(&ranking);
+    return error_is_clean(err);
+}
+
+// The error of what is ranked, in a point's run.json; NaN: it has none.
+static bool read_error(const Sweep *sweep, int32_t k, double *error, Error *err)
+{
+    char path[STUDY_NAME_SIZE + 8];
+    char *report = point_report(sweep, k, err);
+    *error = NAN;
+    snprintf(path, sizeof path, "%s_error", sweep->study.records[sweep->study.rank.record].path);
+    if (report) json_find_number(report, path, error);
+    memory_free(report);
+    return error_is_clean(err);
+}
+
+bool refine_end(Sweep *sweep, const SweepPoint *before, Error *err)
+{
+    for (int32_t k = 0; k < sweep->study.point_count; k++) {
+        SweepPoint *point = &sweep->points[k];
+        SweepPoint refined = *point;
+        double error = NAN, error_before = NAN;
+        if (strcmp(refined.hash, before[k].hash) == 0) continue;
+        if (refined.status == POINT_DONE) TRY(read_error(sweep, k, &error, err));
+        *point = before[k];
+        TRY(read_error(sweep, k, &error_before, err));
+        if (isnan(error_before)) error_before = INFINITY;
+        if (error < error_before) *point = refined;
+        point->settled = !(error < SMALLER * error_before);
+    }
+    find_same(sweep);
+cleanup:
+    return error_is_clean(err);
+}
