@@ -9,6 +9,7 @@
 // the scene itself on the last mesh, with all that it asks to be written, and counts too.
 #include "base/clock.h"
 #include "base/memory.h"
+#include "run/accuracy_figure.h"
 #include "run/simulation_state.h"
 
 #include <math.h>
@@ -317,6 +318,8 @@ static bool run_in_full(Accuracy *accuracy, RunSummary *summary, Error *err)
     levels->met = is_met(accuracy);
     simulation->levels = levels;
     TRY(amontons_simulation_finish(simulation, summary, err));
+    if (scene->output.figures.count > 0 && accuracy->options->folder)
+        TRY(accuracy_figure(levels, scene->title, accuracy->options->folder, err));
 cleanup:
     simulation_end(simulation, summary, err);
     memory_free(scene);

@@ -29,7 +29,7 @@ static const char *const OWN_FILES[] = {
 enum { OWN_FILE_COUNT = sizeof OWN_FILES / sizeof OWN_FILES[0] };
 
 #define FIGURE_FILE(id, name, words) name ".png",
-static const char *const FIGURES[] = {RENDER_FIGURES(FIGURE_FILE)};
+static const char *const FIGURES[] = {RENDER_FIGURES(FIGURE_FILE) "accuracy.png", "accuracy.json"};
 
 // A file in its place or a folder that cannot be written to is told at once.
 static bool make_folder(const char *folder, Error *err)

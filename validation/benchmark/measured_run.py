@@ -58,12 +58,13 @@ def late_mean(path):
     return float(numpy.trapz(value, at) / half)
 
 
-def run(scene, settings, cpu_limit=60, into=None):
+def run(scene, settings, cpu_limit=60, into=None, words=(), cache=None):
     """Runs `scene` with `settings` ("key=value"), at most `cpu_limit` seconds of processor time.
-    into: a folder that keeps the result; None: thrown away."""
+    into: a folder that keeps the result; None: thrown away. words: more for the command line.
+    cache: folder of the shape cache; None: the caller's."""
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(into or f"{scratch}/result")
-        words = [PROGRAM, "run", scene, "-o", folder, "--quiet", "--overwrite", "--profile"]
+        words = [PROGRAM, "run", scene, "-o", folder, "--quiet", "--overwrite", "--profile", *words]
         for setting in settings:
             words += ["--set", setting]
 
@@ -73,7 +74,8 @@ def run(scene, settings, cpu_limit=60, into=None):
         printed = Path(scratch, "printed")
         with open(f"{scratch}/said", "w+") as said, open(printed, "w") as profile:
             process = subprocess.Popen([str(word) for word in words], stdout=profile,
-                                       stderr=said, stdin=subprocess.DEVNULL, preexec_fn=limit)
+                                       stderr=said, stdin=subprocess.DEVNULL, preexec_fn=limit,
+                                       env=os.environ | ({"AMONTONS_CACHE": str(cache)} if cache else {}))
             _, status, usage = os.wait4(process.pid, 0)
             said.seek(0)
             text = "\n".join(line for line in said.read().splitlines() if is_message(line))

@@ -1,50 +1,43 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Does `time.accuracy` keep its promise? Ten (P, L, design) cases that no default was chosen by.
+"""Do error bars hold? Forty cases that no rule of theirs was chosen by.
 
-    validation/benchmark/promise.py [--quick] [-o FOLDER]
+    validation/benchmark/promise.py [--quick] [--list] [-o FOLDER]
 
-Cases are laid down by a rule before anything is computed: the points of a Halton sequence, in log P
-and log L, on blocks of set A, on 2 to 6 pads of set A, and on blocks of set B, in turn. A point is
-passed over only where the promise does not hold for it by its own words: where `amontons stability`
-on the mesh of `standard` has l_c within 6 cells of either end, or none. (Near the leading end two
-regimes may exist side by side: P = 0.002, L = 1 slides at peaks of 0.364, or of 0.364 and 0.372 in
-turn, on one mesh.)
+Cases are laid down by a rule before anything is computed: points of Halton sequences in log P and log L, number of pads,
+part of the length in contact, and number of grooves, on blocks of both parameter sets, on pads and on grooves of set A,
+in turn; nothing is passed over but a case without bulk sliding. Each is asked for at 3 % and at 1 % with `--to`, its
+mesh that of the scene file, within a minute.
 
-`draft` runs on cells of 1/40 of the block's length along the contact, `standard` on 1/80; the
-references are `fine` runs on quads of 1/128 and on quads of order 2 with nodes as near. Each run
-goes on for some twenty slidings. Its answer is `mu_M` of run.json, what a user gets; the
-reference's is the mean over all peaks but a first third of both runs, so that cycles on
-two branches are weighed as often as they come. Its own error is half the difference of the two, or
-the standard error of its mean where that is larger; where it is above 0.3 % the two runs are made
-four times as long. Leaves promise.md in FOLDER (default results/promise). --quick: two cases
-against coarser references. Exit status 1: standard is off by more than it promises, or a reference
-does not decide."""
+The reference of a case is the mean over two meshes (quads of 96 cells along the block, and quads of order 2 of 48; with
+contacts of their own 112 and 56 a length, graded by 8 towards their ends) of the mean over three pressures, 0.5 % below,
+at and above, as the program's window has them. Its own error is half the difference of the meshes, or the standard error
+of the six runs where that is more. A bar holds the reference where they differ by no more than the bar.
+
+Every run is kept in FOLDER/promise.jsonl as it ends (default results/promise): the same command goes on where it was
+stopped. Leaves promise.md in FOLDER. --quick: four cases at 3 %. Exit status 1: fewer than 19 of 20 bars hold, or one is
+off by more than three bars."""
 import argparse
 import json
 import math
-import os
 import statistics
-import subprocess
 import sys
 import tempfile
-import time
 from dataclasses import dataclass
 from pathlib import Path
 
-from measured_run import PROGRAM, ROOT, commit, markdown_table, run
+from measured_run import ROOT, commit, markdown_table, run
 
 BLOCK, PADS = ROOT / "validation/paper/fig1.yaml", ROOT / "validation/pads/pads.yaml"
 BLOCK_B = ROOT / "validation/paper/set-b.yaml"
-PROMISED = {"draft": 0.03, "standard": 0.01}   # of mu_M, relative
-CELLS = {"draft": 40, "standard": 80}          # along the contact of a block of length L
-FINE, FINE_QUICK = 128, 64     # ... of the first reference; half as many of order 2 for the second
-DECIDES = 0.003        # a reference whose own error is above decides nothing
-LONGER = 4             # then it is computed for so many times as long
-CELLS_TO_END = 6       # from l_c to either end of the contact, at least, of the mesh of `standard`
-BATCHES = 5            # whose means tell a standard error
+DESIGNS = ("A", "pads", "A", "B", "grooves", "A", "pads", "A", "grooves", "A")   # in turn
+CASES, CASES_QUICK = 40, 4
+WANTED = (0.03, 0.01)
+WITHIN = "60s"
+WINDOW = (0.995, 1, 1.005)      # of pressure: ends and middle of the program's own window
+REFERENCES = {True: ((96, 1, 1), (48, 2, 1)), False: ((112, 1, 8), (56, 2, 8))}   # block? (cells, order, grade)
 QUIET = ["output.history=false", "output.fields=none", "output.figures=[]"]
-DESIGNS = ("A", "pads", "A", "B", "pads", "A", "pads", "A", "B", "A")   # in turn, ten cases
+HELD = 0.95
 
 
 @dataclass(frozen=True)
@@ -52,16 +45,14 @@ class Case:
     name: str
     scene: Path
     settings: tuple
-    way: float             # U in which it slides some twenty times
-    length: float
-    mesh: str              # with {cells}, {pad_cells}, {bulk} and {order}
-
-    def mesh_of(self, cells, order=1):
-        return self.mesh.format(cells=cells, order=order, pad=1 / cells, bulk=4 / cells)
+    pressure: float
+    way: float             # U of some 12 slidings
+    mesh: dict             # mesh.set without sizes
+    is_block: bool
 
 
 def halton(index, base):
-    """The van der Corput sequence, from index 1: bits mirrored at the point."""
+    """The van der Corput sequence, from index 1: digits mirrored at the point."""
     value, part = 0.0, 1.0
     while index > 0:
         part /= base
@@ -83,117 +74,123 @@ def block(name, scene, products, lengths, index, slides):
     length = rounded(between(*lengths, halton(index, 3)))
     pressure = rounded(between(*products, halton(index, 2)) / length)
     return Case(f"{name}, P = {pressure:g}, L = {length:g}", scene,
-                (f"load.pressure={pressure}", f"rod.height={length / 4}",
-                 f"rod.width={length / 20}"), slides * pressure * length, length,
-                f"mesh.set={{{{length: {length}, height: {length / 2}, shape: quad, "
-                "nx: {cells}, nz: {cells}, order: {order}}}")
+                (f"rod.height={length / 4}", f"rod.width={length / 20}"), pressure, slides * pressure * length,
+                {"length": length, "height": length / 2, "shape": "quad"}, True)
 
 
 def pads(index):
-    number = 2 + int(5 * halton(index, 3))
+    number, fill = 2 + int(5 * halton(index, 3)), round(0.3 + 0.4 * halton(1 + index // 5, 7), 2)
     pressure = rounded(between(0.003, 0.012, halton(index, 2)))
-    return Case(f"A, P = {pressure:g}, {number} pads", PADS, (f"load.pressure={pressure}",),
-                12 * pressure, 1,
-                f"mesh.set={{{{n: {number}, total_height: 0.5, pad_height: 0.05, fill: 0.6, "
-                "ends: open, size_contact: {pad}, size_bulk: {bulk}, order: {order}}}")
+    return Case(f"A, P = {pressure:g}, {number} pads, fill {fill:g}", PADS, (), pressure, 12 * pressure,
+                {"n": number, "total_height": 0.5, "pad_height": 0.05, "fill": fill, "ends": "open"}, False)
 
 
-def candidate(design, index):
+def grooves(index):
+    number, pressure = 1 + int(4 * halton(index, 3)), rounded(between(0.003, 0.012, halton(index, 2)))
+    return Case(f"A, P = {pressure:g}, {number} grooves", PADS, ("mesh.file=../../meshes/grooves.geo",), pressure,
+                12 * pressure, {"grooves": number}, False)
+
+
+def case(number):
+    """The case of this number, from 0 on."""
+    design, index = DESIGNS[number % len(DESIGNS)], number + 1
     if design == "pads":
         return pads(index)
+    if design == "grooves":
+        return grooves(index)
     if design == "B":
         return block("B", BLOCK_B, (1.5e-6, 6e-6), (0.02, 0.08), index, 18)
     return block("A", BLOCK, (0.002, 0.02), (0.4, 2.5), index, 12)
 
 
-def has_fast_sliding(case):
-    """Whether slow slip turns fast on a part of the contact that the mesh resolves."""
-    with tempfile.TemporaryDirectory() as folder:
-        words = [PROGRAM, "stability", case.scene, "--quiet", "--overwrite", "-o", folder]
-        for setting in (*case.settings, case.mesh_of(CELLS["standard"]),
-                        f"time.until={{U: {case.way}}}"):
-            words += ["--set", setting]
-        ended = subprocess.run([str(word) for word in words], capture_output=True, text=True)
-        if ended.returncode:
-            return False
-        found = json.loads(Path(folder, "stability.json").read_text())["results"]["l_c_over_L"]
-    edge = CELLS_TO_END / CELLS["standard"]
-    return found is not None and edge <= found <= 1 - edge
+def flow(mesh):
+    return "mesh.set={" + ", ".join(f"{key}: {value}" for key, value in mesh.items()) + "}"
 
 
-def cases(designs):
-    """The first points of the sequence that the promise speaks of, for each design in turn."""
-    chosen, passed, index = [], [], 0
-    for design in designs:
-        while True:
-            index += 1
-            case = candidate(design, index)
-            if has_fast_sliding(case):
-                break
-            passed.append(case.name)
-            print(f"passed over: {case.name}", flush=True)
-        chosen.append(case)
-    return chosen, passed
+def reference_mesh(case, cells, order, grade):
+    if case.is_block:
+        return case.mesh | {"nx": cells, "nz": cells, "order": order}
+    return case.mesh | {"size_contact": 1 / cells, "size_bulk": 4 / cells, "order": order, "grade_contact": grade}
 
 
-def compute(case, mesh, accuracy, longer=1):
-    ended = run(case.scene, [*QUIET, *case.settings, mesh, f"time.accuracy={accuracy}",
-                             f"time.until={{U: {longer * case.way}}}"], 3000)
-    if ended.status != 0:
-        print(f"  {case.name}, {accuracy}: status {ended.status}: {ended.said[-200:]}", flush=True)
-        return None
-    return ended
+def scene_mesh(case):
+    """As the scene files have it: 80 cells along a block of set A, 40 of set B, pads of 0.0125, grooves of 0.02."""
+    if case.is_block:
+        cells = 40 if case.scene == BLOCK_B else 80
+        return case.mesh | {"nx": cells, "nz": cells}
+    return case.mesh if "grooves" in case.mesh else case.mesh | {"size_contact": 0.0125, "size_bulk": 0.05}
 
 
-def mean_peak(ended):
-    """Mean over the peaks of a run but a first third, and its standard error from batches."""
-    peaks = [peak["mu"] for peak in ended.report["results"]["peaks"]]
-    late = peaks[len(peaks) // 3:]
-    size = max(1, len(late) // BATCHES)
-    means = [statistics.mean(late[k:k + size]) for k in range(0, size * (len(late) // size), size)]
-    error = statistics.stdev(means) / math.sqrt(len(means)) if len(means) > 1 else math.inf
-    return statistics.mean(late), error
+class Kept:
+    """What was computed, a line of JSON each."""
+
+    def __init__(self, path):
+        self.path, self.rows = path, {}
+        for line in path.read_text().splitlines() if path.exists() else []:
+            row = json.loads(line)
+            self.rows[row["case"], row["what"]] = row
+
+    def obtain(self, case, what, compute):
+        if (case.name, what) not in self.rows:
+            row = {"case": case.name, "what": what} | compute()
+            with open(self.path, "a") as file:
+                file.write(json.dumps(row) + "\n")
+            self.rows[case.name, what] = row
+        return self.rows[case.name, what]
 
 
-def reference(case, fine):
-    """(mean, its own error, peaks in it), relative; None: a run failed."""
-    for longer in (1, LONGER):
-        runs = [compute(case, case.mesh_of(cells, order), "fine", longer)
-                for cells, order in ((fine, 1), (fine // 2, 2))]
-        if None in runs:
+def reference_run(case, cells, order, grade, factor):
+    ended = run(case.scene, [*QUIET, *case.settings, flow(reference_mesh(case, cells, order, grade)),
+                             f"load.pressure={case.pressure * factor:.9g}", f"time.until={{U: {case.way:.6g}}}"], 3000)
+    return {"mu": ended.report.get("results", {}).get("mu_M"), "seconds": ended.seconds, "said": ended.said[-200:]}
+
+
+def reference(case, kept):
+    """(mean, its own error); None: no bulk sliding, or a run failed."""
+    means, every = [], []
+    for cells, order, grade in REFERENCES[case.is_block]:
+        rows = [kept.obtain(case, f"reference {cells} order {order} at {factor}",
+                            lambda f=factor: reference_run(case, cells, order, grade, f)) for factor in WINDOW]
+        values = [row["mu"] for row in rows]
+        if None in values:
             return None
-        (one, noise), (other, other_noise) = map(mean_peak, runs)
-        mean = (one + other) / 2
-        own = max(abs(one - other) / 2, math.hypot(noise, other_noise) / 2) / mean
-        if own <= DECIDES:
-            break
-    return mean, own, sum(len(ended.report["results"]["peaks"]) for ended in runs)
+        means.append(statistics.mean(values))
+        every += values
+    own = max(abs(means[0] - means[1]) / 2, statistics.stdev(every) / math.sqrt(len(every)))
+    return statistics.mean(means), own
 
 
-def measure(case, fine):
-    """A row of the table, and what is wrong with it."""
-    found = reference(case, fine)
-    if found is None:
-        return [case.name, "failed"] + [""] * (2 + 3 * len(PROMISED)), ["no reference"]
-    mean, own, peaks = found
-    row, faults = [case.name, f"{mean:.4f}", f"{100 * own:.2f}", peaks], []
-    if own > DECIDES:
-        faults.append("the reference does not decide")
-    for level, cells in CELLS.items():
-        ended = compute(case, case.mesh_of(cells), level)
-        if ended is None:
-            row += ["failed", "", ""]
-            faults.append(f"{level} failed")
-            continue
-        results = ended.report["results"]
-        error = results["mu_M"] / mean - 1
-        broken = abs(error) > PROMISED[level]
-        if broken:
-            faults.append(f"{level} is off by {100 * error:.2f} %")
-        row += [f"{100 * error:+.2f}" + " **no**" * broken,
-                f"{100 * (results['mu_M_spread'] or 0) / mean:.2f}",
-                ended.report["steps"]["accepted"]]
-    return row, faults
+def ask(case, wanted):
+    with tempfile.TemporaryDirectory() as cache:      # what a user pays who tries this shape for the first time
+        ended = run(case.scene, [*QUIET, *case.settings, flow(scene_mesh(case)), f"load.pressure={case.pressure}",
+                                 f"time.until={{U: {case.way:.6g}}}"], 600, cache=cache,
+                    words=["--within", WITHIN, "--to", str(wanted)])
+    results, found = ended.report.get("results", {}), ended.report.get("accuracy", {})
+    return {"mu": results.get("mu_M"), "bar": results.get("mu_M_error"), "parts": results.get("mu_M_error_parts"),
+            "met": found.get("met"), "nodes": [level["contact_nodes"] for level in found.get("levels", [])],
+            "seconds": ended.seconds, "said": ended.said[-200:]}
+
+
+def percent(part):
+    return f"{100 * part:.2f}"
+
+
+def answer_cells(answer, mean):
+    """Cells of the table, and |error| / bar."""
+    if answer["mu"] is None or not answer["bar"]:
+        return ["none", "", "", "", ""], math.inf
+    ratio = abs(answer["mu"] - mean) / answer["bar"]
+    return [percent(answer["mu"] / mean - 1) + " **no**" * (ratio > 1), percent(answer["bar"] / mean),
+            "yes" if answer["met"] else "no", ", ".join(map(str, answer["nodes"])), f"{answer['seconds']:.1f}"], ratio
+
+
+def summary_of(wanted, ratios, met, seconds):
+    """A sentence, and whether the promise is kept."""
+    held = sum(ratio <= 1 for ratio in ratios)
+    sentence = (f"- **{100 * wanted:g} %**: {held} of {len(ratios)} bars hold the reference; the worst error is "
+                f"{max(ratios):.2f} bars, the median {statistics.median(ratios):.2f}; {met} met the request within "
+                f"{WITHIN}; {statistics.median(seconds):.1f} s of processor time in the median, {max(seconds):.0f} at most.")
+    return sentence, held >= HELD * len(ratios) and max(ratios) <= 3
 
 
 def main():
@@ -202,38 +199,46 @@ def main():
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--list", action="store_true", help="only say which cases")
     options = parser.parse_args()
-    options.output.mkdir(parents=True, exist_ok=True)
-    rows, faults, started = [], [], time.process_time()
-    with tempfile.TemporaryDirectory() as cache:
-        os.environ["AMONTONS_CACHE"] = cache      # lengths share a shape
-        chosen, passed = cases(("A", "A") if options.quick else DESIGNS)
-        for case in chosen:
-            if options.list:
-                print(case.name)
-                continue
-            row, wrong = measure(case, FINE_QUICK if options.quick else FINE)
-            print(" | ".join(map(str, row)), *wrong, flush=True)
-            rows.append(row)
-            faults += [f"{case.name}: {fault}" for fault in wrong]
+    cases = [case(k) for k in range(CASES_QUICK if options.quick else CASES)]
     if options.list:
+        print("\n".join(one.name for one in cases))
         return 0
-    head = ["case", "mu_M", "own error, %", "peaks"]
-    for level in PROMISED:
-        head += [f"{level}: error, %", "its spread, %", "steps"]
-    promises = ", ".join(f"{level} {100 * PROMISED[level]:g} % on {cells} cells"
-                         for level, cells in CELLS.items())
-    over = f" Passed over: {'; '.join(passed)}." if passed else ""
-    text = (f"## Ten cases against the promise\n\nVersion {commit()}. Promised for mu_M: "
-            f"{promises} along the block's length, l_c at least "
-            f"{CELLS_TO_END} cells from either end. Cases by Halton's sequence, before anything was "
-            f"computed.{over} References: `fine`, quads of {FINE} cells and order 2 of {FINE // 2}; "
-            "`own error` is half their difference or the standard error of their mean. `spread`: "
-            "mu_M_spread of the run, the largest less the smallest of the peaks in its mu_M.\n\n"
-            + markdown_table(head, rows) + "\n" + "".join(f"\n- {line}" for line in faults))
+    options.output.mkdir(parents=True, exist_ok=True)
+    kept, wanted_all = Kept(options.output / "promise.jsonl"), WANTED[:1] if options.quick else WANTED
+    rows, passed, found = [], [], {wanted: [] for wanted in wanted_all}
+    for one in cases:
+        truth = reference(one, kept)
+        if truth is None:
+            passed.append(one.name)
+            print(f"passed over: {one.name}", flush=True)
+            continue
+        mean, own = truth
+        row = [one.name, f"{mean:.4f}", percent(own / mean)]
+        for wanted in wanted_all:
+            answer = kept.obtain(one, f"to {wanted}", lambda w=wanted: ask(one, w))
+            cells, ratio = answer_cells(answer, mean)
+            row += cells
+            found[wanted].append((ratio, answer))
+        print(" | ".join(row), flush=True)
+        rows.append(row)
+    sentences, good = [], True
+    for wanted, answers in found.items():
+        sentence, kept_promise = summary_of(wanted, [ratio for ratio, _ in answers],
+                                            sum(bool(answer["met"]) for _, answer in answers),
+                                            [answer["seconds"] for _, answer in answers])
+        sentences.append(sentence)
+        good = good and kept_promise
+    head = ["case", "mu_M", "own error, %"]
+    for wanted in wanted_all:
+        head += [f"to {100 * wanted:g} %: error, %", "bar, %", "met", "contact nodes", "cpu s"]
+    over = f" Passed over, as the block does not slide as a whole: {'; '.join(passed)}." if passed else ""
+    text = (f"## Do error bars hold?\n\nVersion {commit()}. {len(rows)} cases by Halton's sequences, fixed before anything was "
+            f"computed.{over} `own error`: of the reference (promise.py says how it is made). `bar`: half its width. "
+            "`contact nodes`: of each mesh that was used. No cache.\n\n" + "\n".join(sentences) + "\n\n"
+            + markdown_table(head, rows) + "\n")
     (options.output / "promise.md").write_text(text)
-    print(f"{options.output}/promise.md: {len(faults)} broken")
-    broken = [line for line in faults if "draft" not in line]
-    return 1 if broken else 0
+    print("\n".join(sentences))
+    return 0 if good else 1
 
 
 if __name__ == "__main__":

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "run/accuracy_figure.h"
+
+#include "amontons.h"
+#include "io/folder.h"
+#include "io/json_writer.h"
+
+#include <stdio.h>
+
+enum { FIGURE_PATH_SIZE = AMONTONS_PATH_SIZE + 32 };
+
+static const ErrorBar *answer_of(const Levels *levels, int32_t level)
+{
+    return &levels->list[level].answer[levels->asked];
+}
+
+static void write_axes(const Levels *levels, JsonWriter *json)
+{
+    json_begin_object(json, "x");
+    json_text(json, "label", "contact nodes");
+    json_text(json, "scale", "log");
+    json_end(json);
+    json_begin_object(json, "y");
+    json_text(json, "label", levels->asked == ANSWER_MU_M ? "~{\u03bc}_{M}" : "~{\u03bc}_{hold}");
+    json_end(json);
+}
+
+// Each run, x and y in two passes as the format has them.
+static void write_runs(const Levels *levels, JsonWriter *json)
+{
+    json_begin_object(json, NULL);
+    json_text(json, "label", "a run");
+    for (int32_t values = 0; values < 2; values++) {
+        json_begin_list(json, values ? "y" : "x");
+        for (int32_t l = 0; l < levels->count; l++) {
+            const Level *level = &levels->list[l];
+            for (int32_t k = 0; k < level->run_count; k++)
+                json_number(json, NULL,
+                            values ? level->runs[k].answer[levels->asked].value
+                                   : level->contact_nodes);
+        }
+        json_end(json);
+    }
+    json_integer(json, "color", 0);
+    json_text(json, "marker", "circle");
+    json_boolean(json, "filled", false);
+    json_text(json, "line", "none");
+    json_end(json);
+}
+
+// A level without a mesh part has no bar: its ends are the value.
+static void write_means(const Levels *levels, JsonWriter *json)
+{
+    static const char *const names[] = {"x", "y", "low", "high"};
+    static const double sides[] = {0, 0, -1, 1};
+    json_begin_object(json, NULL);
+    json_text(json, "label", "mean, error bar");
+    for (int32_t list = 0; list < 4; list++) {
+        json_begin_list(json, names[list]);
+        for (int32_t l = 0; l < levels->count; l++) {
+            const ErrorBar *answer = answer_of(levels, l);
+            double bar = answer->parts.mesh >= 0 ? answer->bar : 0;
+            json_number(json, NULL,
+                        list == 0 ? levels->list[l].contact_nodes
+                                  : answer->value + sides[list] * bar);
+        }
+        json_end(json);
+    }
+    json_integer(json, "color", 1);
+    json_text(json, "marker", "square");
+    json_text(json, "line", "thin");
+    json_end(json);
+}
+
+bool accuracy_figure(const Levels *levels, const char *title, const char *folder, Error *err)
+{
+    char path[FIGURE_PATH_SIZE], png[FIGURE_PATH_SIZE];
+    snprintf(path, sizeof path, "%s/figures", folder);
+    if (!folder_make(path, err)) return false;
+    snprintf(path, sizeof path, "%s/figures/accuracy.json", folder);
+    snprintf(png, sizeof png, "%s/figures/accuracy.png", folder);
+    JsonWriter *json = json_create(path, err);
+    if (!json) return false;
+    json_begin_object(json, NULL);
+    json_text(json, "title", title);
+    write_axes(levels, json);
+    json_begin_list(json, "series");
+    write_means(levels, json);
+    write_runs(levels, json);
+    json_end(json);
+    json_end(json);
+    return json_finish(json, err) && amontons_render_plot_file(path, png, err);
+}

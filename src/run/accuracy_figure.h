@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The picture of how an error bar was found: runs and means over contact nodes. Called by
+// run/accuracy.
+#ifndef AMONTONS_RUN_ACCURACY_FIGURE_H
+#define AMONTONS_RUN_ACCURACY_FIGURE_H
+
+#include "record/error_bars.h"
+
+// figures/accuracy.json (render/plot_file's format, which a user may edit) and figures/accuracy.png
+// in the result folder `folder`.
+bool accuracy_figure(const Levels *levels, const char *title, const char *folder, Error *err);
+
+#endif
