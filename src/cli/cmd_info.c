@@ -25,6 +25,7 @@ int command_info(int argc, char **argv)
 {
     const char *file = NULL, *picture = NULL;
     OptionWords settings = {0};
+    bool trusted = false;
     Error err = {0};
     const Option options[] = {
         {"set", 0, "KEY=VALUE",
@@ -33,9 +34,11 @@ int command_info(int argc, char **argv)
          .words = &settings},
         {"picture", 0, "FILE.png", "Draw the mesh, and for a scene where the rod is",
          .word = &picture},
+        option_trust(&trusted),
         {0}};
     int status = options_read(&text, options, argc, argv, &file);
     if (status != 0) return status;
+    if (trusted) trust_meshes();
     InfoOptions wanted = {
         .overrides = settings.list, .override_count = settings.count, .picture = picture};
     bool done = strcmp(file, "keys") == 0 ? amontons_scene_reference(stdout, &err)

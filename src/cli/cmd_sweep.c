@@ -65,7 +65,7 @@ static const CommandText text = {
 typedef struct SweepWords {
     const char *study, *folder, *jobs, *slurm;
     OptionWords settings;
-    bool has_slurm, is_element, retry, fresh, quiet;
+    bool has_slurm, is_element, retry, fresh, quiet, trusted;
 } SweepWords;
 
 // What show_point keeps from call to call.
@@ -94,8 +94,11 @@ static int read_words(int argc, char **argv, SweepWords *words)
         {"retry", 0, NULL, "Compute points again that failed before", .flag = &words->retry},
         {"fresh", 0, NULL, "Compute all points again", .flag = &words->fresh},
         {"quiet", 'q', NULL, "Print nothing but errors", .flag = &words->quiet},
+        option_trust(&words->trusted),
         {0}};
-    return options_read(&text, options, argc, argv, &words->study);
+    int status = options_read(&text, options, argc, argv, &words->study);
+    if (words->trusted) trust_meshes();
+    return status;
 }
 
 // One point, in a job of a Slurm array. list: the file that the sweep wrote for the array; Slurm

@@ -132,6 +132,17 @@ int option_count(const char *name, const char *word, int32_t low, int32_t high, 
 
 // --- reports ------------------------------------------------------------------------------------
 
+Option option_trust(bool *trusted)
+{
+    return (Option){"trust", 0, NULL, "Also use a .geo that runs commands or writes files",
+                    .flag = trusted};
+}
+
+void trust_meshes(void)
+{
+    setenv("AMONTONS_TRUST", "yes", 1);
+}
+
 // Standard output is flushed first, here and below: in a file that takes both, lines stand in the
 // order in which they were printed.
 int report_error(const Error *err)

@@ -46,6 +46,11 @@ void default_folder(const char *file, const char *ending, char *folder, size_t s
 // The value `word` of an option called `name`, a whole number from low to high. Status 0 or 2.
 int option_count(const char *name, const char *word, int32_t low, int32_t high, int32_t *count);
 
+// `--trust`, of every command that reads meshes; and what it means, for this process and those that
+// it starts: a .geo may run commands.
+Option option_trust(bool *trusted);
+void trust_meshes(void);
+
 // Prints "amontons: error: ..." and gives the exit status that belongs to it.
 int report_error(const Error *err);
 int report_misuse(const char *format, ...) __attribute__((format(printf, 1, 2)));   // status 2

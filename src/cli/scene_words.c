@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cli/scene_words.h"
 
-enum { OWN_MAX = 8, COMMON_COUNT = 4 };
+enum { OWN_MAX = 8, COMMON_COUNT = 5 };
 
 int scene_words_read(const CommandText *text, const Option *own, int argc, char **argv,
                      SceneWords *words)
@@ -11,9 +11,11 @@ int scene_words_read(const CommandText *text, const Option *own, int argc, char 
         {"set", 0, "KEY=VALUE", "Use this value instead of the scene's; may be given several times",
          .words = &words->settings},
         {"overwrite", 0, NULL, "Replace an earlier result in DIR", .flag = &words->overwrite},
-        {"quiet", 'q', NULL, "Print nothing but warnings and errors", .flag = &words->quiet}};
+        {"quiet", 'q', NULL, "Print nothing but warnings and errors", .flag = &words->quiet},
+        option_trust(&words->trusted)};
     for (int32_t k = 0; k < OWN_MAX && own[k].name; k++) options[COMMON_COUNT + k] = own[k];
     int status = options_read(text, options, argc, argv, &words->scene);
+    if (words->trusted) trust_meshes();
     if (status == 0 && words->folder && !*words->folder)
         return report_misuse("-o: the folder has no name");
     return status;

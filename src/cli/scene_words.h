@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The words that every command on a scene takes: SCENE, -o, --set, --overwrite, --quiet.
+// The words that every command on a scene takes: SCENE, -o, --set, --overwrite, --quiet,
+// --trust.
 #ifndef AMONTONS_CLI_SCENE_WORDS_H
 #define AMONTONS_CLI_SCENE_WORDS_H
 
@@ -9,7 +10,7 @@ typedef struct SceneWords {
     const char *scene;
     const char *folder;   // of -o; NULL: not given
     OptionWords settings;   // "load.pressure=0.006"
-    bool overwrite, quiet;
+    bool overwrite, quiet, trusted;
 } SceneWords;
 
 // Reads them, and the command's own options (a table that ends with {0}). The exit status, 0 or 2.

@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "base/module.h"
+#include "io/geo_commands.h"
 #include "io/geo_parameters.h"
 #include "io/mesh_raw.h"
 
@@ -36,6 +37,21 @@ static bool check_file(const char *path, Error *err)
         FAIL(err, ERROR_INPUT, "%s: cannot be read: %s", path, strerror(errno));
     if (!S_ISREG(status.st_mode)) FAIL(err, ERROR_INPUT, "%s: is not a file", path);
     if (status.st_size == 0) FAIL(err, ERROR_INPUT, "%s: is empty", path);
+cleanup:
+    return error_is_clean(err);
+}
+
+// gmsh runs what does not begin like a mesh as a script, whatever its name ends with.
+static bool check_begin(FILE *file, const char *path, Error *err)
+{
+    char line[16] = "";
+    bool mesh = fgets(line, sizeof line, file) &&
+                (strncmp(line, "$MeshFormat", 11) == 0 || strncmp(line, "$Comments", 9) == 0);
+    if (!mesh)
+        FAIL(err, ERROR_INPUT,
+             "%s: is not a gmsh mesh: it does not begin with $MeshFormat (format 4.1 or 2.2)",
+             path);
+    rewind(file);
 cleanup:
     return error_is_clean(err);
 }
@@ -75,6 +91,7 @@ static bool check_msh(const char *path, double *version, Error *err)
     char *chunk = NULL;
     FILE *file = fopen(path, "rb");
     if (!file) FAIL(err, ERROR_INPUT, "%s: cannot be read: %s", path, strerror(errno));
+    TRY(check_begin(file, path, err));
     TRY(read_version(file, path, version, err));
     if (!(chunk = NEW_ARRAY(char, CHUNK_SIZE, err))) goto cleanup;
     if (!file_holds(file, "$EndElements", chunk))
@@ -152,6 +169,8 @@ bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t p
     if (parameter_count > 0)
         memcpy(given.list, parameters, (size_t)parameter_count * sizeof *parameters);
     TRY(check_file(path, err));
+    bool trusted = getenv("AMONTONS_TRUST") && *getenv("AMONTONS_TRUST");
+    if (!trusted) TRY(geo_commands_refuse(path, request.generate, err));
     if (request.generate)
         TRY(check_geo(path, &given, &request.splits, err));
     else

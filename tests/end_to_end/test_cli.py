@@ -152,6 +152,35 @@ class Misuse(InFolder):
         self.assert_refused(["stability", FIG1, "-o", "file"], "is a file, not a folder")
         self.assert_refused(["sweep", SOURCE / "validation/pads/designs.yaml", "-o", "file"], "cannot make the folder")
 
+    def test_a_geo_that_runs_commands(self):
+        """Refused before gmsh sees it, however it is hidden; allowed with --trust."""
+        block = (SOURCE / "meshes/block.geo").read_text()
+        geo, inner = self.folder / "a.geo", self.folder / "inner.geo"
+        scene = self.scene(FIG1.read_text().replace("../../meshes/block.geo", "a.geo"))
+        touch = f'SystemCall "touch {self.folder}/ran";'
+        inner.write_text(touch)
+        for text in (touch, f"s = '\"'; {touch} t = '\"';", f'NonBlocking{touch}', 'Include "inner.geo";',
+                     'Merge "inner.geo";', 'Include Str("inner", ".geo");', f'Printf("x") > "{self.folder}/ran";',
+                     f'Print "{self.folder}/ran";', f'General.LogFileName = "{self.folder}/ran";'):
+            with self.subTest(text):
+                geo.write_text(block + text + "\n")
+                for command in (["info", geo], ["static", scene],
+                                ["run", scene, "-q", "--overwrite", *COARSE, *PLAIN]):
+                    self.assert_refused(command, ".geo:", "--trust")
+                self.assertFalse((self.folder / "ran").exists())
+        geo.write_text(block)
+        (self.folder / "a.geo.opt").write_text(touch)
+        self.assert_refused(["info", geo], "a.geo.opt:1: `SystemCall`")
+        (self.folder / "a.geo.opt").unlink()
+        mesh = self.folder / "a.msh"
+        mesh.write_text(f"// \n{touch}\n/*\n$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$EndElements\n*/\n")
+        self.assert_refused(["info", mesh], "does not begin with $MeshFormat")
+        self.assertFalse((self.folder / "ran").exists())
+        geo.write_text(block + touch + "\n")
+        done = amontons("info", geo, "--trust", cwd=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue((self.folder / "ran").exists())
+
     def test_files_of_no_known_kind(self):
         self.assert_refused(["info", "none"], "none: No such file")
         self.assert_refused(["info", self.folder], "not a result folder")

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Words of gmsh 4's language, looked for everywhere, in comments and strings too: whoever hides a
+// command must not be able to by a quote that we take for another's. So a file may be refused for a
+// comment; none is let through for one.
+#include "io/geo_commands.h"
+
+#include "base/memory.h"
+#include "io/text_file.h"
+
+#include <ctype.h>
+#include <libgen.h>
+#include <limits.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { SCRIPT_BYTES_MAX = 1 << 28, INCLUDE_DEPTH_MAX = 8 };
+
+// System: SystemCall and NonBlockingSystemCall too. FileName: options that name a log to write.
+static const char *const COMMANDS[] = {"System", "Onelab",   "Solver",    "Merge",   "Save",
+                                       "Plugin", "FileName", "CreateDir", "UnitTest"};
+
+// The line of a place in a text, from 1.
+static int32_t line_of(const char *text, const char *at)
+{
+    int32_t line = 1;
+    for (; text < at; text++) line += *text == '\n';
+    return line;
+}
+
+// `Print "x.png"`, or `Printf` with a ">" behind it: output that goes to a file.
+static const char *find_print(const char *text)
+{
+    for (const char *at = text; (at = strstr(at, "Print")); at += 5) {
+        if (at[5] != 'f' && !isalpha((unsigned char)at[5])) return at;
+        if (at[5] == 'f' && strchr(at, '>')) return at;
+    }
+    return NULL;
+}
+
+static const char *find_command(const char *text)
+{
+    for (size_t k = 0; k < sizeof COMMANDS / sizeof COMMANDS[0]; k++) {
+        const char *found = strstr(text, COMMANDS[k]);
+        if (found) return found;
+    }
+    return find_print(text);
+}
+
+static bool refuse_script(const char *path, int32_t depth, Error *err);
+
+// `quoted` begins with a quote; the name is relative to the file that includes it. What cannot be
+// opened here cannot be by gmsh.
+static bool refuse_included(const char *path, const char *quoted, int32_t depth, Error *err)
+{
+    char folder[PATH_MAX], other[2 * PATH_MAX];
+    int length = (int)strcspn(quoted + 1, "\"'\n");
+    snprintf(folder, sizeof folder, "%s", path);
+    if (quoted[1] == '/')
+        snprintf(other, sizeof other, "%.*s", length, quoted + 1);
+    else
+        snprintf(other, sizeof other, "%s/%.*s", dirname(folder), length, quoted + 1);
+    return access(other, R_OK) != 0 || refuse_script(other, depth + 1, err);
+}
+
+static bool refuse_script(const char *path, int32_t depth, Error *err)
+{
+    static const char *const how =
+        "give --trust, or set AMONTONS_TRUST=yes, if you know where it comes from";
+    char *text = NULL;
+    int32_t size = 0;
+    TRY(text_file_read(path, SCRIPT_BYTES_MAX, &text, &size, err));
+    if (depth > INCLUDE_DEPTH_MAX)
+        FAIL(err, ERROR_INPUT, "%s: files include each other more than %d deep", path,
+             INCLUDE_DEPTH_MAX);
+    if (strlen(text) != (size_t)size) FAIL(err, ERROR_INPUT, "%s: is no text", path);
+    const char *found = find_command(text);
+    if (found)
+        FAIL(err, ERROR_INPUT,
+             "%s:%d: `%.*s`: gmsh would run a command, write a file or open one that was not "
+             "looked at; %s",
+             path, line_of(text, found), (int)strcspn(found, " \t\n;(\"'"), found, how);
+    for (const char *at = text; (at = strstr(at, "Include"));) {
+        int32_t line = line_of(text, at);
+        at += strlen("Include");
+        const char *name = at + strspn(at, " \t");
+        if (*name != '"' && *name != '\'')
+            FAIL(err, ERROR_INPUT, "%s:%d: includes a file whose name is not written out; %s", path,
+                 line, how);
+        TRY(refuse_included(path, name, depth, err));
+    }
+cleanup:
+    memory_free(text);
+    return error_is_clean(err);
+}
+
+// gmsh reads the options like a script, those of a .msh too.
+bool geo_commands_refuse(const char *path, bool is_script, Error *err)
+{
+    char options[PATH_MAX];
+    if (is_script) TRY(refuse_script(path, 0, err));
+    int length = snprintf(options, sizeof options, "%s.opt", path);
+    if (length < (int)sizeof options && access(options, F_OK) == 0)
+        TRY(refuse_script(options, 0, err));
+cleanup:
+    return error_is_clean(err);
+}
