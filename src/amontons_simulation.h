@@ -21,6 +21,15 @@ void amontons_simulation_view(const Simulation *simulation, StepView *view);   /
 bool amontons_simulation_finish(Simulation *simulation, RunSummary *summary, Error *err);
 void amontons_simulation_destroy(Simulation *simulation);   // NULL is fine
 
+// Between two steps. Not under time.scheme explicit (ERROR_INPUT, as for all that is not possible).
+// The rod moves on with `velocity` (0: it stands; below 0: back) from where it is; the scene ends
+// when it comes to time.until.U, or at time.until.t. The velocity of the scene stays what slip is
+// called rapid by.
+bool amontons_simulation_set_rod_velocity(Simulation *simulation, double velocity, Error *err);
+// The pressure on the top is `pressure` from now on, put on at once; mu is over the load that acts.
+// Where load.pressure is the only load, and on the full mesh (reduction.use: never).
+bool amontons_simulation_set_pressure(Simulation *simulation, double pressure, Error *err);
+
 // All nodes of the mesh; dimensions: 2, x and z. The arrays belong to the simulation; displacement
 // and velocity are recovered at each call, and stay until the next.
 typedef struct BlockView {

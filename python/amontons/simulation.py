@@ -91,6 +91,15 @@ class Simulation:
                 raise_error(error)
             yield step
 
+    def set_rod_velocity(self, velocity: float) -> None:
+        """The rod moves on with this velocity from where it is; 0: it stands, below 0: back."""
+        call(lib.amontons_simulation_set_rod_velocity, self._handle, velocity)
+
+    def set_pressure(self, pressure: float) -> None:
+        """The pressure on the top from now on, put on at once, stress; step.mu is over the load that acts. Where
+        load.pressure is the only load, and on the full mesh ({"reduction.use": "never"})."""
+        call(lib.amontons_simulation_set_pressure, self._handle, pressure)
+
     def _look(self) -> c.BlockView:
         block = c.BlockView()
         call(lib.amontons_simulation_block, self._handle, ctypes.byref(block))

@@ -37,11 +37,23 @@ void rod_soften(const Interface *interface, double modulus, double viscosity, Ro
         rod->softness[j] = -END_SOFTNESS * log(interface->rod_share[j]) / (PI * modulus);
 }
 
-// Length over time. A rigid node goes to origin + V t within the stage: v = (origin + V t -
-// u*)/reach. At a soft one this is the velocity at which its spring carries nothing.
+double rod_displacement(const Rod *rod, double time)
+{
+    return rod->way + rod->velocity * (time - rod->since);
+}
+
+void rod_set_velocity(Rod *rod, double velocity, double time)
+{
+    rod->way = rod_displacement(rod, time);
+    rod->since = time;
+    rod->velocity = velocity;
+}
+
+// Length over time. A rigid node goes to origin + U within the stage: v = (origin + U - u*)/reach.
+// At a soft one this is the velocity at which its spring carries nothing.
 double rod_bound(const Rod *rod, int32_t j, double position, double time, double reach)
 {
-    double way = rod->origin[j] + rod->velocity * time - position;
+    double way = rod->origin[j] + rod_displacement(rod, time) - position;
     if (rod->softness[j] == 0) return way / reach;
     // r = [way - reach v + lag (V - v)] / softness = 0 at this v.
     return (way + rod->lag * rod->velocity) / (reach + rod->lag);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The rod that drives the block: node j of the strip is held at, or pushed to,
-// u_x = u_x,j(0) + V t, with no shear. Used by contact/contact_problem and stepping/.
+// u_x = u_x,j(0) + U, U = V t, with no shear. Used by contact/contact_problem and stepping/.
 //
 // The ends of the strip seldom stand half way between two nodes, and a mesh knows no other place
 // for an end: of whole nodes, the strip's width is off by up to a cell, and with it the force at
@@ -34,6 +34,7 @@ typedef enum RodKind {
 typedef struct Rod {
     RodKind kind;
     double velocity;   // V, velocity
+    double since, way;   // it has this velocity since then, from this displacement on; time, length
     double *origin;   // [rod_count] u_x,j(0), length; owned
     double *softness;   // [rod_count] length per force/width, 0: rigid; owned
     double lag;   // of soft nodes, time
@@ -46,6 +47,11 @@ void rod_destroy(Rod *rod);
 
 // Springs where the interface has shares below 1. modulus, viscosity: E* of both, stress, * time.
 void rod_soften(const Interface *interface, double modulus, double viscosity, Rod *rod);
+
+// U: V t, where V was the same from t = 0 on.
+double rod_displacement(const Rod *rod, double time);
+// It moves with V from `time` on, from where it is then.
+void rod_set_velocity(Rod *rod, double velocity, double time);
 
 // Where node j must go: the velocity bound of contact/contact_problem, from where it is without any
 // velocity (`position`), for a stage that ends at `time` and moves by `reach` times its velocity.

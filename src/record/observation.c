@@ -57,7 +57,7 @@ Observation observe(const StepControl *control, const ObservationScales *scales)
                         .interface = interface,
                         .system = scheme->system,
                         .t = state->time,
-                        .U = scheme->rod->velocity * state->time,
+                        .U = rod_displacement(scheme->rod, state->time),
                         .step_size = control->counters.accepted > 0 ? control->last_step : 0,
                         .rod_force = rod_force(interface, state->reaction),
                         .front = slip_front(interface, state),

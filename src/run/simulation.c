@@ -119,6 +119,7 @@ bool amontons_simulation_create(const Scene *scene, const RunOptions *options, S
     simulation->scene = *scene;
     simulation->options = *options;
     simulation->scene.output.whole = options->whole_block;
+    simulation->pressure = scene->load.pressure;
     simulation->started = clock_seconds();
     dense_use_one_thread();
     TRY(result_folder_claim(options->folder, options->overwrite, &simulation->folder, err));
@@ -161,11 +162,12 @@ bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *fini
     simulation->timing.solve += clock_seconds() - started;
     TRY(record_step(simulation, err));
     bool implicit = simulation->scene.time.scheme != SCHEME_EXPLICIT;
-    if (implicit) TRY(step_control_gets_on(control, simulation->t_end, err));
+    bool ends = isfinite(simulation->t_end);
+    if (implicit && ends) TRY(step_control_gets_on(control, simulation->t_end, err));
     // What is left is less than a rung that is built: not worth a factorisation.
     remaining = simulation->t_end - control->now.time;
-    *finished = remaining <= 1e-9 * simulation->t_end ||
-                (implicit && !step_control_fits(control, remaining));
+    *finished = ends && (remaining <= 1e-9 * simulation->t_end ||
+                         (implicit && !step_control_fits(control, remaining)));
     if (simulation->scene.time.until_periodic && simulation->events.ended)
         *finished = *finished || answers_are_known(&simulation->drops);
     if (view)

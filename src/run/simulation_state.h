@@ -35,7 +35,8 @@ struct Simulation {
     Recorders recorders;
     double
         *block_motion;   // [nodes * 4] displacement, velocity of the mesh; NULL: not asked; owned
-    double t_end;   // time
+    double t_end;   // time; INFINITY: the rod no longer goes where the scene ends
+    double pressure;   // that acts now, stress
     RunTiming timing;
     RunErrors errors;
     RunWarnings warnings;

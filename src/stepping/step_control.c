@@ -120,6 +120,13 @@ static bool step_balances(const StepControl *control, int32_t k, const StepOutco
            fmax(part * energy_turnover(&after), fabs(energy_imbalance(&control->ledger)));
 }
 
+void step_control_disturb(StepControl *control)
+{
+    int32_t resolving = wave_rung(control), last = control->ladder.rung_count - 1;
+    oscillation_record_clear(&control->oscillations);
+    if (control->rung < resolving) control->rung = resolving < last ? resolving : last;
+}
+
 // A real growth rate stands above some built rung's 1/(gamma dt).
 static bool rungs_grow(StepControl *control)
 {

@@ -89,6 +89,10 @@ void step_control_use_explicit(StepControl *control, const ExplicitReference *sc
 bool step_control_advance_explicit(StepControl *control, ExplicitReference *scheme, int64_t steps,
                                    Error *err);
 
+// What drives the block has changed between two steps: waves are resolved again, and what was seen
+// of oscillations no longer counts.
+void step_control_disturb(StepControl *control);
+
 // Starts counting anew at `now`: time 0, ledger opened, coarse steps to be earned again.
 void step_control_restart(StepControl *control);
 

@@ -191,6 +191,23 @@ class Stepped(InFolder):
         gc.collect()
         self.assertAlmostEqual(pressure.mean(), 0.003, delta=0.001)
 
+    def test_steering(self):
+        simulation = amontons.Simulation(FIG1, {**SMALL, "reduction.use": "never"})
+        for step in simulation:
+            if step.U > 1e-3:
+                break
+        U, t = step.U, step.t
+        simulation.set_rod_velocity(5e-5)
+        step = simulation.advance()
+        self.assertAlmostEqual(step.U, U + 5e-5 * (step.t - t), places=15)
+        simulation.set_pressure(0.006)
+        for step in simulation:
+            if step.t > t + 30:
+                break
+        self.assertAlmostEqual(np.trapz(simulation.pressure, simulation.x), 0.006, delta=3e-4)
+        with self.assertRaisesRegex(amontons.InputError, "above 0"):
+            simulation.set_pressure(-1)
+
     def test_whole_block(self):
         simulation = amontons.Simulation(FIG1, SMALL, whole_block=True)
         start = simulation.displacement

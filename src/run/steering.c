@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a caller of amontons.h may change between two steps. The energy ledger needs nothing of it:
+// work is summed over the stages with the velocity and the load that act in them.
+#include "run/simulation_state.h"
+#include "run/warnings.h"
+
+#include <math.h>
+
+static bool check_implicit(const Simulation *simulation, Error *err)
+{
+    if (simulation->scene.time.scheme == SCHEME_EXPLICIT)
+        FAIL(err, ERROR_INPUT, "%s: time.scheme explicit: nothing can be changed between steps",
+             simulation->scene.path);
+cleanup:
+    return error_is_clean(err);
+}
+
+// When the scene ends, as step_rule_end has it, from here on.
+static double end_from_now(const Simulation *simulation)
+{
+    double until_U = simulation->scene.time.until_U, until_t = simulation->scene.time.until_t;
+    const Rod *rod = &simulation->rod;
+    double now = simulation->control.now.time, by_rod = INFINITY;
+    if (until_U > 0 && rod->velocity > 0)
+        by_rod = now + (until_U - rod_displacement(rod, now)) / rod->velocity;
+    return until_t > 0 ? fmin(by_rod, until_t) : by_rod;
+}
+
+static void disturb(Simulation *simulation)
+{
+    step_control_disturb(&simulation->control);
+    simulation->last_unquiet = simulation->control.now.time;
+}
+
+bool amontons_simulation_set_rod_velocity(Simulation *simulation, double velocity, Error *err)
+{
+    TRY(check_implicit(simulation, err));
+    if (!isfinite(velocity))
+        FAIL(err, ERROR_INPUT, "a rod velocity of %g is not possible", velocity);
+    if (simulation->rod.kind == ROD_AWAY)
+        FAIL(err, ERROR_INPUT, "%s: rod.kind none: there is no rod to be moved",
+             simulation->scene.path);
+    rod_set_velocity(&simulation->rod, velocity, simulation->control.now.time);
+    simulation->t_end = end_from_now(simulation);
+    disturb(simulation);
+cleanup:
+    return error_is_clean(err);
+}
+
+// The load is the pressure's alone, so it is proportional to it. A reduced bulk follows what its
+// interface does: waves that a load put on at once sends out are not in it (model/obtain).
+bool amontons_simulation_set_pressure(Simulation *simulation, double pressure, Error *err)
+{
+    const Scene *scene = &simulation->scene;
+    BulkOperator *system = &simulation->model.system;
+    TRY(check_implicit(simulation, err));
+    if (!(pressure > 0 && isfinite(pressure)))
+        FAIL(err, ERROR_INPUT, "a pressure of %g is not possible: above 0", pressure);
+    if (!(scene->load.pressure > 0) || scene->load.traction_count > 0)
+        FAIL(err, ERROR_INPUT,
+             "%s: the pressure can be changed where load.pressure is the only load", scene->path);
+    if (system->reduced)
+        FAIL(err, ERROR_INPUT,
+             "%s: the pressure can be changed on the full mesh only: set reduction.use to never",
+             scene->path);
+    double ratio = pressure / simulation->pressure;
+    for (int32_t dof = 0; dof < system->dof_count; dof++) system->load[dof] *= ratio;
+    simulation->model.scales.load *= ratio;
+    simulation->pressure = pressure;
+    if (simulation->warnings.count == 0)
+        warnings_of_resolution(&simulation->control.certificate, simulation->model.scales.load,
+                               &simulation->warnings);
+    disturb(simulation);
+cleanup:
+    return error_is_clean(err);
+}
