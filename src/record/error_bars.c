@@ -12,14 +12,32 @@ static const double BAR = 2;
 // Measured on fifteen cases that promise.py does not have: with 1 in place of TWO_LEVELS 12 of 15
 // bars held, with 1.5 and with 2 14 of them.
 static const double TWO_LEVELS = 1.5;
+static const double BRANCH_WIDTH = 0.005;   // of mu: the next branch is twice as far and more
 static const double STEPS = 0.002;   // of mu: what tolerances of steps and reduction leave
 
-// NaN: no run has this answer.
+// NaN: a run has no such answer.
 static double mean_of(const Level *level, AnswerKind kind)
 {
     double sum = 0;
     for (int32_t k = 0; k < level->run_count; k++) sum += level->runs[k].answer[kind].value;
     return level->run_count > 0 ? sum / level->run_count : (double)NAN;
+}
+
+static double lowest_of(const Level *level, AnswerKind kind)
+{
+    double low = INFINITY;
+    for (int32_t k = 0; k < level->run_count; k++) {
+        double value = level->runs[k].answer[kind].value;
+        if (isnan(value)) return NAN;
+        low = fmin(low, value);
+    }
+    return level->run_count > 0 ? low : (double)NAN;
+}
+
+// The mean over branches; what the contact holds for sure it holds on the lowest of them.
+static double value_of(const Level *level, AnswerKind kind)
+{
+    return kind == ANSWER_MU_HOLD ? lowest_of(level, kind) : mean_of(level, kind);
 }
 
 // Of single runs about their level's mean, from all levels together; NaN: one run on each.
@@ -53,7 +71,7 @@ static double drops_part(const Level *level, AnswerKind kind)
 static double difference(const Levels *levels, int32_t level, AnswerKind kind)
 {
     if (level < 1) return NAN;
-    return fabs(mean_of(&levels->list[level], kind) - mean_of(&levels->list[level - 1], kind));
+    return fabs(value_of(&levels->list[level], kind) - value_of(&levels->list[level - 1], kind));
 }
 
 // fmax passes over what is not known.
@@ -63,7 +81,7 @@ static double mesh_part(const Levels *levels, AnswerKind kind)
     double now = difference(levels, last, kind), before = difference(levels, last - 1, kind);
     if (isnan(now)) return NAN;
     if (isnan(before)) now *= TWO_LEVELS;
-    return fmax(fmax(now, before / 2), STEPS * mean_of(&levels->list[last], kind));
+    return fmax(fmax(now, before / 2), STEPS * value_of(&levels->list[last], kind));
 }
 
 static double known(double part)
@@ -75,7 +93,7 @@ static ErrorBar bar_of(const Levels *levels, AnswerKind kind)
 {
     const Level *last = &levels->list[levels->count - 1];
     double spread = spread_of_runs(levels, kind);
-    ErrorBar bar = {.value = mean_of(last, kind),
+    ErrorBar bar = {.value = value_of(last, kind),
                     .parts = {.mesh = mesh_part(levels, kind),
                               .branches = BAR * spread / sqrt(last->run_count),
                               .drops = drops_part(last, kind)}};
@@ -127,6 +145,18 @@ double levels_order(const Levels *levels)
                 difference(levels, last, levels->asked));
 }
 
+// The runs of a level by the branch that their answer lies on, into `sorted` [LEVEL_RUNS_MAX].
+static int32_t sort_runs(const Level *level, AnswerKind kind, SeriesItem *sorted)
+{
+    int32_t count = 0;
+    for (int32_t k = 0; k < level->run_count; k++) {
+        double value = level->runs[k].answer[kind].value;
+        if (!isnan(value)) sorted[count++] = (SeriesItem){.value = value};
+    }
+    series_sort(sorted, count);
+    return count;
+}
+
 // --- run.json -----------------------------------------------------------------------------------
 
 static void write_bars(const ErrorBar answer[ANSWER_KINDS], JsonWriter *json)
@@ -160,6 +190,24 @@ static void write_runs(const Level *level, JsonWriter *json)
     json_end(json);
 }
 
+// Values to which the runs of the last level come, and which part of them.
+static void write_branches(const Levels *levels, JsonWriter *json)
+{
+    SeriesItem sorted[LEVEL_RUNS_MAX];
+    SeriesBranch branch;
+    const Level *last = &levels->list[levels->count - 1];
+    int32_t count = sort_runs(last, levels->asked, sorted);
+    json_begin_list(json, "branches");
+    for (int32_t k = 0; k < count;) {
+        k = series_branch(sorted, count, k, BRANCH_WIDTH, &branch);
+        json_begin_object(json, NULL);
+        json_number(json, "mu", branch.mean);
+        json_number(json, "share", (double)branch.count / count);
+        json_end(json);
+    }
+    json_end(json);
+}
+
 void levels_write_json(const Levels *levels, JsonWriter *json)
 {
     json_begin_object(json, "accuracy");
@@ -168,6 +216,7 @@ void levels_write_json(const Levels *levels, JsonWriter *json)
     json_text(json, "of", ANSWER_NAMES[levels->asked]);
     json_text(json, "ended", levels->ended);
     json_number(json, "observed_order", levels_order(levels));
+    write_branches(levels, json);
     json_begin_list(json, "levels");
     for (int32_t l = 0; l < levels->count; l++) {
         const Level *level = &levels->list[l];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // An answer on meshes of falling cell size, several runs on each, and the error bar that follows.
 // The runs of a level differ in pressure by less than anybody knows it: where branches coexist they
-// fall on one or the other, and their mean is what an experiment finds. A bar is meant to hold the
+// fall on one or the other. mu_M is their mean, mu_hold their lowest. A bar is meant to hold the
 // answer of the limit in 19 of 20 cases; its parts, added in quadrature:
 //
 //   drops      twice the standard error that the finite number of load drops leaves

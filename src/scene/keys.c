@@ -141,9 +141,8 @@ static const SceneKey keys[] = {
      .choices = scheme_choices},
     {"time.accuracy", KEY_CHOICE, offsetof(Scene, time.accuracy), "1", RANGE_ANY, "standard",
      .sentence = "Error allowed to steps (2e-2, 5e-3, 5e-4) and to the reduction where their own "
-                 "keys do not say. `draft` has mu_M within 3 % on 40 cells along the block, "
-                 "`standard` within 1 % on 80, where l_c lies six of them or more from either end; "
-                 "`fine` is for references.",
+                 "keys do not say; `fine` is for references. The error of the mesh is another "
+                 "matter: accuracy.mu.",
      .choices = accuracy_choices},
     {"time.tolerance", KEY_NUMBER, offsetof(Scene, time.tolerance), "1", RANGE_PART_OR_ZERO, "0",
      .sentence = "Local error allowed to the displacements in one step, over the slip that the "
