@@ -7,11 +7,10 @@
 // element size: above it l_sc is shorter than an element.
 //
 // What is seen only in the run is whether the length over which slip runs away, on whichever pad
-// it does, has cells enough. Of 46 blocks, pads and grooves of set A (validation/pads, Figure 1) on
-// a mesh and on one of half the size, mu_hold moved by more than 0.7 % in 13 of 17 with fewer than
-// 8 cells there (median 0.9 %, largest 3.9 %), and in 7 of 29 with more (median 0.3 %; 3.2 %). In
-// set B, whose trailing pad stands on its leading edge, 6 and 1 cells (4 and 6 pads) were 1.7 and
-// 1.1 % off.
+// it does, has cells enough. Of 48 blocks, pads and grooves (46 of set A, 2 of set B; those of
+// validation/pads and Figure 1) on a mesh and on one of half the size, mu_hold moved by more than
+// 0.7 % in 15 of 20 with fewer than 8 cells there (median 0.9 %, largest 3.9 %), and in 7 of 28
+// with more (median 0.3 %, largest 3.2 %).
 #include "run/warnings.h"
 
 #include "model/model.h"
