@@ -185,6 +185,7 @@ int command_sweep(int argc, char **argv)
     if (status == 0) status = check_words(&words, &options);
     if (status != 0) return status;
     options.stop = stop_on_signals();
+    stop_in_order();   // its points are processes of their own
     options.slurm = words.slurm;
     default_folder(words.study, "-sweep", folder, sizeof folder);
     options.folder = words.folder ? words.folder : folder;

@@ -175,13 +175,23 @@ int report_misuse(const char *format, ...)
 // --- signals ------------------------------------------------------------------------------------
 
 // A signal handler can reach nothing but a variable of the file.
-static volatile sig_atomic_t stop_wanted = 0;
+static volatile sig_atomic_t stop_wanted = 0, work_begun = 0;
 
-// All that a signal handler may safely do: the loop of steps looks at the flag.
+// All that a signal handler may safely do: the loop of steps looks at the flag. Before it has begun
+// nobody looks, a mesh may take minutes, and there is nothing to keep: the signal ends the program.
 static void want_stop(int signal_number)
 {
-    (void)signal_number;
+    static const char words[] = "amontons: stopped before the first step; nothing was computed\n";
     stop_wanted = 1;
+    if (work_begun) return;
+    ssize_t written = write(STDERR_FILENO, words, sizeof words - 1);
+    (void)written;
+    raise(signal_number);   // by its default, once this handler returns
+}
+
+void stop_in_order(void)
+{
+    work_begun = 1;
 }
 
 // SA_RESETHAND gives the signal its default back: a second Ctrl-C ends the program at once. Who

@@ -56,8 +56,10 @@ int report_error(const Error *err);
 int report_misuse(const char *format, ...) __attribute__((format(printf, 1, 2)));   // status 2
 void report_warnings(const RunWarnings *warnings);   // "amontons: warning: ...", a line each
 
-// Set by the first Ctrl-C or SIGTERM, which ends the work in order; a second one ends the program.
-// Called once.
+// Set by the first Ctrl-C or SIGTERM, which ends the work in order once it has begun (at the first
+// step, or where stop_in_order says so). Before that, and when it is the second, a signal ends the
+// program. Called once.
 const volatile sig_atomic_t *stop_on_signals(void);
+void stop_in_order(void);
 
 #endif

@@ -3,6 +3,8 @@
 // the terminal is wide, because a line that wraps cannot be written over.
 #include "cli/progress.h"
 
+#include "cli/options.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -105,6 +107,7 @@ void progress_step(const StepView *view, void *context)
     Progress *progress = context;
     char state[WIDTH_MAX];
     struct timespec now;
+    stop_in_order();
     if (progress->style == PROGRESS_QUIET) return;
     clock_gettime(CLOCK_MONOTONIC, &now);
     if (!progress->running) progress->started = now;

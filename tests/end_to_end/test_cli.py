@@ -306,6 +306,24 @@ class Run(InFolder):
             self.assertEqual(json.loads((result / "run.json").read_text())["status"], "failed")
             self.assertTrue((result / "history.h5").is_file())
 
+    def test_first_signal_before_the_first_step(self):
+        """A mesh of two million cells is not waited for; an earlier result is as it was."""
+        result = self.folder / "result"
+        done = amontons("run", FIG1, *COARSE, *PLAIN, "time.until.U=1e-4", "-q", "-o", result)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        earlier = (result / "run.json").read_bytes()
+        run = subprocess.Popen([PROGRAM, "run", FIG1, *PLAIN, "--set", "mesh.set.nx=1500", "mesh.set.nz=1500", "-o", result,
+                                "--overwrite"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        caught = 0
+        while not caught >> (signal.SIGTERM - 1) & 1:   # the program has started
+            status = Path(f"/proc/{run.pid}/status").read_text()
+            caught = int(re.search(r"SigCgt:\s*(\w+)", status)[1], 16)
+        run.send_signal(signal.SIGTERM)
+        _, shown = run.communicate(timeout=60)
+        self.assertEqual(run.returncode, -signal.SIGTERM)
+        self.assertIn("stopped before the first step; nothing was computed", shown)
+        self.assertEqual((result / "run.json").read_bytes(), earlier)
+
     def test_standard_streams_that_are_closed(self):
         """The first file opened would get their numbers, and progress would be written into it."""
         result = self.folder / "result"
