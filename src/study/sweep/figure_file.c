@@ -150,12 +150,19 @@ uint32_t figure_doubts(const SweepTable *table, int32_t point, bool has_error, d
 void figure_write_doubts(Figure *figure, const Warned *warned, uint32_t doubts)
 {
     const double nowhere = NAN;
-    for (int32_t k = 0, named = 0; k <= WARNED_KINDS_MAX && named < 2; k++) {
-        char name[WARNED_NAME_SIZE] = "error not known", label[FIGURE_LABEL_SIZE];
+    char names[2][WARNED_NAME_SIZE] = {"", ""}, label[2 * WARNED_NAME_SIZE];
+    int32_t count = 0;
+    for (int32_t k = 0; k <= WARNED_KINDS_MAX; k++) {
+        char name[WARNED_NAME_SIZE] = "error not known";
         if (!(doubts >> k & 1)) continue;
-        doubts &= ~((uint32_t)1 << k);
         if (k < WARNED_KINDS_MAX) warned_name(warned, k, name);
-        snprintf(label, sizeof label, "open: %s%s", name, ++named == 2 && doubts ? ", others" : "");
+        if (strcmp(name, names[0]) == 0 || strcmp(name, names[1]) == 0) continue;
+        if (count < 2) memcpy(names[count], name, sizeof name);
+        count++;
+    }
+    for (int32_t k = 0; k < count && k < 2; k++) {
+        snprintf(label, sizeof label, "open: %.47s%s", names[k],
+                 k == 1 && count > 2 ? ", others" : "");
         Curve marks = {.label = label, .line = "none", .count = 1, .marked = true};
         marks.x = marks.y = &nowhere;
         figure_write_curve(figure->json, &marks);

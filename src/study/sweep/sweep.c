@@ -111,8 +111,10 @@ static bool show_results(const Sweep *sweep, bool whole, Error *err)
     if (sweep->study.plot.wanted && whole) TRY(figure_of_plot(sweep, &table, err));
     if (sweep->options->out) warned_print(&table.warned, sweep->options->out);
     if (sweep->options->out && table.mesh_left_out)
-        fprintf(sweep->options->out, "\nErrors leave out the mesh's, which is not known; a study's "
-                                     "`set: {accuracy.mu: 1%%}` asks for it\n");
+        fprintf(sweep->options->out,
+                "\nAt %d of %d points errors leave out the mesh's, which is not known; a study's "
+                "`set: {accuracy.mu: 1%%}` asks for it\n",
+                table.mesh_left_out, sweep->study.point_count);
 cleanup:
     ranking_destroy(&ranking);
     table_destroy(&table);

@@ -122,40 +122,41 @@ static bool is_shown(const Study *study, int32_t record)
                              (plot->y.is_record && plot->y.index == record)));
 }
 
-// Of record `k` of a point that is done, which came to `value`.
-static void look_for_doubts(TableWriter *writer, int32_t point, const char *report, int32_t k,
-                            double value)
+// Whether the error of record `k` is known but for its part of the mesh.
+static bool leaves_out_mesh(const Study *study, const char *report, int32_t k, double error)
 {
-    const Study *study = &writer->sweep->study;
-    char text[RUN_WARNING_SIZE];
+    char path[STUDY_NAME_SIZE + 24];
     double mesh = 0;
-    snprintf(text, sizeof text, "%s_error_parts.mesh", study->records[k].path);
-    if (json_find_number(report, text, &mesh) && isnan(mesh)) writer->table->mesh_left_out = true;
-    if (!is_shown(study, k) || isfinite(value)) return;
-    snprintf(text, sizeof text, "no %s: the run came to none", study->records[k].name);
-    warned_add(&writer->table->warned, point, text);
+    snprintf(path, sizeof path, "%s_error_parts.mesh", study->records[k].path);
+    return isfinite(error) && json_find_number(report, path, &mesh) && isnan(mesh);
 }
 
 // report: of a finished point, or NULL.
 static void write_records(TableWriter *writer, int32_t point, const char *report)
 {
     const Study *study = &writer->sweep->study;
+    SweepTable *table = writer->table;
+    char text[RUN_WARNING_SIZE];
+    bool mesh_left_out = false;
     for (int32_t k = 0; k < study->record_count; k++) {
         const char *path = study->records[k].path;
-        char error_path[PATH_SIZE];
         double number = NAN, error = NAN;
-        error_name_of(path, error_path);
-        if (report) json_find_number(report, error_path, &error);
-        if (report && !json_find_number(report, path, &number) &&
-            json_find_text(report, path, writer->cell, CELL_SIZE))
+        bool is_number = !report || json_find_number(report, path, &number);
+        error_name_of(path, text);
+        if (report && isfinite(number)) json_find_number(report, text, &error);
+        if (!is_number && json_find_text(report, path, writer->cell, CELL_SIZE))
             csv_text(writer->csv, writer->cell);
         else
             csv_number(writer->csv, number);
-        if (adds_error(study, writer->table, k)) csv_number(writer->csv, error);
-        if (report) look_for_doubts(writer, point, report, k, number);
-        writer->table->records[k * study->point_count + point] = number;
-        writer->table->errors[k * study->point_count + point] = error;
+        if (adds_error(study, table, k)) csv_number(writer->csv, error);
+        if (report) mesh_left_out |= leaves_out_mesh(study, report, k, error);
+        snprintf(text, sizeof text, "no %s: the run came to none", study->records[k].name);
+        if (report && is_shown(study, k) && !isfinite(number))
+            warned_add(&table->warned, point, text);
+        table->records[k * study->point_count + point] = number;
+        table->errors[k * study->point_count + point] = error;
     }
+    table->mesh_left_out += mesh_left_out;
 }
 
 // All warnings of a point in one cell, with // between them. report: as above.

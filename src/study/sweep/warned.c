@@ -12,11 +12,10 @@
 
 enum { LISTED_MAX = 12 };   // points named below a sentence
 
-// The bytes of the number at `at`; 0: none begins there. Digits within a word (mu_2) are letters.
-static int32_t number_at(const char *text, const char *at, double *value)
+// The bytes of the number at `at`, also of one in a name (pad_2); 0: none begins there.
+static int32_t number_at(const char *at, double *value)
 {
-    bool in_word = at > text && (isalnum((unsigned char)at[-1]) || strchr("_.", at[-1]));
-    return in_word || !isdigit((unsigned char)*at) ? 0 : text_number(at, value);
+    return isdigit((unsigned char)*at) ? text_number(at, value) : 0;
 }
 
 // Whether the sentences differ in numbers alone.
@@ -25,7 +24,7 @@ static bool alike(const char *one, const char *other)
     const char *a = one, *b = other;
     double ignored = 0;
     while (*a && *b) {
-        int32_t first = number_at(one, a, &ignored), second = number_at(other, b, &ignored);
+        int32_t first = number_at(a, &ignored), second = number_at(b, &ignored);
         if ((first == 0) != (second == 0) || (first == 0 && *a != *b)) return false;
         a += first > 0 ? first : 1;
         b += second > 0 ? second : 1;
@@ -38,7 +37,7 @@ static void widen(WarnedKind *kind, const char *sentence)
     int32_t k = 0, length = 0;
     double value = 0;
     for (const char *at = sentence; *at && k < WARNED_NUMBERS_MAX; at += length ? length : 1) {
-        length = number_at(sentence, at, &value);
+        length = number_at(at, &value);
         if (length == 0) continue;
         kind->low[k] = fmin(kind->low[k], value);
         kind->high[k] = fmax(kind->high[k], value);
@@ -98,7 +97,7 @@ static void print_sentence(const WarnedKind *kind, FILE *out)
     int32_t k = 0;
     double value = 0;
     for (const char *at = kind->text; *at;) {
-        int32_t length = number_at(kind->text, at, &value);
+        int32_t length = number_at(at, &value);
         bool varies = length > 0 && k < WARNED_NUMBERS_MAX && kind->low[k] < kind->high[k];
         if (varies)
             fprintf(out, "%.6g to %.6g", kind->low[k], kind->high[k]);

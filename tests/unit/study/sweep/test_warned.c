@@ -35,28 +35,29 @@ static char *print(const Warned *warned)
 static void test_kinds(void **state)
 {
     (void)state;
-    static const char nodes[] = "mu_2 is not resolved: at %g of 41 nodes, %g times";
+    static const char nodes[] = "pad_2 is not resolved: at %g of 41 nodes, %g times";
     Error err = {0};
     Warned warned;
     assert_true(warned_make(12, &warned, &err));
     add(&warned, 1, nodes, 3, 0.5);
     add(&warned, 2, nodes, 41, 0.5);
     add(&warned, 2, "too few drops: %g, error %g", 4, 1e-3);
-    add(&warned, 3, nodes, 7, 0.5);
+    add(&warned, 3, "pad_3 is not resolved: at %g of 41 nodes, %g times", 7, 0.5);
     add(&warned, 9, "too few drops: %g, error %g", 4, 1e-3);
     add(&warned, 9, "too few drops: %g, error %g", 4, 1e-3);   // twice at one point counts once
-    add(&warned, 11, "mu_3 is not resolved: at %g of 41 nodes, %g times", 1, 1);   // another word
+    add(&warned, 11, "a rod is not resolved: at %g of 41 nodes, %g times", 1, 1);   // another word
     assert_int_equal(warned.count, 3);
     assert_int_equal(warned.points, 5);
     char *text = print(&warned), name[WARNED_NAME_SIZE];
-    assert_string_equal(text, "\n3 of 12 points: mu_2 is not resolved: at 3 to 41 of 41 nodes, 0.5 "
-                              "times\n  points 1 to 3\n"
-                              "2 of 12 points: too few drops: 4, error 0.001\n  points 2, 9\n"
-                              "1 of 12 points: mu_3 is not resolved: at 1 of 41 nodes, 1 times\n"
-                              "  points 11\n");
+    assert_string_equal(text,
+                        "\n3 of 12 points: pad_2 to 3 is not resolved: at 3 to 41 of 41 nodes, 0.5 "
+                        "times\n  points 1 to 3\n"
+                        "2 of 12 points: too few drops: 4, error 0.001\n  points 2, 9\n"
+                        "1 of 12 points: a rod is not resolved: at 1 of 41 nodes, 1 times\n"
+                        "  points 11\n");
     free(text);
     warned_name(&warned, 0, name);
-    assert_string_equal(name, "mu_2 is not resolved");
+    assert_string_equal(name, "pad_2 is not resolved");
     warned_destroy(&warned);
 }
 
