@@ -15,7 +15,7 @@ typedef struct ViewEvent {
 
 typedef struct ViewPeak {
     double U, mu;   // length, 1
-    bool counts;   // belongs to the periodic regime
+    bool counts;   // for mu_M
 } ViewPeak;
 
 typedef struct ResultView {
