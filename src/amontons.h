@@ -216,8 +216,8 @@ typedef struct SweepOptions {
     const char *const *overrides;   // "key=value", for every point
     int32_t override_count;
     int32_t jobs;   // processes at a time; 0: as many as there are cores
-    const char *slurm;   // points run as Slurm job arrays, each `THIS PROGRAM sweep
-        // --element FILE`; more words for sbatch, or ""; NULL: here
+    const char *slurm;   // points run as Slurm job arrays, each `amontons sweep --element
+        // FILE`; more words for sbatch, or ""; NULL: here
     bool retry;   // compute failed points again
     bool fresh;   // compute all points again
     SweepCallback on_point;   // NULL: none

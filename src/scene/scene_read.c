@@ -15,6 +15,7 @@
 #include "scene/keys.h"
 #include "scene/value.h"
 
+#include <locale.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -342,6 +343,13 @@ bool amontons_scene_read(const char *path, const char *const *overrides, int32_t
     *scene = NULL;
     Scene *made = NEW_ARRAY(Scene, 1, err);
     TRY(made);
+    // Numbers of scenes and results are written with a point; the locale is the caller's to change.
+    const char *point = localeconv()->decimal_point;
+    if (strcmp(point, ".") != 0)
+        FAIL(
+            err, ERROR_INPUT,
+            "this process writes numbers with `%s` for a point: LC_NUMERIC of its locale must be C",
+            point);
     TRY(scene_read(path, overrides, override_count, made, err));
     *scene = made;
     made = NULL;

@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "base/place.h"
 #include "base/program.h"
 
 #include <errno.h>
@@ -111,12 +112,29 @@ static void print_quoted(FILE *file, const char *text)
     fputc('\'', file);
 }
 
+// The program `amontons`: this one, or where another (Python) calls the library, the one beside it.
+static bool find_program(char program[PATH_MAX], Error *err)
+{
+    static const char *const places[] = {AMONTONS_PROGRAM_FROM_LIBRARY, "amontons"};
+    char found[PATH_MAX];
+    ssize_t length = readlink("/proc/self/exe", program, PATH_MAX - 1);
+    program[length > 0 ? length : 0] = 0;
+    const char *name = strrchr(program, '/');
+    if (name && strncmp(name + 1, "amontons", 8) == 0) return true;
+    if (place_find(places, 2, found, sizeof found) && realpath(found, program)) return true;
+    FAIL(err, ERROR_FILE,
+         "cannot find the program `amontons`, which Slurm is to run: it is neither beside the "
+         "library nor in %s of its folder",
+         AMONTONS_PROGRAM_FROM_LIBRARY);
+cleanup:
+    return false;
+}
+
 bool slurm_write_script(const char *path, const char *list, Error *err)
 {
     char program[PATH_MAX] = "";
     FILE *file = NULL;
-    if (readlink("/proc/self/exe", program, sizeof program - 1) < 0)
-        FAIL(err, ERROR_FILE, "cannot find the path of this program (/proc/self/exe)");
+    TRY(find_program(program, err));
     if (!(file = fopen(path, "w")))
         FAIL(err, ERROR_FILE, "cannot write %s: %s", path, strerror(errno));
     fprintf(file, "#!/bin/sh\n#SBATCH --ntasks=1\n#SBATCH --cpus-per-task=1\nexec ");

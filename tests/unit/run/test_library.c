@@ -95,6 +95,27 @@ static void test_leaves_the_process_alone(void **state)
     place_remove(place);
 }
 
+// Where numbers are written with a comma nothing could be read: it is said at once.
+static void test_refuses_a_comma(void **state)
+{
+    (void)state;
+    Error err = {0};
+    Scene *scene = NULL;
+    char place[PLACE_SIZE] = "", command[2 * PLACE_SIZE];
+    place_make(place);
+    snprintf(command, sizeof command, "localedef -i de_DE -f UTF-8 %s/de_DE.UTF-8 2>/dev/null",
+             place);
+    bool made = system(command) == 0 && setenv("LOCPATH", place, 1) == 0 &&
+                setlocale(LC_NUMERIC, "de_DE.UTF-8");
+    bool read = made && amontons_scene_read("scene.yaml", NULL, 0, &scene, &err);
+    setlocale(LC_NUMERIC, "C");
+    unsetenv("LOCPATH");
+    place_remove(place);
+    if (!made) skip();   // Debian's package locales is not there
+    assert_false(read);
+    assert_non_null(strstr(err.message, "LC_NUMERIC of its locale must be C"));
+}
+
 // --- threads ------------------------------------------------------------------------------------
 
 typedef struct Work {
@@ -238,9 +259,8 @@ static void test_block_must_be_asked_for(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_leaves_the_process_alone),
-        cmocka_unit_test(test_threads_compute_as_if_alone),
-        cmocka_unit_test(test_arrays_of_a_step),
+        cmocka_unit_test(test_leaves_the_process_alone),    cmocka_unit_test(test_refuses_a_comma),
+        cmocka_unit_test(test_threads_compute_as_if_alone), cmocka_unit_test(test_arrays_of_a_step),
         cmocka_unit_test(test_block_must_be_asked_for),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
