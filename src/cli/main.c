@@ -4,9 +4,13 @@
 #include "cli/options.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <unistd.h>
+
+static const long ROOM_LEAST = 190L << 20;   // bytes: what the program and HDF5 are mapped into
 
 typedef struct Command {
     const char *name;
@@ -119,11 +123,30 @@ static void occupy_standard_streams(void)
         if (fcntl(stream, F_GETFD) < 0 && open("/dev/null", O_RDWR) < 0) _exit(1);
 }
 
+// A file that reaches the limit of sizes (ulimit -f) is an error with a sentence, not a signal.
+// With less room than the libraries take (ulimit -v) OpenBLAS's threads never end, nor does exit().
+static void meet_limits(void)
+{
+    struct rlimit room;
+    char words[160];
+    signal(SIGXFSZ, SIG_IGN);
+    if (getrlimit(RLIMIT_AS, &room) != 0 || room.rlim_cur >= (rlim_t)ROOM_LEAST) return;
+    int length =
+        snprintf(words, sizeof words,
+                 "amontons: error: only %ld MB of memory are allowed (ulimit -v); to start "
+                 "takes %ld MB\n",
+                 (long)(room.rlim_cur >> 20), ROOM_LEAST >> 20);
+    ssize_t written = write(STDERR_FILENO, words, (size_t)length);
+    (void)written;
+    _exit(1);
+}
+
 // A full disk or a closed pipe may show only when the last output is written: a command whose
 // answer is lost has failed.
 int main(int argc, char **argv)
 {
     occupy_standard_streams();
+    meet_limits();
     int status = run_command(argc, argv);
     bool written = fflush(stdout) == 0 && !ferror(stdout);
     if (written || status != 0) return status;

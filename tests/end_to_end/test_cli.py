@@ -324,6 +324,20 @@ class Run(InFolder):
         self.assertIn("stopped before the first step; nothing was computed", shown)
         self.assertEqual((result / "run.json").read_bytes(), earlier)
 
+    def test_limits_of_the_shell(self):
+        """ulimit: a sentence, no signal and no hang. A sanitizer needs more room than there is."""
+        def limited(limit, result):
+            words = f'ulimit {limit} && exec "$@"'
+            return subprocess.run(["bash", "-c", words, "-", PROGRAM, "run", FIG1, *COARSE, *PLAIN, "time.until.U=5e-3", "-q",
+                                   "-o", self.folder / result], capture_output=True, text=True, timeout=60)
+        done = limited("-f 20", "file")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("File too large", done.stderr)
+        for room in (100000, 150000):
+            done = limited(f"-v {room}", "room")
+            self.assertIn(done.returncode, (1, 127))   # 127: the loader's own sentence
+            self.assertTrue(done.stderr)
+
     def test_standard_streams_that_are_closed(self):
         """The first file opened would get their numbers, and progress would be written into it."""
         result = self.folder / "result"
