@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
 """An error bar asked for: met, made of what run.json says, and holding the answer of a fine mesh; refused and cut short
 with a sentence."""
