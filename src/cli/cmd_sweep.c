@@ -27,7 +27,7 @@ static const CommandText text = {
         "    mesh.set.length: [0.25, 1, 4]\n"
         "    load.pressure: {log: [1e-4, 1e-2], points: 7}\n"
         "  record: [mu_M, period, results.mu_max]\n"
-        "  rank: {by: mu_M, order: highest, top: 10, against: {mesh.set.length: 1}, refine: 0.5%}\n"
+        "  rank: {by: mu_M, order: highest, top: 10, against: {mesh.set.length: 1}}\n"
         "  plot: {x: load.pressure, y: mu_M, series: mesh.set.length, log: x}\n"
         "\v`set` changes keys of the scene for all points; a value that begins with `=` is a "
         "formula over the scene's numbers. `vary` takes every combination of its values. `cases` "
