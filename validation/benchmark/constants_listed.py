@@ -189,6 +189,7 @@ NOT_A_CHOICE = {
     "record/answers.c": {"BAR": "95 % of normal deviates"},
     "record/error_bars.c": {
         "BAR": "95 % of normal deviates", "TWO_LEVELS": "of error bars: fifteen cases (there)",
+        "BRANCH_WIDTH": "of branches: the next is twice as far",
         "STEPS": "of error bars: what this table's tolerances move"},
     "record/error_bars.h": {"LEVELS_MAX": SIZE, "LEVEL_RUNS_MAX": SIZE},
     "record/history.c": {"FLUSH_EVERY": "seconds of a run that a kill may cost"},
