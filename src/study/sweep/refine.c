@@ -9,6 +9,7 @@
 #include "study/sweep/tally.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const double SMALLER = 0.9;   // of the error before: a round was of use
@@ -24,12 +25,14 @@ static void find_same(Sweep *sweep)
 }
 
 // Half the error bar that was asked for or, where that is smaller, of the one that came out,
-// relative. Not below the limit; 0: the point is there already.
+// relative; two digits read well in a table. Not below the limit; 0: the point is there already.
 static double next_accuracy(double asked, const RankRow *row, double limit)
 {
     double came_out = row->error / fabs(row->value);
+    char digits[20];
     if (came_out < asked) asked = came_out;
-    return asked > limit ? fmax(asked / 2, limit) : 0;
+    snprintf(digits, sizeof digits, "%.2g", asked / 2);
+    return asked > limit ? fmax(strtod(digits, NULL), limit) : 0;
 }
 
 // Looks for what an earlier sweep left. *chosen: there is a next accuracy.
