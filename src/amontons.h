@@ -103,8 +103,11 @@ typedef struct RunSummary {
     double mu_M, mu_hold, mu_max;
     double mu_M_error, mu_hold_error;   // bars of 95 %, of the parts that are known; NaN: none is
     double mu_M_parts[3], mu_hold_parts[3];   // of the bars: mesh, branches, drops; NaN: not known
-    bool levels;   // the answers are of several meshes and runs
-    const char *levels_ended;   // why no more were computed; static storage
+    // Where the scene asked for an error bar (accuracy.mu): runs on the last mesh, its contact
+    // nodes, and why no more were computed (static storage). 0, NULL: it did not.
+    int32_t bar_runs, bar_nodes;
+    double bar_wanted, bar_window;   // over mu; of pressures, relative
+    const char *bar_ended;
     double mu_M_spread;   // largest less smallest of the peaks in mu_M; NaN: fewer than two
     int32_t peaks, peaks_counted;   // before bulk sliding: seen; those in mu_M
     int32_t period;   // peaks repeat after so many slidings; 0: they do not

@@ -13,7 +13,7 @@
 static void print_estimate(const char *name, double value, double error)
 {
     printf("  %-15s %.4f", name, value);
-    if (!isnan(error)) printf(" +- %.1g", error);
+    if (!isnan(error)) printf(" +- %.2g", error);
 }
 
 // Of a bar: mesh, branches, drops.
@@ -23,7 +23,7 @@ static void print_parts(const double parts[3])
     const char *separator = " (";
     for (int32_t k = 0; k < 3; k++) {
         if (isnan(parts[k])) continue;
-        printf("%s%s %.1g", separator, names[k], parts[k]);
+        printf("%s%s %.2g", separator, names[k], parts[k]);
         separator = ", ";
     }
     if (*separator == ',') printf(")");
@@ -39,9 +39,9 @@ static void print_mu_M(const RunSummary *summary)
         return;
     }
     print_estimate("mu_M", summary->mu_M, summary->mu_M_error);
-    if (summary->levels) {
+    if (summary->bar_runs > 0) {
         print_parts(summary->mu_M_parts);
-        printf(": static friction; %s\n", summary->levels_ended);
+        printf(": static friction\n");
         return;
     }
     printf(": static friction, mean of the last %d of %d peaks, each before the whole block "
@@ -51,10 +51,12 @@ static void print_mu_M(const RunSummary *summary)
     printf("                  they differ by at most %.4f", summary->mu_M_spread);
     if (summary->period > 1) printf(" and repeat after %d slidings", summary->period);
     printf("%s\n", summary->period > 0 ? "" : "; not periodic yet");
-    if (!isnan(summary->mu_M_error) && !summary->levels)
-        printf("                  +- is that of %d peaks; the error of the mesh is not known\n"
-               "                  (--to 1%% finds it)\n",
-               summary->peaks_counted);
+    if (!isnan(summary->mu_M_error))
+        printf(
+            "                  +- is that of %d peaks alone; the mesh's error is not known, often "
+            "0.5 to 3 %%\n"
+            "                  (--to 1%% finds it)\n",
+            summary->peaks_counted);
 }
 
 // The holding coefficient: parts of a block that slide on their own make the load drop below mu_M.
@@ -65,7 +67,7 @@ static void print_mu_hold(const RunSummary *summary)
         return;
     }
     print_estimate("mu_hold", summary->mu_hold, summary->mu_hold_error);
-    if (summary->levels) print_parts(summary->mu_hold_parts);
+    if (summary->bar_runs > 0) print_parts(summary->mu_hold_parts);
     printf("%s: what the contact holds, the %s of %d load ratios at which the load dropped\n",
            summary->drops_enough ? "" : " so far",
            summary->drop_period > 0 ? "lowest" : "lowest tenth", summary->drops);
@@ -89,10 +91,23 @@ static void print_resolution(const RunSummary *summary)
     printf("\n");
 }
 
+// What stands behind a bar that was asked for.
+static void print_bar(const RunSummary *summary)
+{
+    bool slides = !isnan(summary->mu_M);
+    double part = slides ? summary->mu_M_error / summary->mu_M
+                         : summary->mu_hold_error / summary->mu_hold;
+    printf("  error bar       %.1f %% of %s, %.1f %% asked for: %s\n", 100 * part,
+           slides ? "mu_M" : "mu_hold", 100 * summary->bar_wanted, summary->bar_ended);
+    printf("                  from %d runs on %d contact nodes, at pressures within %g %%\n",
+           summary->bar_runs, summary->bar_nodes, 100 * summary->bar_window);
+}
+
 static void print_answers(const RunSummary *summary)
 {
     print_mu_M(summary);
     print_mu_hold(summary);
+    if (summary->bar_runs > 0) print_bar(summary);
     printf("  mu_max          %.4f, the largest load ratio of the run\n", summary->mu_max);
     printf("  precursors      %d quasi-static, %d bounded rapid, %d leading rapid\n",
            summary->quasi_static, summary->bounded, summary->leading);

@@ -116,8 +116,10 @@ int command_run(int argc, char **argv)
     const char *to = NULL, *within = NULL;
     char settings[2][SETTING_SIZE];
     const Option own[] = {
-        {"to", 0, "PART", "Refine until the error bar of mu_M is this part of it", .word = &to},
-        {"within", 0, "TIME", "Stop refining in time for this: 300s, 5min, 1h", .word = &within},
+        {"to", 0, "PERCENT", "Refine until the error bar of mu_M is at most this (--to 1%)",
+         .word = &to},
+        {"within", 0, "TIME",
+         "With --to: begin no mesh or run that would end later (300s, 5min, 1h)", .word = &within},
         {"profile", 0, NULL, "Print at the end where the time went, and what was skipped and why",
          .flag = &profile},
         {0}};

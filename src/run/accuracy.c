@@ -11,6 +11,7 @@
 #include "base/memory.h"
 #include "run/accuracy_figure.h"
 #include "run/simulation_state.h"
+#include "run/warnings.h"
 
 #include <math.h>
 #include <string.h>
@@ -257,19 +258,19 @@ static bool go_on(Accuracy *accuracy, bool *ended, Error *err)
     if (is_met(accuracy)) return *ended = end_here(accuracy, "the error bar is met");
     if (known && between > answer->parts.mesh && level->run_count + 2 <= LEVEL_RUNS_MAX - 1) {
         if (level->seconds / level->run_count * 2 > seconds_left(accuracy))
-            return *ended = end_here(accuracy, "time: accuracy.within");
+            return *ended = end_here(accuracy, "no time for more");
         TRY(add_runs(accuracy, 2, err));
         goto cleanup;
     }
     if (accuracy->levels.count == LEVELS_MAX)
-        return *ended = end_here(accuracy, "no finer mesh is tried");
+        return *ended = end_here(accuracy, "the finest mesh that is tried");
     if (next_seconds(accuracy) > seconds_left(accuracy))
-        return *ended = end_here(accuracy, "time: accuracy.within");
+        return *ended = end_here(accuracy, "no time for more");
     begin_level(accuracy, 2 * level->refine);
     TRY(add_runs(accuracy, RUNS_FIRST, err));
     if (accuracy->out_of_time && last_level(accuracy)->run_count < RUNS_FIRST)
         accuracy->levels.count--;
-    if (accuracy->out_of_time) *ended = end_here(accuracy, "time: accuracy.within");
+    if (accuracy->out_of_time) *ended = end_here(accuracy, "no time for more");
 cleanup:
     return error_is_clean(err);
 }
@@ -287,6 +288,20 @@ static bool find_levels(Accuracy *accuracy, Error *err)
     }
 cleanup:
     return error_is_clean(err);
+}
+
+static void warn_of_bar(const Accuracy *accuracy, RunWarnings *warnings)
+{
+    const ErrorBar *answer = asked(accuracy);
+    const char *name = ANSWER_NAMES[accuracy->levels.asked];
+    if (isnan(answer->parts.mesh))
+        warnings_add(warnings,
+                     "error bar not met: the mesh's part of it is not known (one mesh: %s)",
+                     accuracy->levels.ended);
+    else
+        warnings_add(warnings, "error bar not met: %s is known to %.1f %%, asked for %.1f %% (%s)",
+                     name, 100 * answer->bar / answer->value, 100 * accuracy->levels.wanted,
+                     accuracy->levels.ended);
 }
 
 // Branches, not the mesh, are why the bar is not met, and more runs may mend it.
@@ -316,6 +331,8 @@ static bool run_in_full(Accuracy *accuracy, RunSummary *summary, Error *err)
     while (levels_lack_runs(accuracy) && seconds_left(accuracy) > 0)
         TRY(add_runs(accuracy, 2, err));
     levels->met = is_met(accuracy);
+    if (!levels->met) warn_of_bar(accuracy, &simulation->warnings);
+    simulation->started = accuracy->started;
     simulation->levels = levels;
     TRY(amontons_simulation_finish(simulation, summary, err));
     if (scene->output.figures.count > 0 && accuracy->options->folder)

@@ -127,6 +127,17 @@ static void note_slip(const Simulation *simulation, int32_t first, RunSummary *s
                  interface->pad_name[least->pad]);
 }
 
+static void note_levels(const Simulation *simulation, RunSummary *summary)
+{
+    const Levels *levels = simulation->levels;
+    const Level *last = &levels->list[levels->count - 1];
+    summary->bar_runs = last->run_count;
+    summary->bar_nodes = last->contact_nodes;
+    summary->bar_wanted = levels->wanted;
+    summary->bar_window = simulation->scene.accuracy.window;
+    summary->bar_ended = levels->ended;
+}
+
 // counters, answers: made by the caller, who writes them into run.json as well.
 void summary_fill(const Simulation *simulation, const RunCounters *counters, const Answers *answers,
                   RunSummary *summary)
@@ -164,8 +175,7 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
            sizeof summary->mu_M_parts);
     memcpy(summary->mu_hold_parts, (double[]){mu_hold->mesh, mu_hold->branches, mu_hold->drops},
            sizeof summary->mu_hold_parts);
-    summary->levels = simulation->levels != NULL;
-    summary->levels_ended = simulation->levels ? simulation->levels->ended : NULL;
+    if (simulation->levels) note_levels(simulation, summary);
     snprintf(summary->folder, sizeof summary->folder, "%s", simulation->folder.path);
     list_phases(simulation, summary);
 }

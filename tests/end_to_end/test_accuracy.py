@@ -64,7 +64,9 @@ class Accuracy(unittest.TestCase):
         self.assertEqual(ended.returncode, 0, ended.stderr)
         report = self.report()
         self.assertFalse(report["accuracy"]["met"])
-        self.assertIn("time", report["accuracy"]["ended"])
+        self.assertEqual(report["accuracy"]["ended"], "no time for more")
+        self.assertIn("error bar not met", report["warnings"][0])
+        self.assertIn("error bar not met", ended.stderr)
         self.assertEqual(len(report["accuracy"]["levels"]), 1)
         self.assertIsNone(report["results"]["mu_M_error_parts"]["mesh"])
 
