@@ -103,7 +103,7 @@ If (grade > 1)
     bend = Sqrt(1 - 1 / grade);
     size_end = size_contact / grade * Log((1 + bend) / (1 - bend)) / (2 * bend);
 EndIf
-cells = Floor(contact_length / size_contact + 0.5);
+cells = 2 * Floor(contact_length / size_contact / 2 + 0.5);     // even, as quads want it
 walk[] = {};
 first = newp;
 Point(first) = {0, 0, 0, size_end};

@@ -357,8 +357,8 @@ If (is_free)
             Line(base) = {bottom, corner};
             walk[] += base;
             If (grade > 1)
-                Transfinite Curve{base} = Floor((xs[k + 1] - xs[k]) / fine + 1.5) Using Bump
-                    1 / grade;
+                Transfinite Curve{base} = 2 * Floor((xs[k + 1] - xs[k]) / fine / 2 + 0.5) + 1 Using
+                    Bump 1 / grade;                // even, as quads want it
             EndIf
             Physical Curve(Sprintf("contact_%g", number)) = {base};
             root = newp;

@@ -7,8 +7,9 @@
 //   drops      twice the standard error that the finite number of load drops leaves
 //   branches   twice the standard error of the mean over runs, their spread taken from all levels
 //   mesh       the last difference between two levels (what first order leaves on the finer one),
-//              or half of the one before where that is more; one and a half times the difference
-//              where there are only two levels; never less than steps and reduction leave
+//              or half of the one before where that is more; twice the difference where there are
+//              only two levels; at least a quarter of a cell over the length in contact, and what
+//              steps and reduction leave
 //
 // How often bars hold, and by how much, is measured by validation/benchmark/promise.py.
 #ifndef AMONTONS_RECORD_ERROR_BARS_H

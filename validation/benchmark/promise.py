@@ -31,7 +31,7 @@ from measured_run import ROOT, commit, markdown_table, run
 BLOCK, PADS = ROOT / "validation/paper/fig1.yaml", ROOT / "validation/pads/pads.yaml"
 BLOCK_B = ROOT / "validation/paper/set-b.yaml"
 DESIGNS = ("A", "pads", "A", "B", "grooves", "A", "pads", "A", "grooves", "A")   # in turn
-CASES, CASES_QUICK = 40, 4
+FIRST, CASES, CASES_QUICK = 40, 40, 4      # the 40 before FIRST: what the rule's constants were chosen by
 WANTED = (0.03, 0.01)
 WITHIN = "60s"
 WINDOW = (0.995, 1, 1.005)      # of pressure: ends and middle of the program's own window
@@ -199,7 +199,7 @@ def main():
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--list", action="store_true", help="only say which cases")
     options = parser.parse_args()
-    cases = [case(k) for k in range(CASES_QUICK if options.quick else CASES)]
+    cases = [case(FIRST + k) for k in range(CASES_QUICK if options.quick else CASES)]
     if options.list:
         print("\n".join(one.name for one in cases))
         return 0

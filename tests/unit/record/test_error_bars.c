@@ -6,7 +6,7 @@
 
 static void begin(Levels *levels, double refine)
 {
-    levels->list[levels->count++] = (Level){.refine = refine};
+    levels->list[levels->count++] = (Level){.refine = refine, .contact_nodes = 1001};
 }
 
 static void add(Levels *levels, double mu_M, double mu_hold, double error)
@@ -45,11 +45,14 @@ static void test_two_levels(void **state)
     add(&levels, 0.34, 0.2, NAN);
     const ErrorBar *mu_M = levels_answer(&levels, ANSWER_MU_M);
     assert_near("mean", mu_M->value, 0.32, 1e-15);
-    assert_near("mesh", mu_M->parts.mesh, 1.5 * 0.02, 1e-15);
+    assert_near("mesh", mu_M->parts.mesh, 2 * 0.02, 1e-15);
     assert_near("branches", mu_M->parts.branches, 2 * sqrt((2e-4 + 8e-4) / 2) / sqrt(2), 1e-15);
     assert_near("drops", mu_M->parts.drops, 0, 0);
     const ErrorBar *hold = levels_answer(&levels, ANSWER_MU_HOLD);   // both meshes agree
     assert_near("least", hold->parts.mesh, 0.002 * 0.2, 1e-15);
+    levels.list[1].contact_nodes = 21;   // a quarter of a cell is more than steps leave
+    levels_estimate(&levels);
+    assert_near("cell", levels_answer(&levels, ANSWER_MU_HOLD)->parts.mesh, 0.2 / 80, 1e-15);
     Answers answers = {.mu_max = 1};
     levels_answer_for(&levels, &answers);
     assert_true(answers.mu_M.value == mu_M->value && answers.mu_M.error == mu_M->bar);
