@@ -9,8 +9,8 @@ const char *const ANSWER_NAMES[ANSWER_KINDS] = {"mu_M", "mu_hold"};
 // Of 95 % of normal deviates.
 static const double BAR = 2;
 
-// Chosen on 47 cases that promise.py does not have: with 1.5 in place of TWO_LEVELS and no CELL 28 of
-// 32 bars hold at 3 % and 12 of 15 at 1 %, with these 31 and 14.
+// Chosen on 47 cases that promise.py does not have: with 1.5 in place of TWO_LEVELS and no CELL 28
+// of 32 bars hold at 3 % and 12 of 15 at 1 %, with these 31 and 14.
 static const double TWO_LEVELS = 2;
 static const double CELL = 0.25;   // of a cell over the length in contact: how well l_c is met
 static const double BRANCH_WIDTH = 0.005;   // of mu: the next branch is twice as far and more

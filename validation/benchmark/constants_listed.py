@@ -188,7 +188,7 @@ NOT_A_CHOICE = {
     "record/front_path.c": {"AT_NODE": "rounding of coordinates"},
     "record/answers.c": {"BAR": "95 % of normal deviates"},
     "record/error_bars.c": {
-        "BAR": "95 % of normal deviates", "TWO_LEVELS": "of error bars: fifteen cases (there)",
+        "BAR": "95 % of normal deviates", "TWO_LEVELS": "of error bars: 47 cases (there)", "CELL": "the same",
         "BRANCH_WIDTH": "of branches: the next is twice as far",
         "STEPS": "of error bars: what this table's tolerances move"},
     "record/error_bars.h": {"LEVELS_MAX": SIZE, "LEVEL_RUNS_MAX": SIZE},
