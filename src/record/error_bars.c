@@ -96,6 +96,7 @@ static ErrorBar bar_of(const Levels *levels, AnswerKind kind)
 {
     const Level *last = &levels->list[levels->count - 1];
     double spread = spread_of_runs(levels, kind);
+    if (isnan(value_of(last, kind))) return (ErrorBar){NAN, NAN, {NAN, NAN, NAN}};
     ErrorBar bar = {.value = value_of(last, kind),
                     .parts = {.mesh = mesh_part(levels, kind),
                               .branches = BAR * spread / sqrt(last->run_count),

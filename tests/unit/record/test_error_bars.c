@@ -84,6 +84,7 @@ static void test_without_mu_M(void **state)
     assert_true(levels.asked == ANSWER_MU_M);
     add(&levels, NAN, 0.22, NAN);
     assert_true(levels.asked == ANSWER_MU_HOLD);
+    assert_true(isnan(levels_answer(&levels, ANSWER_MU_M)->bar));   // no value, no bar
     assert_near("lowest", levels_answer(&levels, ANSWER_MU_HOLD)->value, 0.2, 1e-15);
 }
 
