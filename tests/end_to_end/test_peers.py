@@ -4,10 +4,8 @@ mu(t) through the first rapid slips; and the comparison notices other physics. T
 cost benchmark are those of known powers, and the promise is judged by what it says."""
 import os
 import shutil
-import statistics
 import sys
 import tempfile
-import types
 import unittest
 from pathlib import Path
 
@@ -53,21 +51,37 @@ class Promise(unittest.TestCase):
     def test_cases_are_the_sequence(self):
         self.assertEqual([promise.halton(k, 2) for k in range(1, 6)],
                          [1 / 2, 1 / 4, 3 / 4, 1 / 8, 5 / 8])
-        middle = promise.candidate("A", 1)      # P L half way from 0.002 to 0.02, L a third
+        middle = promise.case(0)      # P L half way from 0.002 to 0.02, L a third
         self.assertAlmostEqual(middle.way / 12, 0.002 * 10**0.5, delta=1e-4)
-        self.assertAlmostEqual(middle.length, 0.4 * (2.5 / 0.4) ** (1 / 3), delta=1e-2)
+        self.assertAlmostEqual(middle.mesh["length"], 0.4 * (2.5 / 0.4) ** (1 / 3), delta=1e-2)
+        names = [promise.case(k).name for k in range(80)]
+        self.assertEqual(len(set(names)), 80)
+        self.assertEqual(names[1], "A, P = 0.00424, 5 pads, fill 0.36")
 
-    def test_a_mean_knows_its_error(self):
-        """Peaks on two branches in turn: batches of ten have equal means; left out: a third."""
-        def of(peaks):
-            report = {"results": {"peaks": [{"mu": mu} for mu in peaks]}}
-            return promise.mean_peak(types.SimpleNamespace(report=report))
-        mean, error = of([9] * 25 + [0.3, 0.4] * 25)
-        self.assertAlmostEqual(mean, 0.35)
-        self.assertAlmostEqual(error, 0)
-        mean, error = of([9] * 5 + [0.3] * 4 + [0.4] * 6)
-        self.assertAlmostEqual(mean, 0.36)
-        self.assertAlmostEqual(error, statistics.stdev([0.3, 0.3, 0.4, 0.4, 0.4]) / 5**0.5)
+    def test_a_bar_is_judged(self):
+        """Half a bar off holds, a bar and a half does not; 37 of 40 are too few, and one of four bars off is too much."""
+        def judged(mu):
+            return promise.answer_cells({"mu": mu, "bar": 0.02, "met": True, "nodes": [21, 41], "seconds": 1}, 0.3)
+        cells, ratio = judged(0.31)
+        self.assertAlmostEqual(ratio, 0.5)
+        self.assertEqual(cells[0], "3.33")
+        cells, ratio = judged(0.27)
+        self.assertAlmostEqual(ratio, 1.5)
+        self.assertEqual(cells[0], "-10.00 **no**")
+        for ratios, kept in (([0.5] * 38 + [1.5] * 2, True), ([0.5] * 37 + [1.5] * 3, False), ([0.5] * 39 + [4], False)):
+            self.assertEqual(promise.summary_of(0.01, ratios, 0, 40, [1] * 40)[1], kept)
+
+    def test_what_was_computed_is_kept(self):
+        case, asked = promise.case(0), []
+
+        def compute():
+            asked.append(1)
+            return {"mu": 0.3}
+        with tempfile.TemporaryDirectory() as folder:
+            for _ in range(2):
+                kept = promise.Kept(Path(folder, "promise.jsonl"))
+                self.assertEqual(kept.obtain(case, "to 0.01", compute)["mu"], 0.3)
+        self.assertEqual(len(asked), 1)
 
 
 if __name__ == "__main__":
