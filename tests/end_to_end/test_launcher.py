@@ -257,7 +257,7 @@ class FirstTime(Project):
     def test_test(self):
         done = self.run_launcher("test", "-R", "base", cwd="/", CTEST_STATUS="8")
         self.assertEqual(done.returncode, 8)
-        self.assertEqual(self.calls("ctest"), ["ctest --preset release -j 2 -R base"])
+        self.assertEqual(self.calls("ctest"), ["ctest --preset release -j 3 -R base"])
         self.assertEqual(done.stdout,
                          f"in {self.root}: 100% tests passed, 0 tests failed out of 7\n")
         asked = self.calls("dpkg-query")
