@@ -89,3 +89,9 @@ int32_t text_number(const char *text, double *value)
     *value = strtod(text, &end);
     return (int32_t)(end - text);
 }
+
+bool text_ends_with(const char *text, const char *ending)
+{
+    size_t length = strlen(text), size = strlen(ending);
+    return length >= size && strcmp(text + length - size, ending) == 0;
+}

@@ -4,6 +4,7 @@
 #ifndef AMONTONS_BASE_TEXT_H
 #define AMONTONS_BASE_TEXT_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 // Number of single-character insertions, deletions, substitutions and swaps of neighbours that turn
@@ -13,6 +14,8 @@ int32_t text_distance(const char *a, const char *b);
 // The index of the name nearest to `given`, or -1 when none is near enough to be a likely typing
 // mistake (more than a third of the longer name differs). names: [count].
 int32_t text_nearest(const char *given, const char *const *names, int32_t count);
+
+bool text_ends_with(const char *text, const char *ending);
 
 // The decimal number that `text` begins with, and the bytes it takes; 0: it begins with none.
 // strtod alone would take "inf", "nan" and "0x10" too. 1e999 is a number, infinite.

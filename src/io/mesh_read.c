@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "base/module.h"
+#include "base/text.h"
 #include "io/geo_commands.h"
 #include "io/geo_parameters.h"
 #include "io/mesh_raw.h"
@@ -21,13 +22,6 @@
 enum { CHUNK_SIZE = 1 << 16, HEAD_LINES = 200, SPLITS_MAX = 6 };
 
 // --- before gmsh --------------------------------------------------------------------------------
-
-// By the name alone, as gmsh does.
-static bool ends_with(const char *path, const char *ending)
-{
-    size_t length = strlen(path), wanted = strlen(ending);
-    return length >= wanted && strcmp(path + length - wanted, ending) == 0;
-}
 
 // What the system says of the path, before anybody opens it.
 static bool check_file(const char *path, Error *err)
@@ -133,7 +127,7 @@ static bool take_refine(const char *path, Parameters *given, int32_t *splits, Er
                  "%s: refine = %g; its cells are split in halves along each edge, so it can be 1, "
                  "2, 4, ... %d%s",
                  path, given->list[k].value, 1 << SPLITS_MAX,
-                 ends_with(path, ".geo") ? " (unless the .geo has a parameter `refine`)" : "");
+                 text_ends_with(path, ".geo") ? " (unless the .geo has a parameter `refine`)" : "");
     }
     given->count = kept;
 cleanup:
@@ -159,11 +153,11 @@ bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t p
                     MeshFile *mesh, Error *err)
 {
     MeshRaw raw = {0};
-    MeshRawRequest request = {.path = path, .generate = ends_with(path, ".geo")};
+    MeshRawRequest request = {.path = path, .generate = text_ends_with(path, ".geo")};
     Parameters given = {.count = parameter_count};
     double version = 0;
     *mesh = (MeshFile){0};
-    if (!request.generate && !ends_with(path, ".msh"))
+    if (!request.generate && !text_ends_with(path, ".msh"))
         FAIL(err, ERROR_INPUT, "%s: a mesh is a .msh or a .geo file", path);
     TRY((given.list = NEW_ARRAY(MeshParameter, parameter_count, err)));
     if (parameter_count > 0)

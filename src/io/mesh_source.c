@@ -4,6 +4,7 @@
 #include "io/mesh_source.h"
 
 #include "base/memory.h"
+#include "base/text.h"
 #include "io/text_file.h"
 
 #include <stdio.h>
@@ -34,8 +35,7 @@ static bool has_options(const char *path)
 
 static bool is_geo(const char *path)
 {
-    size_t length = strlen(path);
-    return length > 4 && strcmp(path + length - 4, ".geo") == 0;
+    return text_ends_with(path, ".geo");
 }
 
 bool mesh_source_hash(const char *path, const MeshParameter *parameters, int32_t parameter_count,

@@ -9,7 +9,6 @@
 
 enum { DROPS_ENOUGH = 30 };
 static const double MEAN_ERROR = 0.02;
-static const double BAR = 2;   // standard errors, of 95 % of normal deviates
 
 // The regime, and from which drop of the list on it lasts.
 static SeriesRegime find_regime(const Drops *drops, int32_t *first)
@@ -46,10 +45,10 @@ static void answer_drops(const Drops *drops, Answers *answers)
     int32_t period = answers->regime.period;
     answers->mu_drops = series_mean(drops->series, count, period > 0 ? period : 1);
     answers->enough = is_enough(&answers->regime, &answers->mu_drops);
-    answers->mu_drops.error *= BAR;
+    answers->mu_drops.error *= ERROR_BAR;
     answers->mu_hold = period > 0 ? lowest_branch(drops, count)
                                   : series_lowest_decile(drops->series, count);
-    if (period == 0) answers->mu_hold.error *= BAR;
+    if (period == 0) answers->mu_hold.error *= ERROR_BAR;
     answers->mu_hold_parts = (ErrorParts){NAN, NAN, answers->mu_hold.error};
 }
 
@@ -61,7 +60,7 @@ static void answer_peaks(const Drops *drops, Answers *answers)
     answers->peaks_counted = count;
     if (regime->period > 0) answers->period = count / (regime->count / regime->period);
     answers->mu_M = series_mean(drops->series, count, answers->period > 0 ? answers->period : 1);
-    answers->mu_M.error *= BAR;
+    answers->mu_M.error *= ERROR_BAR;
     answers->mu_M_parts = (ErrorParts){NAN, NAN, answers->mu_M.error};
     for (int32_t k = 0; k < count; k++) {
         answers->mu_M_low = fmin(answers->mu_M_low, drops->series[k].value);
@@ -193,12 +192,17 @@ static double lowest_pad_sliding(const Drops *drops)
     return low;
 }
 
-static void write_parts(JsonWriter *json, const char *name, const ErrorParts *parts)
+void error_parts_write(const ErrorParts *parts, JsonWriter *json)
 {
-    json_begin_object(json, name);
     json_number(json, "mesh", parts->mesh);
     json_number(json, "branches", parts->branches);
     json_number(json, "drops", parts->drops);
+}
+
+static void write_parts(JsonWriter *json, const char *name, const ErrorParts *parts)
+{
+    json_begin_object(json, name);
+    error_parts_write(parts, json);
     json_end(json);
 }
 

@@ -20,6 +20,9 @@ typedef struct ErrorParts {   // NaN: not known
     double mesh, branches, drops;
 } ErrorParts;
 
+// Standard errors in an error bar: 95 % of normal deviates.
+enum { ERROR_BAR = 2 };
+
 typedef struct Answers {
     SeriesRegime regime;   // of the load drops
     int32_t first;   // number in drops->list of the first drop that counts
@@ -39,6 +42,8 @@ typedef struct Answers {
 
 Answers answers_of(const Drops *drops);
 bool answers_are_known(const Drops *drops);   // more drops would tell nothing new: `enough`
+
+void error_parts_write(const ErrorParts *parts, JsonWriter *json);   // into the open object
 
 // Into results: answers, peaks, drops, pad_slidings; peaks alone. length: L.
 void answers_write_json(const Answers *answers, const Drops *drops, double length,

@@ -6,9 +6,6 @@
 
 const char *const ANSWER_NAMES[ANSWER_KINDS] = {"mu_M", "mu_hold"};
 
-// Of 95 % of normal deviates.
-static const double BAR = 2;
-
 // Chosen on 47 cases that promise.py does not have: with 1.5 in place of TWO_LEVELS and no CELL 28
 // of 32 bars hold at 3 % and 12 of 15 at 1 %, with these 31 and 14.
 static const double TWO_LEVELS = 2;
@@ -99,7 +96,7 @@ static ErrorBar bar_of(const Levels *levels, AnswerKind kind)
     if (isnan(value_of(last, kind))) return (ErrorBar){NAN, NAN, {NAN, NAN, NAN}};
     ErrorBar bar = {.value = value_of(last, kind),
                     .parts = {.mesh = mesh_part(levels, kind),
-                              .branches = BAR * spread / sqrt(last->run_count),
+                              .branches = ERROR_BAR * spread / sqrt(last->run_count),
                               .drops = drops_part(last, kind)}};
     bar.bar = hypot(hypot(known(bar.parts.mesh), known(bar.parts.branches)), bar.parts.drops);
     return bar;
@@ -170,9 +167,7 @@ static void write_bars(const ErrorBar answer[ANSWER_KINDS], JsonWriter *json)
         json_begin_object(json, ANSWER_NAMES[kind]);
         json_number(json, "value", bar->value);
         json_number(json, "bar", bar->bar);
-        json_number(json, "mesh", bar->parts.mesh);
-        json_number(json, "branches", bar->parts.branches);
-        json_number(json, "drops", bar->parts.drops);
+        error_parts_write(&bar->parts, json);
         json_end(json);
     }
 }

@@ -4,6 +4,7 @@
 
 #include "amontons.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "model/model.h"
 #include "scene/keys.h"
 
@@ -53,12 +54,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-static bool ends_with(const char *path, const char *end)
-{
-    size_t length = strlen(path), size = strlen(end);
-    return length > size && strcmp(path + length - size, end) == 0;
-}
-
 // Problems with the output (a full disk, a closed pipe) are errors too.
 bool amontons_info(const char *path, const InfoOptions *options, FILE *out, Error *err)
 {
@@ -73,9 +68,9 @@ bool amontons_info(const char *path, const InfoOptions *options, FILE *out, Erro
                  "(`amontons render` draws a result)",
                  path);
         TRY(info_result(path, out, err));
-    } else if (ends_with(path, ".msh") || ends_with(path, ".geo"))
+    } else if (text_ends_with(path, ".msh") || text_ends_with(path, ".geo"))
         TRY(info_mesh(path, options, out, err));
-    else if (ends_with(path, ".yaml") || ends_with(path, ".yml"))
+    else if (text_ends_with(path, ".yaml") || text_ends_with(path, ".yml"))
         TRY(info_scene(path, options, out, err));
     else
         FAIL(err, ERROR_INPUT,

@@ -186,9 +186,9 @@ NOT_A_CHOICE = {
                         "LINE_ARRAYS": "of the interface's file"},
     "record/front_path.h": {"FRONT_STATIONS": "shown"},
     "record/front_path.c": {"AT_NODE": "rounding of coordinates"},
-    "record/answers.c": {"BAR": "95 % of normal deviates"},
+    "record/answers.h": {"ERROR_BAR": "95 % of normal deviates"},
     "record/error_bars.c": {
-        "BAR": "95 % of normal deviates", "TWO_LEVELS": "of error bars: 47 cases (there)", "CELL": "the same",
+        "TWO_LEVELS": "of error bars: 47 cases (there)", "CELL": "the same",
         "BRANCH_WIDTH": "of branches: the next is twice as far",
         "STEPS": "of error bars: what this table's tolerances move"},
     "record/error_bars.h": {"LEVELS_MAX": SIZE, "LEVEL_RUNS_MAX": SIZE},
