@@ -5,16 +5,16 @@
 #include "io/geo_commands.h"
 
 #include "base/memory.h"
+#include "io/geo_parameters.h"
 #include "io/text_file.h"
 
 #include <ctype.h>
-#include <libgen.h>
 #include <limits.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
-enum { SCRIPT_BYTES_MAX = 1 << 28, INCLUDE_DEPTH_MAX = 8 };
+enum { SCRIPT_BYTES_MAX = 1 << 28 };
 
 // System: SystemCall and NonBlockingSystemCall too. FileName: options that name a log to write.
 static const char *const COMMANDS[] = {"System", "Onelab",   "Solver",    "Merge",   "Save",
@@ -53,13 +53,8 @@ static bool refuse_script(const char *path, int32_t depth, Error *err);
 // opened here cannot be by gmsh.
 static bool refuse_included(const char *path, const char *quoted, int32_t depth, Error *err)
 {
-    char folder[PATH_MAX], other[2 * PATH_MAX];
-    int length = (int)strcspn(quoted + 1, "\"'\n");
-    snprintf(folder, sizeof folder, "%s", path);
-    if (quoted[1] == '/')
-        snprintf(other, sizeof other, "%.*s", length, quoted + 1);
-    else
-        snprintf(other, sizeof other, "%s/%.*s", dirname(folder), length, quoted + 1);
+    char other[GEO_PATH_SIZE];
+    geo_included_path(path, quoted + 1, (int)strcspn(quoted + 1, "\"'\n"), other);
     return access(other, R_OK) != 0 || refuse_script(other, depth + 1, err);
 }
 
@@ -70,9 +65,9 @@ static bool refuse_script(const char *path, int32_t depth, Error *err)
     char *text = NULL;
     int32_t size = 0;
     TRY(text_file_read(path, SCRIPT_BYTES_MAX, &text, &size, err));
-    if (depth > INCLUDE_DEPTH_MAX)
+    if (depth > GEO_INCLUDE_DEPTH_MAX)
         FAIL(err, ERROR_INPUT, "%s: files include each other more than %d deep", path,
-             INCLUDE_DEPTH_MAX);
+             GEO_INCLUDE_DEPTH_MAX);
     if (strlen(text) != (size_t)size) FAIL(err, ERROR_INPUT, "%s: is no text", path);
     const char *found = find_command(text);
     if (found)

@@ -17,7 +17,7 @@
 #include <string.h>
 
 // LIST_SIZE: of the list of names in a message; what is longer is cut.
-enum { INCLUDE_DEPTH_MAX = 8, LIST_SIZE = 800 };
+enum { LIST_SIZE = 800 };
 
 void geo_parameters_destroy(GeoParameters *known)
 {
@@ -133,6 +133,16 @@ cleanup:
     return error_is_clean(err);
 }
 
+void geo_included_path(const char *path, const char *name, int length, char included[GEO_PATH_SIZE])
+{
+    char folder[PATH_MAX];
+    snprintf(folder, sizeof folder, "%s", path);
+    if (name[0] == '/')
+        snprintf(included, GEO_PATH_SIZE, "%.*s", length, name);
+    else
+        snprintf(included, GEO_PATH_SIZE, "%s/%.*s", dirname(folder), length, name);
+}
+
 // Calls scan_include, which calls it: as deep as includes are nested.
 static bool scan_file(const char *path, int32_t depth, GeoParameters *known, Error *err);
 
@@ -140,13 +150,8 @@ static bool scan_file(const char *path, int32_t depth, GeoParameters *known, Err
 static bool scan_include(const char *path, const char *quoted, int32_t depth, GeoParameters *known,
                          Error *err)
 {
-    char folder[PATH_MAX], other[2 * PATH_MAX];
-    int length = (int)strcspn(quoted + 1, "\"");
-    snprintf(folder, sizeof folder, "%s", path);
-    if (quoted[1] == '/')
-        snprintf(other, sizeof other, "%.*s", length, quoted + 1);
-    else
-        snprintf(other, sizeof other, "%s/%.*s", dirname(folder), length, quoted + 1);
+    char other[GEO_PATH_SIZE];
+    geo_included_path(path, quoted + 1, (int)strcspn(quoted + 1, "\""), other);
     if (!scan_file(other, depth + 1, known, err)) error_context(err, "included by %s", path);
     return error_is_clean(err);
 }
@@ -154,9 +159,9 @@ static bool scan_include(const char *path, const char *quoted, int32_t depth, Ge
 static bool scan_file(const char *path, int32_t depth, GeoParameters *known, Error *err)
 {
     char *text = NULL;
-    if (depth > INCLUDE_DEPTH_MAX)
+    if (depth > GEO_INCLUDE_DEPTH_MAX)
         FAIL(err, ERROR_INPUT, "%s: files include each other more than %d deep", path,
-             INCLUDE_DEPTH_MAX);
+             GEO_INCLUDE_DEPTH_MAX);
     if (!(text = read_text(path, err))) goto cleanup;
     // Word by word: a name inside a longer one, a string or a comment must not count.
     const char *at = text;

@@ -7,7 +7,15 @@
 #include "base/error.h"
 #include "io/mesh_file.h"
 
+#include <limits.h>
 #include <stdint.h>
+
+enum { GEO_INCLUDE_DEPTH_MAX = 8, GEO_PATH_SIZE = 2 * PATH_MAX };
+
+// The file that `Include "name"` means in the script `path`: `name`, of which `length` bytes count,
+// is relative to it.
+void geo_included_path(const char *path, const char *name, int length,
+                       char included[GEO_PATH_SIZE]);
 
 typedef struct GeoParameter {
     char name[GROUP_NAME_SIZE];
