@@ -33,13 +33,8 @@ typedef struct Scene Scene;   // what to compute; opaque here
 
 enum { AMONTONS_PATH_SIZE = 1024 };
 
-enum {
-    NODE_OPEN,
-    NODE_STICKS,
-    NODE_WEAKENS,
-    NODE_SLIPS
-};   // weakens: slips, and friction falls
-    // with the slip rate
+// weakens: slips, and friction falls with the slip rate
+enum { NODE_OPEN, NODE_STICKS, NODE_WEAKENS, NODE_SLIPS };
 
 // The contact nodes. The arrays belong to the simulation, stay where they are, and hold the last
 // accepted step.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""When does an elastic block start to slide, and how?
+"""When does an elastic block start to slide, and how? ::
 
     import amontons
     result = amontons.run("scene.yaml", {"load.pressure": 0.006})

@@ -24,7 +24,7 @@ def _view(owner: Any, pointer: Any, kind: Any, *shape: int) -> np.ndarray:
 
 
 class Simulation:
-    """One simulation, step by step:
+    """One simulation, step by step::
 
         simulation = amontons.Simulation("scene.yaml", {"load.pressure": 0.006})
         for step in simulation:

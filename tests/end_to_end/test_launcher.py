@@ -262,7 +262,7 @@ class FirstTime(Project):
                          f"in {self.root}: 100% tests passed, 0 tests failed out of 7\n")
         asked = self.calls("dpkg-query")
         self.assertEqual(len(asked), 1)
-        self.assertTrue(asked[0].endswith(" ".join(packages("build") + packages("test"))))
+        self.assertTrue(asked[0].endswith(" ".join(packages("build") + packages("test") + packages("docs"))))
 
     def test_test_after_demo_adds_the_tests(self):
         self.run_launcher("demo")
