@@ -228,5 +228,5 @@ def data_folder() -> Path:
 
 
 def version() -> str:
-    """"0.1.0"."""
+    """"0.2.0"."""
     return plain(lib.amontons_version())

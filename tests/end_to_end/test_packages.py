@@ -45,6 +45,12 @@ class Packages(unittest.TestCase):
         self.assertEqual(self.depends("libamontons-dev"), ["amontons"])
         self.assertIn("python3-h5py", self.depends("python3-amontons"))
 
+    def test_maintainer(self):
+        """What CMake was told stands in all packages, and signs their changelogs."""
+        told = re.search(r"AMONTONS_MAINTAINER:STRING=(.*)", (BUILD / "CMakeCache.txt").read_text())[1]
+        for name, package in self.packages.items():
+            self.assertEqual(run("dpkg-deb", "-f", package, "Maintainer").strip(), told, name)
+
     @unittest.skipUnless(shutil.which("lintian"), "no lintian here")
     def test_lintian(self):
         said = run("lintian", "--fail-on", "none", *self.packages.values())
