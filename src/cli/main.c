@@ -6,6 +6,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -147,6 +148,7 @@ int main(int argc, char **argv)
 {
     occupy_standard_streams();
     meet_limits();
+    setenv("AMONTONS_APART", "yes", 0);   // base/apart; empty: in this process, for a debugger
     int status = run_command(argc, argv);
     bool written = fflush(stdout) == 0 && !ferror(stdout);
     if (written || status != 0) return status;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A mesh as gmsh's API delivers it, between the gmsh module (io/mesh_file_module) and io/mesh_read,
-// which need not know gmsh's headers; and its conversion to a MeshFile.
+// A mesh as gmsh's API delivers it, between the gmsh module (io/mesh_file_module) and io/mesh_read
+// or io/mesh_apart, which need not know gmsh's headers; and its conversion to a MeshFile.
 #ifndef AMONTONS_IO_MESH_RAW_H
 #define AMONTONS_IO_MESH_RAW_H
 

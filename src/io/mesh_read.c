@@ -3,12 +3,13 @@
 // model, takes junk for a script, and reads a file that was cut off inside its last number.
 #include "io/mesh_file.h"
 
+#include "base/apart.h"
 #include "base/memory.h"
 #include "base/module.h"
 #include "base/text.h"
 #include "io/geo_commands.h"
 #include "io/geo_parameters.h"
-#include "io/mesh_raw.h"
+#include "io/mesh_apart.h"
 
 #include <errno.h>
 #include <math.h>
@@ -149,6 +150,13 @@ cleanup:
     return error_is_clean(err);
 }
 
+static bool read_raw(const MeshRawRequest *request, MeshRaw *raw, Error *err)
+{
+    if (apart_is_wanted()) return mesh_apart_read(request, raw, err);
+    MeshRawReader read = (MeshRawReader)module_function("gmsh", "amontons_gmsh_read", err);
+    return read && read(request, raw, err);
+}
+
 bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t parameter_count,
                     MeshFile *mesh, Error *err)
 {
@@ -176,9 +184,7 @@ bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t p
             path, given.list[0].name);
     request.parameters = given.list;
     request.parameter_count = given.count;
-    MeshRawReader read = (MeshRawReader)module_function("gmsh", "amontons_gmsh_read", err);
-    if (!read) goto cleanup;
-    TRY(read(&request, &raw, err));
+    TRY(read_raw(&request, &raw, err));
     raw.version = version;
     TRY(mesh_raw_convert(&raw, path, mesh, err));
 cleanup:

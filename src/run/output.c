@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "run/pictures.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -89,7 +90,7 @@ bool output_draw_figures(Simulation *simulation, Error *err)
     if (wanted->count == 0) return true;
     for (int32_t k = 0; k < wanted->count; k++) names[k] = wanted->name[k];
     double started = clock_seconds();
-    if (!amontons_render_result(simulation->folder.path, names, wanted->count, err)) return false;
+    if (!pictures_draw(simulation->folder.path, names, wanted->count, err)) return false;
     simulation->figures = wanted->count;
     simulation->figures_seconds = clock_seconds() - started;
     return true;

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// fork without exec: a few tenths of a millisecond, and the child has all that it needs. The pipe
+// carries the reply and at its end the Error; a reply without one is that of a crash.
+#include "base/apart.h"
+
+#include "base/memory.h"
+
+#include <errno.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { FIRST_BYTES = 1 << 16 };
+
+bool apart_is_wanted(void)
+{
+    const char *wanted = getenv("AMONTONS_APART");
+    return wanted && *wanted;
+}
+
+// --- in the child -------------------------------------------------------------------------------
+
+// Bytes of address space that this process has. 0: not known.
+static rlim_t space_in_use(void)
+{
+    long pages = 0;
+    FILE *file = fopen("/proc/self/statm", "r");
+    if (!file) return 0;
+    if (fscanf(file, "%ld", &pages) != 1) pages = 0;
+    fclose(file);
+    return (rlim_t)pages * (rlim_t)sysconf(_SC_PAGESIZE);
+}
+
+static rlim_t bytes_allowed(void)
+{
+    return (rlim_t)sysconf(_SC_PHYS_PAGES) * (rlim_t)sysconf(_SC_PAGESIZE) / 4 * 3;
+}
+
+// A limit that the user has set lower stays.
+static void limit(__rlimit_resource_t resource, rlim_t most)
+{
+    struct rlimit now;
+    if (getrlimit(resource, &now) != 0 || now.rlim_cur <= most) return;
+    now.rlim_cur = most;
+    setrlimit(resource, &now);
+}
+
+// Never returns, and leaves the parent's streams and exit handlers alone.
+static void be_child(const ApartWork *work, int pipe, pid_t parent)
+{
+    Error err = {0};
+    FILE *reply = fdopen(pipe, "wb");
+    signal(SIGTERM, SIG_DFL);
+    signal(SIGINT, SIG_DFL);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (!reply || getppid() != parent) _exit(1);
+    limit(RLIMIT_CORE, 0);
+    limit(RLIMIT_CPU, (rlim_t)work->seconds);
+    limit(RLIMIT_AS, space_in_use() + bytes_allowed());
+    work->read(work->context, reply, &err);
+    err.file = NULL;   // may lie in a module that the parent has not opened
+    bool written = fwrite(&err, sizeof err, 1, reply) == 1 && fflush(reply) == 0;
+    _exit(written ? 0 : 1);
+}
+
+// --- in the parent ------------------------------------------------------------------------------
+
+// To the end of the pipe. Memory may be short: the rest is then not read, and the child ends.
+static bool take_all(int pipe, ApartReply *reply, Error *err)
+{
+    int64_t room = FIRST_BYTES;
+    TRY((reply->bytes = memory_bytes(room, err)));
+    for (;;) {
+        if (reply->size == room) {
+            char *longer = memory_resize(reply->bytes, room, 2 * room, 1, err);
+            TRY(longer);
+            reply->bytes = longer;
+            room *= 2;
+        }
+        ssize_t count = read(pipe, reply->bytes + reply->size, (size_t)(room - reply->size));
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) break;
+        reply->size += count;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// The child's own error, from the end of the reply.
+static void take_error(ApartReply *reply, Error *err)
+{
+    Error said;
+    reply->size -= (int64_t)sizeof said;
+    memcpy(&said, reply->bytes + reply->size, sizeof said);
+    said.message[sizeof said.message - 1] = 0;
+    if (said.code != ERROR_NONE) error_set(err, said.code, __FILE__, __LINE__, "%s", said.message);
+}
+
+// Why there is no answer. ending: as waitpid has it.
+static void blame(const ApartWork *work, int ending, const struct rusage *used, Error *err)
+{
+    double kilobytes = (double)bytes_allowed() / 1024;
+    int number = WIFSIGNALED(ending) ? WTERMSIG(ending) : 0;
+    if (number == SIGXCPU)
+        error_set(err, ERROR_INPUT, __FILE__, __LINE__,
+                  "%s: %s had not read it after %d seconds; %s", work->path, work->reader,
+                  work->seconds, work->advice);
+    else if (number == SIGKILL || (double)used->ru_maxrss > 0.8 * kilobytes)
+        error_set(err, ERROR_INPUT, __FILE__, __LINE__,
+                  "%s: %s was ended while reading it, at %.1f GB of memory; %s", work->path,
+                  work->reader, (double)used->ru_maxrss / (1 << 20), work->advice);
+    else
+        error_set(err, ERROR_INPUT, __FILE__, __LINE__,
+                  "%s: %s crashes while reading it (%s): the file is damaged", work->path,
+                  work->reader, number ? strsignal(number) : "without a word");
+}
+
+// What the streams of this process hold is written before: the child has a copy of them.
+bool apart_read(const ApartWork *work, ApartReply *reply, Error *err)
+{
+    int ends[2] = {-1, -1}, ending = 0;
+    struct rusage used = {0};
+    pid_t parent = getpid();
+    *reply = (ApartReply){0};
+    fflush(NULL);
+    if (pipe(ends) != 0) FAIL(err, ERROR_FILE, "cannot open a pipe: %s", strerror(errno));
+    pid_t child = fork();
+    if (child == 0) {
+        close(ends[0]);
+        be_child(work, ends[1], parent);
+    }
+    int cause = errno;
+    close(ends[1]);
+    if (child > 0) take_all(ends[0], reply, err);
+    close(ends[0]);
+    if (child < 0) FAIL(err, ERROR_FILE, "cannot start a process: %s", strerror(cause));
+    while (wait4(child, &ending, 0, &used) < 0 && errno == EINTR) continue;
+    TRY(error_is_clean(err));
+    if (ending == 0 && reply->size >= (int64_t)sizeof(Error))
+        take_error(reply, err);
+    else
+        blame(work, ending, &used, err);
+cleanup:
+    if (!error_is_clean(err)) apart_destroy(reply);
+    return error_is_clean(err);
+}
+
+void *apart_take(ApartReply *reply, int64_t count, size_t size, Error *err)
+{
+    void *array = NULL;
+    if (count < 0 || count > (reply->size - reply->taken) / (int64_t)size)
+        FAIL(err, ERROR_FILE, "the answer of another process is cut off");
+    array = memory_array(count, size, err);
+    if (!array) goto cleanup;
+    memcpy(array, reply->bytes + reply->taken, (size_t)count * size);
+    reply->taken += count * (int64_t)size;
+cleanup:
+    return array;
+}
+
+void apart_destroy(ApartReply *reply)
+{
+    memory_free(reply->bytes);
+    *reply = (ApartReply){0};
+}

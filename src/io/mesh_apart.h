@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// gmsh in a process of its own (base/apart), so that a mesh that crashes it is an error like any
+// other. Called by io/mesh_read.
+#ifndef AMONTONS_IO_MESH_APART_H
+#define AMONTONS_IO_MESH_APART_H
+
+#include "io/mesh_raw.h"
+
+// As amontons_gmsh_read (io/mesh_raw.h), with the module opened where it is needed: there.
+bool mesh_apart_read(const MeshRawRequest *request, MeshRaw *raw, Error *err);
+
+#endif

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Pictures of a result whose history this process has written itself. Called by run/output.
+#ifndef AMONTONS_RUN_PICTURES_H
+#define AMONTONS_RUN_PICTURES_H
+
+#include "amontons.h"
+
+// As amontons_render_result, but always in this process.
+bool pictures_draw(const char *folder, const char *const *figures, int32_t figure_count,
+                   Error *err);
+
+#endif

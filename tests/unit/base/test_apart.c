@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Another process reads: its answer, its error, and every way in which it may end without one.
+#include "base/apart.h"
+
+#include "base/memory.h"
+
+#include <setjmp.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+static bool fails_in(bool (*read)(void *, FILE *, Error *), Error *err)
+{
+    ApartReply reply = {0};
+    ApartWork work = {.path = "stone.msh",
+                      .reader = "a mason",
+                      .seconds = 7,
+                      .advice = "carve less",
+                      .read = read};
+    bool failed = !apart_read(&work, &reply, err);
+    assert_null(reply.bytes);
+    return failed;
+}
+
+static void says(const Error *err, const char *words)
+{
+    if (!strstr(err->message, words)) fail_msg("'%s' is not in: %s", words, err->message);
+}
+
+// --- answers ------------------------------------------------------------------------------------
+
+// More than the pipe holds at once.
+enum { COUNT = 300000 };
+
+static bool count_up(void *context, FILE *reply, Error *err)
+{
+    (void)err;
+    for (int32_t k = 0; k < COUNT; k++) {
+        int32_t value = k + *(int32_t *)context;
+        fwrite(&value, sizeof value, 1, reply);
+    }
+    *(int32_t *)context = -1;   // nobody but the child sees it
+    return true;
+}
+
+static void test_reply(void **state)
+{
+    (void)state;
+    Error err = {0};
+    int32_t first = 5, *values = NULL;
+    int64_t live = memory_counters().live;
+    ApartReply reply = {0};
+    ApartWork work = {
+        .path = "p", .reader = "r", .seconds = 7, .read = count_up, .context = &first};
+    assert_true(apart_read(&work, &reply, &err));
+    assert_int_equal(first, 5);
+    assert_int_equal(reply.size, COUNT * sizeof(int32_t));
+    assert_non_null(values = apart_take(&reply, COUNT - 1, sizeof *values, &err));
+    for (int32_t k = 0; k < COUNT - 1; k++) assert_int_equal(values[k], k + 5);
+    assert_null(apart_take(&reply, 2, sizeof *values, &err));
+    assert_int_equal(err.code, ERROR_FILE);
+    memory_free(values);
+    apart_destroy(&reply);
+    assert_int_equal(memory_counters().live, live);
+}
+
+static bool refuse(void *context, FILE *reply, Error *err)
+{
+    (void)context;
+    fprintf(reply, "half an answer");
+    error_set(err, ERROR_FILE, __FILE__, __LINE__, "line 3: no stone");
+    return false;
+}
+
+static void test_error_comes_back(void **state)
+{
+    (void)state;
+    Error err = {0};
+    assert_true(fails_in(refuse, &err));
+    assert_int_equal(err.code, ERROR_FILE);
+    assert_string_equal(err.message, "line 3: no stone");
+}
+
+// Only the program asks for it, by the environment.
+static void test_who_wants_it(void **state)
+{
+    (void)state;
+    unsetenv("AMONTONS_APART");
+    assert_false(apart_is_wanted());
+    setenv("AMONTONS_APART", "", 1);
+    assert_false(apart_is_wanted());
+    setenv("AMONTONS_APART", "yes", 1);
+    assert_true(apart_is_wanted());
+}
+
+// --- no answer ----------------------------------------------------------------------------------
+
+static bool crash(void *context, FILE *reply, Error *err)
+{
+    (void)context;
+    (void)err;
+    fprintf(reply, "half an answer");
+    abort();
+}
+
+static bool leave(void *context, FILE *reply, Error *err)
+{
+    (void)context;
+    (void)reply;
+    (void)err;
+    _exit(0);
+}
+
+static bool take_too_long(void *context, FILE *reply, Error *err)
+{
+    (void)context;
+    (void)reply;
+    (void)err;
+    return raise(SIGXCPU) == 0;   // what the kernel sends at the limit
+}
+
+static bool be_killed(void *context, FILE *reply, Error *err)
+{
+    (void)context;
+    (void)reply;
+    (void)err;
+    return raise(SIGKILL) == 0;   // what the kernel sends when memory runs out
+}
+
+static void test_ends_without_answer(void **state)
+{
+    (void)state;
+    static const struct {
+        bool (*read)(void *, FILE *, Error *);
+        const char *words;
+    } rows[] = {{crash, "stone.msh: a mason crashes while reading it (Aborted)"},
+                {leave, "stone.msh: a mason crashes while reading it (without a word)"},
+                {take_too_long, "stone.msh: a mason had not read it after 7 seconds; carve less"},
+                {be_killed, "stone.msh: a mason was ended while reading it, at"}};
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        Error err = {0};
+        assert_true(fails_in(rows[k].read, &err));
+        assert_int_equal(err.code, ERROR_INPUT);
+        says(&err, rows[k].words);
+    }
+}
+
+// What the child may use; the parent stays as it was.
+static bool tell_limits(void *context, FILE *reply, Error *err)
+{
+    struct rlimit limits[3];
+    (void)context;
+    (void)err;
+    getrlimit(RLIMIT_CPU, &limits[0]);
+    getrlimit(RLIMIT_AS, &limits[1]);
+    getrlimit(RLIMIT_CORE, &limits[2]);
+    return fwrite(limits, sizeof limits, 1, reply) == 1;
+}
+
+static void test_limits(void **state)
+{
+    (void)state;
+    Error err = {0};
+    struct rlimit before, after, *limits;
+    ApartReply reply = {0};
+    ApartWork work = {.path = "p", .reader = "r", .seconds = 7, .read = tell_limits};
+    getrlimit(RLIMIT_CPU, &before);
+    assert_true(apart_read(&work, &reply, &err));
+    assert_non_null(limits = apart_take(&reply, 3, sizeof *limits, &err));
+    assert_int_equal(limits[0].rlim_cur, 7);
+    assert_true(limits[1].rlim_cur < RLIM_INFINITY);
+    assert_int_equal(limits[2].rlim_cur, 0);
+    getrlimit(RLIMIT_CPU, &after);
+    assert_int_equal(before.rlim_cur, after.rlim_cur);
+    memory_free(limits);
+    apart_destroy(&reply);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_reply),        cmocka_unit_test(test_error_comes_back),
+        cmocka_unit_test(test_who_wants_it), cmocka_unit_test(test_ends_without_answer),
+        cmocka_unit_test(test_limits),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
