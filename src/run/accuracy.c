@@ -255,7 +255,8 @@ static bool go_on(Accuracy *accuracy, bool *ended, Error *err)
     double between = hypot(answer->parts.branches, answer->parts.drops);
     bool known = !isnan(answer->parts.mesh);
     if (isnan(answer->value)) return *ended = end_here(accuracy, "no load drop in any run");
-    if (is_met(accuracy)) return *ended = end_here(accuracy, "the error bar is met");
+    accuracy->levels.met = is_met(accuracy);
+    if (accuracy->levels.met) return *ended = end_here(accuracy, "the error bar is met");
     if (known && between > answer->parts.mesh && level->run_count + 2 <= LEVEL_RUNS_MAX - 1) {
         if (level->seconds / level->run_count * 2 > seconds_left(accuracy))
             return *ended = end_here(accuracy, "no time for more");
@@ -313,8 +314,8 @@ static bool levels_lack_runs(const Accuracy *accuracy)
            levels->list[levels->count - 1].run_count + 2 <= LEVEL_RUNS_MAX;
 }
 
-// The scene itself on the last mesh, with its files. It counts as one more run; a branch that it
-// found is a reason for more of them.
+// The scene itself on the last mesh, with its files. It counts as one more run where it goes on for
+// long enough to have an answer; a branch that it found is a reason for more of them.
 static bool run_in_full(Accuracy *accuracy, RunSummary *summary, Error *err)
 {
     Levels *levels = &accuracy->levels;
@@ -326,10 +327,11 @@ static bool run_in_full(Accuracy *accuracy, RunSummary *summary, Error *err)
     TRY(amontons_simulation_create(scene, accuracy->options, &simulation, err));
     TRY(simulation_loop(simulation, err));
     Answers answers = answers_of(&simulation->drops);
-    bool has_answer = !isnan((levels->asked == ANSWER_MU_M ? answers.mu_M : answers.mu_hold).value);
-    if (has_answer) levels_add_run(levels, 1, &answers, simulation->control.counters.accepted);
+    if (is_known(accuracy, &answers))
+        levels_add_run(levels, 1, &answers, simulation->control.counters.accepted);
     while (levels_lack_runs(accuracy) && seconds_left(accuracy) > 0)
         TRY(add_runs(accuracy, 2, err));
+    if (levels->met && !is_met(accuracy)) levels->ended = "the run in full widened it";
     levels->met = is_met(accuracy);
     if (!levels->met) warn_of_bar(accuracy, &simulation->warnings);
     simulation->started = accuracy->started;
