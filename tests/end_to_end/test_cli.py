@@ -290,7 +290,7 @@ class Run(InFolder):
     def test_signals_end_the_run_in_order(self):
         for number in (signal.SIGINT, signal.SIGTERM):
             result = self.folder / number.name
-            run = subprocess.Popen([PROGRAM, "run", FIG1, *PLAIN, "--set", "time.until.U=1",
+            run = subprocess.Popen([PROGRAM, "run", FIG1, *COARSE, *PLAIN, "--set", "time.until.U=100",
                                     "-o", result], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                    text=True)
             history = result / "history.h5.part"
@@ -360,8 +360,8 @@ class Run(InFolder):
 
     def test_two_runs_into_one_folder(self):
         result = self.folder / "result"
-        words = ["run", FIG1, *PLAIN, "--overwrite", "-o", result, "--set"]
-        first = subprocess.Popen([PROGRAM, *words, "time.until.U=1"], stderr=subprocess.PIPE)
+        words = ["run", FIG1, *COARSE, *PLAIN, "--overwrite", "-o", result, "--set"]
+        first = subprocess.Popen([PROGRAM, *words, "time.until.U=100"], stderr=subprocess.PIPE)
         limit = time.monotonic() + 60
         while not (result / "history.h5.part").exists() and time.monotonic() < limit:
             time.sleep(0.02)
@@ -370,7 +370,7 @@ class Run(InFolder):
         first.communicate(timeout=60)
         self.assertEqual(second.returncode, 2)
         self.assertIn(f"another computation is writing its result there (process {first.pid} on ", second.stderr)
-        self.assertEqual(json.loads((result / "run.json").read_text())["scene"]["time"]["until"]["U"], 1)
+        self.assertEqual(json.loads((result / "run.json").read_text())["scene"]["time"]["until"]["U"], 100)
 
     def test_an_earlier_result_outlives_a_scene_that_is_wrong(self):
         result = self.folder / "result"

@@ -5,6 +5,7 @@ which steps no instability in time, finds the same threshold at the same pad."""
 import json
 import os
 import re
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -24,6 +25,12 @@ def published():
 
 
 class PadsStudy(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.cache = tempfile.mkdtemp(prefix="amontons_cache_")   # shared: shapes are made once
+        cls.addClassCleanup(shutil.rmtree, cls.cache)
+        cls.place = {**os.environ, "AMONTONS_CACHE": cls.cache}
+
     def setUp(self):
         folder = tempfile.TemporaryDirectory(prefix="amontons_study_")
         self.addCleanup(folder.cleanup)
@@ -39,7 +46,7 @@ class PadsStudy(unittest.TestCase):
             keys = {"output": "{history: false, figures: []}", "time.until.periodic": "true", **keys}
         words = [word for key, value in keys.items() for word in ("--set", f"{key}={value}")]
         done = subprocess.run([PROGRAM, command, os.path.join(STUDY, scene), "-o", out, *words],
-                              check=True, timeout=300, capture_output=True, text=True)
+                              check=True, timeout=300, capture_output=True, text=True, env=self.place)
         self.said = done.stdout
         with open(os.path.join(out, result), encoding="utf-8") as file:
             return json.load(file)
