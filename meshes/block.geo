@@ -51,8 +51,9 @@ If (incomplete != 0 && incomplete != 1)
     Error("incomplete must be 0 or 1, found %g", incomplete);
     Abort;
 EndIf
-If (grade_x <= 0 || grade_z <= 0)
-    Error("grade_x and grade_z must be above 0 (1: even), found %g and %g", grade_x, grade_z);
+If (grade_x <= 0 || grade_z <= 0 || grade_x > 1e6 || grade_z > 1e6)
+    Error("grade_x and grade_z must be above 0 (1: even) and at most 1e6, found %g and %g", grade_x,
+          grade_z);
     Abort;
 EndIf
 If (StrCmp(shape, "quad") != 0 && StrCmp(shape, "triangle") != 0)
@@ -66,6 +67,10 @@ If (StrCmp(layout, "regular") != 0 && StrCmp(layout, "alternate") != 0 &&
 EndIf
 nx = refine * nx < 1 ? 1 : Floor(refine * nx + 0.5);
 nz = refine * nz < 1 ? 1 : Floor(refine * nz + 0.5);
+If (nx * nz > 1e7)
+    Error("%g x %g cells are more than 1e7, which no computer here could step", nx, nz);
+    Abort;
+EndIf
 If (StrCmp(layout, "free") == 0 && StrCmp(shape, "quad") == 0 &&
     (nx != 2 * Floor(nx / 2) || nz != 2 * Floor(nz / 2)))
     Error("nx and nz must be even for a free layout of quads, found %g and %g", nx, nz);

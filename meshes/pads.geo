@@ -50,8 +50,8 @@ DefineConstant[
 ];
 
 // --- what is allowed ----------------------------------------------------------------------------
-If (n < 1 || n != Floor(n))
-    Error("n must be a whole number from 1 on, found %g", n);
+If (n < 1 || n > 10000 || n != Floor(n))
+    Error("n must be a whole number from 1 to 10000, found %g", n);
     Abort;
 EndIf
 If (length <= 0 || height <= 0 || pad_height <= 0)
@@ -220,6 +220,10 @@ cells_pad = refine * cells_pad < 1 ? 1 : Floor(refine * cells_pad + 0.5);
 cells_gap = refine * cells_gap < 1 ? 1 : Floor(refine * cells_gap + 0.5);
 cells_pad_height = refine * cells_pad_height < 1 ? 1 : Floor(refine * cells_pad_height + 0.5);
 nz = refine * nz < 1 ? 1 : Floor(refine * nz + 0.5);
+If (n * (cells_pad + cells_gap) * (nz + cells_pad_height) > 1e7)
+    Error("%g pads of %g cells, %g cells up, are more than 1e7 cells", n, cells_pad, nz);
+    Abort;
+EndIf
 grade = refine * grade_contact > 1 ? refine * grade_contact : 1;
 fine = size_contact > 0 ? size_contact : touching / n / cells_pad;
 // The end cells of a pad of cells that follow a parabola (Bump) with a mean of `fine`.

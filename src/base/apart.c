@@ -49,6 +49,14 @@ static void limit(__rlimit_resource_t resource, rlim_t most)
     setrlimit(resource, &now);
 }
 
+void apart_allow(int32_t seconds)
+{
+    struct rlimit now;
+    if (getrlimit(RLIMIT_CPU, &now) != 0) return;
+    now.rlim_cur = now.rlim_max < (rlim_t)seconds ? now.rlim_max : (rlim_t)seconds;
+    setrlimit(RLIMIT_CPU, &now);
+}
+
 // Never returns, and leaves the parent's streams and exit handlers alone.
 static void be_child(const ApartWork *work, int pipe, pid_t parent)
 {
@@ -107,8 +115,8 @@ static void blame(const ApartWork *work, int ending, const struct rusage *used, 
     int number = WIFSIGNALED(ending) ? WTERMSIG(ending) : 0;
     if (number == SIGXCPU)
         error_set(err, ERROR_INPUT, __FILE__, __LINE__,
-                  "%s: %s had not read it after %d seconds; %s", work->path, work->reader,
-                  work->seconds, work->advice);
+                  "%s: %s had not read it after %ld seconds; %s", work->path, work->reader,
+                  (long)(used->ru_utime.tv_sec + used->ru_stime.tv_sec + 1), work->advice);
     else if (number == SIGKILL || (double)used->ru_maxrss > 0.8 * kilobytes)
         error_set(err, ERROR_INPUT, __FILE__, __LINE__,
                   "%s: %s was ended while reading it, at %.1f GB of memory; %s", work->path,

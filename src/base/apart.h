@@ -31,6 +31,9 @@ typedef struct ApartReply {
 
 bool apart_is_wanted(void);
 
+// In the other process: so many seconds in all from now on.
+void apart_allow(int32_t seconds);
+
 // ERROR_INPUT where the process crashed or went beyond its limits: the file is damaged, or asks for
 // too much. Memory: three quarters of what the machine has.
 bool apart_read(const ApartWork *work, ApartReply *reply, Error *err);

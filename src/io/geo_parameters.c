@@ -18,6 +18,7 @@
 
 // LIST_SIZE: of the list of names in a message; what is longer is cut.
 enum { LIST_SIZE = 800 };
+static const double LARGEST = 1e60;   // as for the numbers of a scene
 
 void geo_parameters_destroy(GeoParameters *known)
 {
@@ -244,6 +245,9 @@ bool geo_parameters_check(const GeoParameters *known, const char *path, const Me
                  path, item->name);
         if (!is_text && !isfinite(given[k].value))
             FAIL(err, ERROR_INPUT, "%s: parameter '%s' is not a finite number", path, item->name);
+        if (!is_text && fabs(given[k].value) > LARGEST)
+            FAIL(err, ERROR_INPUT, "%s: parameter '%s' is %g; at most %g is allowed", path,
+                 item->name, given[k].value, LARGEST);
         for (int32_t j = 0; j < k; j++)
             if (strcmp(given[j].name, given[k].name) == 0)
                 FAIL(err, ERROR_INPUT, "%s: parameter '%s' is given twice", path, item->name);

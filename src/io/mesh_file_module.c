@@ -147,6 +147,7 @@ static bool gmsh_load(const MeshRawRequest *request, Error *err)
     double algorithm = 0;
     TRY(gmsh_open(request, err));
     if (!request->generate) goto cleanup;
+    if (request->opened) request->opened();
     gmshOptionGetNumber("Mesh.Algorithm", &algorithm, &status);
     if (status == 0 && algorithm == MESH_ADAPT_QUADS)
         FAIL(err, ERROR_INPUT,

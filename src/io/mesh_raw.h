@@ -46,6 +46,7 @@ typedef struct MeshRawRequest {
     const MeshParameter *parameters;   // [parameter_count] all known to the .geo
     int32_t parameter_count;
     int32_t splits;   // so many times every edge is halved afterwards
+    void (*opened)(void);   // called when the file is read and meshing begins; NULL: nobody
 } MeshRawRequest;
 
 // The module's entry: runs gmsh from start to finish, so that a second call finds it clean. Errors

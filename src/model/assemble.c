@@ -8,6 +8,27 @@
 #include "model/shape_cache.h"
 
 #include <math.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+// Bytes that a node takes at least, with one factorised matrix; a run needs several times as much.
+static const double NODE_BYTES = 4e3;
+
+// Said before the memory is full: then the system would end this or another program.
+static bool check_memory(const Scene *scene, int32_t node_count, Error *err)
+{
+    struct rlimit room;
+    double have = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    if (getrlimit(RLIMIT_AS, &room) == 0 && room.rlim_cur != RLIM_INFINITY)
+        have = fmin(have, (double)room.rlim_cur);
+    if (node_count * NODE_BYTES > have)
+        FAIL(err, ERROR_INPUT,
+             "%s: %d nodes are too many for this computer: to factorise one matrix takes %.1f GB, "
+             "and there are %.1f; coarser cells, or cells graded towards the contact, are needed",
+             scene->mesh.file, node_count, node_count * NODE_BYTES / 1e9, have / 1e9);
+cleanup:
+    return error_is_clean(err);
+}
 
 // Through gmsh, the slowest part of a small run (76 ms to load).
 bool model_read_mesh(Model *model, Error *err)
@@ -17,6 +38,7 @@ bool model_read_mesh(Model *model, Error *err)
     MeshFile file = {0};
     bool done = mesh_file_read(scene->mesh.file, scene->mesh.parameters,
                                scene->mesh.parameter_count, &file, err);
+    done = done && check_memory(scene, file.node_count, err);
     TRY(scene_blame(scene, "mesh.file", done, err));
     TRY(mesh_build(&file, scene->mesh.file, &model->mesh, err));
     const Mesh *mesh = &model->mesh;

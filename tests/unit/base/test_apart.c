@@ -142,7 +142,7 @@ static void test_ends_without_answer(void **state)
         const char *words;
     } rows[] = {{crash, "stone.msh: a mason crashes while reading it (Aborted)"},
                 {leave, "stone.msh: a mason crashes while reading it (without a word)"},
-                {take_too_long, "stone.msh: a mason had not read it after 7 seconds; carve less"},
+                {take_too_long, "stone.msh: a mason had not read it after 1 seconds; carve less"},
                 {be_killed, "stone.msh: a mason was ended while reading it, at"}};
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
         Error err = {0};
@@ -155,12 +155,14 @@ static void test_ends_without_answer(void **state)
 // What the child may use; the parent stays as it was.
 static bool tell_limits(void *context, FILE *reply, Error *err)
 {
-    struct rlimit limits[3];
+    struct rlimit limits[4];
     (void)context;
     (void)err;
     getrlimit(RLIMIT_CPU, &limits[0]);
     getrlimit(RLIMIT_AS, &limits[1]);
     getrlimit(RLIMIT_CORE, &limits[2]);
+    apart_allow(90);
+    getrlimit(RLIMIT_CPU, &limits[3]);
     return fwrite(limits, sizeof limits, 1, reply) == 1;
 }
 
@@ -173,10 +175,11 @@ static void test_limits(void **state)
     ApartWork work = {.path = "p", .reader = "r", .seconds = 7, .read = tell_limits};
     getrlimit(RLIMIT_CPU, &before);
     assert_true(apart_read(&work, &reply, &err));
-    assert_non_null(limits = apart_take(&reply, 3, sizeof *limits, &err));
+    assert_non_null(limits = apart_take(&reply, 4, sizeof *limits, &err));
     assert_int_equal(limits[0].rlim_cur, 7);
     assert_true(limits[1].rlim_cur < RLIM_INFINITY);
     assert_int_equal(limits[2].rlim_cur, 0);
+    assert_int_equal(limits[3].rlim_cur, 90);
     getrlimit(RLIMIT_CPU, &after);
     assert_int_equal(before.rlim_cur, after.rlim_cur);
     memory_free(limits);

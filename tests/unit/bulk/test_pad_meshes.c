@@ -285,7 +285,12 @@ static void test_refused(void **state)
     static const Refused rows[] = {
         {"pads.geo", {{"fill", 1.2, ""}}, "fill must be above 0 and below 1, found 1.2"},
         {"pads.geo", {{"fill", 1, ""}}, "fill must be above 0 and below 1, found 1"},
-        {"pads.geo", {{"n", 0, ""}}, "n must be a whole number from 1 on, found 0"},
+        {"pads.geo", {{"n", 0, ""}}, "n must be a whole number from 1 to 10000, found 0"},
+        {"pads.geo", {{"n", 9999, ""}, {"nz", 9999, ""}}, "are more than 1e7 cells"},
+        {"block.geo", {{"nx", 1e8, ""}}, "1e+08 x 40 cells are more than 1e7"},
+        {"block.geo", {{"refine", 1e300, ""}}, "parameter 'refine' is 1e+300; at most 1e+60"},
+        {"block.geo", {{"refine", 1e30, ""}}, "cells are more than 1e7"},
+        {"block.geo", {{"grade_z", 1e7, ""}}, "(1: even) and at most 1e6, found 1 and 1e+07"},
         {"pads.geo", {{"pad_height", -1, ""}}, "pad_height must be above 0"},
         {"pads.geo", {{"cells_gap", 1.5, ""}}, "whole numbers from 1 on"},
         {"pads.geo", {{"shape", 0, "hex"}}, "shape must be quad or triangle, found hex"},

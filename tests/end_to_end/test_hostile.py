@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Some rows of validation/hostile/tries.py; and that it notices what is wrong."""
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+FOLDER = Path(os.environ["AMONTONS_SOURCE"], "validation", "hostile")
+sys.path.insert(0, str(FOLDER))
+import cases  # noqa: E402
+import tries  # noqa: E402
+
+
+class Hostile(unittest.TestCase):
+    def test_some_tries(self):
+        with tempfile.TemporaryDirectory() as folder:
+            ended = subprocess.run([sys.executable, FOLDER / "tries.py", "--every", "29", "-j", "1", "-o", folder],
+                                   capture_output=True, text=True)
+            self.assertEqual(ended.returncode, 0, ended.stdout + ended.stderr)
+            self.assertGreater(len(Path(folder, "tries.csv").read_text().splitlines()), 40)
+
+    def test_mesh_that_crashes_gmsh(self):
+        """gmsh 4.8 does not look whether a node's number is one that it has room for."""
+        mesh = cases.square().replace("\n8 5 9", "\n8 9223372036854775807 9")
+        self.assertNotEqual(mesh, cases.square())
+        with tempfile.TemporaryDirectory() as folder:
+            cases.put(Path(folder), {"bad.msh": mesh})
+            ended = subprocess.run([tries.PROGRAM, "info", "bad.msh"], cwd=folder, capture_output=True, text=True)
+        self.assertEqual(ended.returncode, 2)
+        self.assertRegex(ended.stderr, r"(?m)^amontons: error: bad.msh: gmsh crashes while reading it \(.*\): "
+                                       "the file is damaged$")
+
+    def test_faults_are_noticed(self):
+        attempt = cases.Try("group", "name", [], {"mine": "mine"}, says="bad.msh", keeps=("mine",))
+        sentence = "amontons: error: bad.msh: no"
+        with tempfile.TemporaryDirectory() as scratch:
+            folder = Path(scratch)
+            found = lambda status, said, **more: list(tries.faults(
+                cases.Try(**(attempt.__dict__ | more)), status, said, folder, None))
+            cases.put(folder, attempt.files)
+            self.assertEqual(found(2, sentence), [])
+            self.assertEqual(found(0, ""), [])
+            for wrong in (found(None, ""), found(-11, ""), found(139, sentence), found(2, ""),
+                          found(2, "amontons: error: no"), found(1, ""), found(0, "", may=(2,)),
+                          found(0, "", answer=True)):
+                self.assertTrue(wrong)
+            cases.put(folder, {"mine": "yours"})
+            self.assertEqual(found(2, sentence), ["lost or changed mine"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,180 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Hostile tries: damaged files, odd words, hard surroundings, signals. Each must end with an answer
+or a sentence that names what is wrong; never in a crash, an endless loop, a wrong answer or the
+loss of a file.
+
+    validation/hostile/tries.py [-o FOLDER] [--only GROUP ...] [--every N] [-j N]
+
+cases.py describes them. Prints a table and leaves tries.md and tries.csv in FOLDER (default
+results/hostile). Exit status 1: some try ended as none should.
+"""
+import argparse
+import csv
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from collections import Counter
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import cases
+from cases import ROOT, SCENE, square
+
+PROGRAM = Path(os.environ.get("AMONTONS_BIN", ROOT / "build/bin"), "amontons").resolve()
+PATIENCE = 100     # seconds until a try counts as endless; a mesh may take 60 s of processor time
+WORDS = {0: "done", 1: "failed", 2: "refused"}
+
+
+class Stock:
+    """What tries start from: an undisturbed run with its result and its cache."""
+    def __init__(self, folder):
+        self.scratch = folder
+        self.result, self.cache = folder / "good/out", folder / "good/cache"
+        cases.put(folder / "good", {"scene.yaml": SCENE, "block.msh": square(),
+                                    "block.geo": ROOT / "meshes/block.geo"})
+        call = lambda *words: subprocess.run([PROGRAM, *words], cwd=folder / "good", check=True, text=True,
+                                             capture_output=True, env=os.environ | {"AMONTONS_CACHE": "cache"})
+        call(*cases.RUN)
+        self.answer = answer_of(self.result)
+        self.key_table = call("info", "keys").stdout
+
+
+def answer_of(folder):
+    """What must be the same bits: all of run.json that is no time, no path and no count of memory."""
+    report = json.loads((folder / "run.json").read_text())
+    return {key: report.get(key) for key in ("status", "results", "errors", "warnings")}
+
+
+def run(attempt, folder):
+    """(exit status as the shell has it, seconds or None for no end, what it said)."""
+    words = [str(PROGRAM), *attempt.words]
+    if attempt.shell:
+        words = ["sh", "-c", attempt.shell, "sh", *words]
+    env = os.environ | {"AMONTONS_CACHE": ""} | attempt.env
+    started = time.monotonic()
+    process = subprocess.Popen(words, cwd=folder, env=env, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                               stderr=subprocess.STDOUT)
+    try:
+        if attempt.signal:
+            time.sleep(attempt.seconds)
+            process.send_signal(attempt.signal)
+        said, _ = process.communicate(timeout=PATIENCE)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.communicate()
+        return None, PATIENCE, ""
+    return process.returncode, time.monotonic() - started, said.decode(errors="replace")
+
+
+def faults(attempt, status, said, folder, stock):
+    """What is wrong with how it ended: a list of sentences."""
+    for name in attempt.keeps:
+        path, was = folder / name, attempt.files.get(name)
+        if not path.exists() or was is not None and path.read_text(errors="replace") != was:
+            yield f"lost or changed {name}"
+    if status is None:
+        yield f"no end in {PATIENCE} s"
+        return
+    if attempt.signal:
+        yield from after_signal(attempt, folder, stock)
+        return
+    if status == 127 and "error while loading shared libraries" in said:
+        return   # the system's loader met the limit, before the program's first line
+    if status < 0 or status > 2:
+        yield f"crash, status {status}"
+        return
+    if status not in attempt.may:
+        yield f"ended with status {status}"
+    sentence = re.search(r"^amontons( \w+)?: (error: )?.", said, re.M)
+    told = not re.search(r"2>&-|2>/dev/full|2>&1", attempt.shell)   # somebody could hear it
+    if status and told and not sentence:
+        yield "no sentence"
+    if status == 2 and told and attempt.says not in said:
+        yield f"does not name {attempt.says}"
+    if status == 0 and attempt.answer and not (folder / "out/run.json").exists():
+        yield "done, without a result" if "removed" not in attempt.name and "777" not in attempt.name else ""
+    elif status == 0 and attempt.answer and answer_of(folder / "out") != stock.answer:
+        yield "ANOTHER ANSWER"
+
+
+def after_signal(attempt, folder, stock):
+    """What a signal left can be looked at, and the same command with --overwrite is right."""
+    looked = subprocess.run([PROGRAM, "info", "out"], cwd=folder, capture_output=True, text=True)
+    if looked.returncode not in (0, 2):
+        yield f"info on what is left: status {looked.returncode}"
+    if (folder / "out/run.json").exists():
+        json.loads((folder / "out/run.json").read_text())
+    again = subprocess.run([PROGRAM, *attempt.words, "--overwrite"], cwd=folder, capture_output=True, text=True,
+                           env=os.environ | {"AMONTONS_CACHE": ""})
+    if again.returncode != 0:
+        yield f"the next run: {again.stderr.strip()}"
+    elif answer_of(folder / "out") != stock.answer:
+        yield "the next run has ANOTHER ANSWER"
+
+
+def attempt_once(attempt, number, stock):
+    """(attempt, how it ended, faults, seconds, what it said)."""
+    folder = stock.scratch / f"try{number}"
+    cases.put(folder, {"scene.yaml": SCENE, "block.msh": square(), "block.geo": ROOT / "meshes/block.geo"}
+              | attempt.files)
+    status, seconds, said = run(attempt, folder)
+    found = [fault for fault in faults(attempt, status, said, folder, stock) if fault]
+    word = ("signal" if attempt.signal and status is not None else "no end" if status is None else
+            WORDS.get(status, "failed" if status == 127 else "crash"))
+    shutil.rmtree(folder, ignore_errors=True)
+    return attempt, word, found, seconds, said
+
+
+def table(ended):
+    """Markdown: a row a group."""
+    words = ["done", "refused", "failed", "signal", "crash", "no end"]
+    lines = ["| group | tries | " + " | ".join(words) + " | wrong |", "|---" * (len(words) + 3) + "|"]
+    groups = dict.fromkeys(attempt.group for attempt, *_ in ended)
+    for group in [*groups, "all"]:
+        mine = [row for row in ended if group in (row[0].group, "all")]
+        counts = Counter(word for _, word, *_ in mine)
+        wrong = sum(bool(found) for _, _, found, *_ in mine)
+        lines.append(f"| {group} | {len(mine)} | " + " | ".join(str(counts[word]) for word in words) +
+                     f" | {wrong} |")
+    return "\n".join(lines)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("-o", "--output", type=Path, default=ROOT / "results/hostile")
+    parser.add_argument("--only", nargs="*", help="groups with one of these names")
+    parser.add_argument("--every", type=int, default=1, help="one try of so many")
+    parser.add_argument("-j", type=int, default=os.cpu_count(), help="tries at a time")
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as scratch, ThreadPoolExecutor(options.j) as pool:
+        stock = Stock(Path(scratch))
+        listed = [attempt for group in cases.GROUPS for attempt in group(stock)]
+        if options.only:
+            listed = [attempt for attempt in listed if attempt.group in options.only]
+        if options.every > 1:
+            listed = [attempt for attempt in listed if not attempt.slow][::options.every]
+        started = time.monotonic()
+        ended = list(pool.map(lambda pair: attempt_once(pair[1], pair[0], stock), enumerate(listed)))
+    text = table(ended)
+    for attempt, word, found, _, said in ended:
+        if found:
+            print(f"{attempt.group}: {attempt.name}: {word}; {'; '.join(found)}; {said.strip()[-200:]}")
+    options.output.mkdir(parents=True, exist_ok=True)
+    (options.output / "tries.md").write_text(text + "\n")
+    with open(options.output / "tries.csv", "w", newline="") as file:
+        csv.writer(file).writerows([["group", "try", "ended", "wrong", "seconds", "said"]] + [
+            [attempt.group, attempt.name, word, "; ".join(found), f"{seconds:.2f}", " ".join(said.split())[:300]]
+            for attempt, word, found, seconds, said in ended])
+    wrong = sum(bool(found) for _, _, found, *_ in ended)
+    print(f"{text}\n\n{len(ended)} tries in {time.monotonic() - started:.0f} s, {wrong} wrong")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
