@@ -142,6 +142,18 @@ class Program(unittest.TestCase):
                     self.assertIn(word, used)
 
 
+class Meshes(unittest.TestCase):
+    def test_parameters(self):
+        """docs/meshes.md has each parameter of a .geo, with the default and the words that stand there."""
+        for geometry in sorted(SOURCE.glob("meshes/*.geo")):
+            rows = re.findall(r"^\| `(\w+)` \| (\S+) \| (.*) \|$", section("docs/meshes.md", geometry.name), re.M)
+            body = re.search(r"DefineConstant\[\n(.*?)\n\];", geometry.read_text(), re.S)[1]
+            body = re.sub(r"\n +// ", " ", body)
+            said = re.findall(r"^ +(\w+) = \"?([\w.]+)\"?,? +// (.*)$", body, re.M)
+            self.assertGreater(len(said), 8)
+            self.assertEqual(rows, said, geometry.name)
+
+
 def documented():
     """Keys of run.json in docs/results.md; `.low` after `branches[].mu` is `branches[].low`."""
     keys, prefix = set(), ""

@@ -1,0 +1,130 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Runs what pages show, as their reader would: each command behind `$ ` in a block ```console, in the order in which they
+stand, in a folder of its own.
+
+    docs/examples/shown.py docs/tutorial.md docs/cookbook.md     # writes what they print, and their pictures, anew
+    docs/examples/shown.py --small docs/*.md                     # changes nothing: coarse meshes, do they all end well?
+
+`<!-- small: KEY=VALUE -->` above a block says what is coarse there. A line `<!-- from FILE -->` above a picture names the file that a command made: it is kept in docs/pictures, small enough
+for a page. A block that begins with `# docs/examples/NAME` (or `//`) shows that file.
+"""
+import argparse
+import os
+import re
+import runpy
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+SOURCE = Path(__file__).resolve().parents[2]
+BUILD = Path(os.environ.get("AMONTONS_BIN", SOURCE / "build" / "bin")).resolve().parent
+WIDTH = 900   # of a picture, pixels
+COARSE = "mesh.set.refine=0.15"
+# Coarse meshes, wide error bars or none, whatever the command asks for.
+SMALL = r"""#!/bin/bash
+words=()
+for word; do
+    [[ ${before-} == --to ]] && word=50%
+    before=$word
+    words+=("$word")
+done
+case $1 in run | static | stability) words+=(--set "$COARSE") ;; sweep) words+=(-j 1 --set "$COARSE" accuracy.mu=0) ;; esac
+exec PROGRAM "${words[@]}"
+"""
+
+
+def prepare(folder, small):
+    """What the reader has: a checkout, built, and an empty folder for results."""
+    for name in ("docs", "meshes", "validation"):
+        (folder / name).symlink_to(SOURCE / name)
+    (folder / "results").mkdir()
+    text = SMALL if small else "#!/bin/bash\nexec PROGRAM \"$@\"\n"
+    (folder / "amontons").write_text(text.replace("PROGRAM", f"'{BUILD}/bin/amontons'"))
+    (folder / "amontons").chmod(0o755)
+    return dict(os.environ, PATH="/usr/bin:/bin", PYTHONPATH=str(BUILD / "python"), MPLBACKEND="Agg",
+                AMONTONS_CACHE=os.environ.get("AMONTONS_CACHE") or str(folder / "cache"), LC_ALL="C.UTF-8", COLUMNS="100")
+
+
+def printed(command, folder, environment):
+    """What a command prints, without the bar of progress; it must end well."""
+    done = subprocess.run(["bash", "-c", command], cwd=folder, env=environment, text=True, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, check=False)
+    if done.returncode:
+        raise SystemExit(f"{command}\nstatus {done.returncode}\n{done.stdout}")
+    return "".join(line for line in done.stdout.replace("\r", "\n").splitlines(True)
+                   if not re.match(r" *\d+ %|.*\bleft$|amontons: building", line))
+
+
+def run_here(words, folder):
+    """A Python script on a coarse mesh, in this process: matplotlib takes longer to load than the script runs."""
+    sys.argv = [*words[1:], COARSE]
+    os.chdir(folder)
+    runpy.run_path(words[1], run_name="__main__")
+
+
+def commands(block):
+    """Each command of a block ```console with what is printed below it."""
+    return re.findall(r"^\$ ((?:[^\n]*\\\n)*[^\n]*)\n(.*?)(?=^\$ |\Z)", block, re.S | re.M)
+
+
+def keep_picture(made, kept):
+    from PIL import Image
+    picture = Image.open(made).convert("RGB")
+    if picture.width > WIDTH:
+        picture = picture.resize((WIDTH, round(picture.height * WIDTH / picture.width)), Image.LANCZOS)
+    kept.parent.mkdir(exist_ok=True)
+    picture.quantize(200, dither=Image.Dither.NONE).save(kept, optimize=True)
+
+
+def run_page(page, folder, environment, small):
+    text = page.read_text()
+
+    def block(found):
+        shown = ""
+        environment["COARSE"] = found[1] or COARSE
+        for command, _ in commands(found[2]):
+            before = os.times()
+            if small and command.startswith("python3 "):
+                run_here(command.split(), folder)
+            else:
+                shown += f"$ {command}\n" + printed(command, folder, environment)
+            after = os.times()
+            print(f"{page.name}: {sum(after[:4]) - sum(before[:4]):5.1f} s  {command}", file=sys.stderr, flush=True)
+        return found[0][:found.start(2) - found.start()] + shown + "```\n"
+
+    written = re.sub(r"^(?:<!-- small: (\S+) -->\n)?```console\n(.*?)^```\n", block, text, flags=re.S | re.M)
+    for made, kept in re.findall(r"<!-- from (\S+) -->\n!\[[^\]]*\]\((\S+)\)", text):
+        if not (folder / made).is_file():
+            raise SystemExit(f"{page.name}: no command makes {made}")
+        if not small:
+            keep_picture(folder / made, page.parent / kept)
+    for mark, name, shown in re.findall(r"^```\w*\n((?:#|//) (docs/examples/\S+)\n)(.*?)^```", text, re.S | re.M):
+        if (SOURCE / name).read_text() != shown:
+            written = written.replace(mark + shown, mark + (SOURCE / name).read_text())
+            if small:
+                raise SystemExit(f"{page.name} shows another {name}")
+    if not small:
+        page.write_text(written)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--small", action="store_true", help="coarse meshes; no page is changed")
+    parser.add_argument("pages", nargs="+", type=Path)
+    options = parser.parse_args()
+    folder = Path(tempfile.mkdtemp(prefix="amontons-shown-"))
+    try:
+        environment = prepare(folder, options.small)
+        os.environ.update(environment)
+        sys.path.insert(0, environment["PYTHONPATH"])
+        for page in options.pages:
+            run_page(page.resolve(), folder, environment, options.small)
+    finally:
+        shutil.rmtree(folder)
+
+
+if __name__ == "__main__":
+    main()

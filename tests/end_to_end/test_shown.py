@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What the pages show can be done: every command of tutorial and cookbook ends well (on coarse meshes), makes the pictures that
+are shown, and the scenes, studies and scripts on the pages are those of docs/examples/."""
+import os
+import re
+import subprocess
+import unittest
+from pathlib import Path
+
+SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
+PAGES = [page for page in sorted(SOURCE.glob("docs/*.md")) if "\n```console\n" in page.read_text()]
+PICTURES_MAX = 1_500_000   # bytes in all: pages are read on the web
+
+
+class Shown(unittest.TestCase):
+    def test_commands(self):
+        self.assertGreaterEqual(len(PAGES), 2)
+        done = subprocess.run([SOURCE / "docs/examples/shown.py", "--small", *PAGES], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def test_ten_studies_with_a_picture_each(self):
+        studies = re.split(r"^## \d+\. ", (SOURCE / "docs/cookbook.md").read_text(), flags=re.M)[1:]
+        self.assertEqual(len(studies), 10)
+        for study in studies:
+            self.assertRegex(study, r"<!-- from \S+ -->\n!\[", study[:40])
+
+    def test_pictures(self):
+        """None is missing, none is left over, all are small."""
+        shown = {name for page in SOURCE.glob("docs/*.md")
+                 for name in re.findall(r"\]\(pictures/([\w.-]+)\)", page.read_text())}
+        kept = {path.name: path.stat().st_size for path in SOURCE.glob("docs/pictures/*")}
+        self.assertEqual(shown, set(kept))
+        self.assertLess(sum(kept.values()), PICTURES_MAX)
+
+
+if __name__ == "__main__":
+    unittest.main()
