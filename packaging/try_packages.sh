@@ -15,7 +15,7 @@ chmod 755 "$root"
 clean=(env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive
        ${http_proxy:+http_proxy="$http_proxy"})
 as_root() { printf '\n# %s\n' "$1"; "${clean[@]}" HOME=/root chroot "$root" bash -c "cd && $1"; }
-as_user() { printf '\n$ %s\n' "$1"; "${clean[@]}" HOME=/home/user chroot --userspec=user "$root" bash -c "cd && $1" 2>&1; }
+as_user() { printf '\n$ %s\n' "$1"; "${clean[@]}" HOME=/srv/user chroot --userspec=user "$root" bash -c "cd && $1" 2>&1; }
 
 debootstrap --variant=minbase bookworm "$root" "$mirror" >"$root.log" 2>&1 || { tail "$root.log" >&2; exit 1; }
 rm "$root.log"
@@ -30,7 +30,7 @@ echo 'A bare Debian 12 (debootstrap --variant=minbase), the packages of cpack in
 as_root 'cat /etc/debian_version; ls -sh /srv'
 as_root 'apt-get -qq -y install --no-install-recommends /srv/*.deb gcc libc6-dev make cmake pkg-config >log 2>&1;
   grep "Setting up.*amontons" log; grep -c "^Setting up" log'
-as_root 'useradd --create-home user'
+as_root 'useradd --create-home --home-dir /srv/user user'
 
 as_user 'amontons --version'
 as_user 'amontons run /usr/share/amontons/validation/paper/fig1.yaml -o fig1 --quiet && ls fig1 fig1/figures'
