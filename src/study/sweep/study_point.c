@@ -3,9 +3,9 @@
 // out one by one, each over the scene that those before it have changed.
 #include "study/sweep/study_point.h"
 
+#include "base/formula.h"
 #include "base/memory.h"
 #include "scene/keys.h"
-#include "study/sweep/formula.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Formulas against values worked out by C itself; what is wrong in one, and where.
-#include "study/sweep/formula.h"
+#include "base/formula.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -36,6 +36,9 @@ static void test_values(void **state)
                  {"--3", 3},
                  {"sqrt(mesh.set.length) + 1e-3", 2.001},
                  {".5e1", 5},
+                 {"exp(1) * log(2)", 2.718281828459045 * 0.6931471805599453},
+                 {"tanh (0.5)", 0.46211715726000979},
+                 {"abs(-3) + min(2, 1) * max(2, 1)", 5},
                  {"2.3e-6 / mesh.set.length", 2.3e-6 / 4}};
     for (size_t k = 0; k < sizeof known / sizeof known[0]; k++) {
         Error err = {0};
@@ -59,6 +62,8 @@ static void test_refusals(void **state)
                  {"1 / 0", "not finite"},
                  {"sqrt(-1)", "not finite"},
                  {"sqrt", "`sqrt` is no number"},
+                 {"exp(1, 2)", "`, 2)`: expected a closing bracket"},
+                 {"min(1)", "`)`: expected a comma"},
                  {"3 $ 4", "`$ 4`: expected an operator"},
                  {"0x10", "`0x10`: expected a decimal number"},
                  {"2 * 0X1p3", "`0X1p3`: expected a decimal number"}};
@@ -70,6 +75,58 @@ static void test_refusals(void **state)
         if (!strstr(err.message, known[k].message))
             fail_msg("%s: \"%s\" lacks \"%s\"", known[k].text, err.message, known[k].message);
     }
+}
+
+// Derivatives against central differences of the values, at several places each.
+static void test_derivatives(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {"v",
+                                        "load.pressure",
+                                        "2 - 3 * v + v * v",
+                                        "v / (1 + v)",
+                                        "(1 + v) ^ -0.3",
+                                        "2 ^ v",
+                                        "(1 + v) ^ (v / 2)",
+                                        "sqrt(1 + v)",
+                                        "exp(-v / 0.3)",
+                                        "log(1 + v / 0.1)",
+                                        "tanh(2 * v)",
+                                        "abs(v - 0.5) + abs(v)",
+                                        "min(v, 0.4)",
+                                        "max(v ^ 2, v)",
+                                        "-v ^ 3"};
+    FormulaNames names = {look_up, NULL, "v", "is unknown"};
+    for (size_t k = 0; k < sizeof texts / sizeof texts[0]; k++) {
+        for (double v = 0.05; v < 2; v += 0.1701) {
+            Error err = {0};
+            Formula formula;
+            double slope, ignored, h = 1e-6;
+            assert_true(formula_read(texts[k], &names, &formula, &err));
+            formula_at(&formula, v, &slope);
+            double difference =
+                (formula_at(&formula, v + h, &ignored) - formula_at(&formula, v - h, &ignored)) /
+                (2 * h);
+            if (!(fabs(slope - difference) <= 1e-8 * (1 + fabs(slope))))
+                fail_msg("%s at %g: %.12g, differences %.12g", texts[k], v, slope, difference);
+        }
+    }
+    Error err = {0};
+    Formula formula;
+    assert_false(formula_read("w", &names, &formula, &err));
+    assert_string_equal(err.message, "`w` is unknown");
+}
+
+// A formula of more steps than there is room for is refused.
+static void test_length(void **state)
+{
+    (void)state;
+    char text[2 * FORMULA_STEPS_MAX + 2] = "1";
+    for (int32_t k = 0; k < FORMULA_STEPS_MAX; k++) strcat(text, "+1");
+    Error err = {0};
+    double value = 0;
+    assert_false(formula_value(text, look_up, NULL, &value, &err));
+    assert_non_null(strstr(err.message, "a shorter formula"));
 }
 
 // Neither brackets, nor signs, nor powers without end run the stack over.
@@ -92,6 +149,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_values),
                                        cmocka_unit_test(test_refusals),
-                                       cmocka_unit_test(test_depth)};
+                                       cmocka_unit_test(test_derivatives),
+                                       cmocka_unit_test(test_length), cmocka_unit_test(test_depth)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Sums and products of numbers, of named quantities and of a variable, so that a study can say
+// `mesh.set.height: = 0.5 * mesh.set.length` and a scene its own friction law. Called by
+// study/sweep/study_point and contact/friction_law.
+//
+//     sum = product {(+|-) product}     product = power {(*|/) power}
+//     power = - power | unit [^ power]
+//     unit = number | name | function(sum) | function(sum, sum) | (sum)
+//     function = sqrt, exp, log, tanh, abs; of two: min, max
+#ifndef AMONTONS_BASE_FORMULA_H
+#define AMONTONS_BASE_FORMULA_H
+
+#include "base/error.h"
+
+#include <stdint.h>
+
+enum { FORMULA_STEPS_MAX = 256 };
+
+// Gives the number called `name`; false: there is none.
+typedef bool (*FormulaLookUp)(const void *context, const char *name, double *value);
+
+typedef struct FormulaNames {
+    FormulaLookUp look_up;
+    const void *context;
+    const char *variable;   // NULL: none
+    const char *unknown;   // what is said of any other name, after it
+} FormulaNames;
+
+typedef struct FormulaStep {
+    int32_t operation;
+    double number;   // of a step that is a number
+} FormulaStep;
+
+// As a list of steps on a stack: nothing is owned, and copies are as good.
+typedef struct Formula {
+    int32_t count;
+    FormulaStep step[FORMULA_STEPS_MAX];
+} Formula;
+
+// ERROR_INPUT, without a place: what in `text` is wrong.
+bool formula_read(const char *text, const FormulaNames *names, Formula *formula, Error *err);
+
+// The value at x, and through *slope its derivative: exact but for rounding. Where abs, min or max
+// have a kink it is that of one side.
+double formula_at(const Formula *formula, double x, double *slope);
+
+// The value of a formula without a variable. ERROR_INPUT as above, or that it is not finite.
+bool formula_value(const char *text, FormulaLookUp look_up, const void *context, double *value,
+                   Error *err);
+
+#endif
