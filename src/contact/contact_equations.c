@@ -69,8 +69,8 @@ static Row row_of(const ContactEquations *equations, int32_t unknown)
     if (i < 0) return row;
     double speed = fabs(equations->at->velocity[unknown]);
     double mu;
-    if (equations->beyond) {
-        mu = friction_branch(problem->law, equations->beyond[i], speed, &row.slope);
+    if (equations->piece) {
+        mu = friction_branch(problem->law, equations->piece[i], speed, &row.slope);
     } else {
         mu = friction_coefficient(problem->law, speed);
         row.slope = friction_slope(problem->law, speed);

@@ -22,8 +22,8 @@
 typedef struct ContactEquations {
     const ContactProblem *problem;
     ContactSolution *at;
-    const uint8_t *beyond;   // [contact_count] 1: the node is on the law's branch beyond its kink,
-        // 0: before it, whatever its speed (friction_branch); NULL: as the speed says
+    const uint8_t *piece;   // [contact_count] of the law that holds for a node, whatever its speed
+        // (friction_branch); NULL: as the speed says
     int32_t *free;   // [count] unknowns that are solved for, free_count of them
     int32_t free_count;
 } ContactEquations;

@@ -28,7 +28,7 @@ enum {
     CORRECTIONS = 8,   // Newton steps back onto the path
     TRIALS = 60,   // points tried in a step
     STARTS = 200,   // pressures, and statuses of rod nodes, tried at the start
-    CONDITIONS = 3   // of a node, at most
+    CONDITIONS = 4   // of a node, at most
 };
 enum { ALL = -1, NOWHERE = -2 };   // in place of a node
 
@@ -47,7 +47,7 @@ bool contact_path_create(const Interface *interface, ContactPath *path, Error *e
     path->velocity_rate = NEW_ARRAY(double, count, err);
     path->reaction_rate = NEW_ARRAY(double, count, err);
     path->kept = NEW_ARRAY(double, count, err);
-    path->fast = NEW_ARRAY(uint8_t, interface->contact_count, err);
+    path->piece = NEW_ARRAY(uint8_t, interface->contact_count, err);
     return error_is_clean(err);
 }
 
@@ -63,7 +63,7 @@ void contact_path_destroy(ContactPath *path)
     memory_free(path->velocity_rate);
     memory_free(path->reaction_rate);
     memory_free(path->kept);
-    memory_free(path->fast);
+    memory_free(path->piece);
     *path = (ContactPath){0};
 }
 
@@ -179,10 +179,14 @@ static double condition(const Trace *trace, int32_t node, int32_t kind, const do
     double speed = status_direction(status) * v[t];
     if (kind == 0) return speed / trace->scales.velocity;
     if (kind == 1) return r[n] / trace->scales.force;
-    double kink = friction_kink(problem->law);
+    // It stays within its piece of the law: above the lower end, where there is one; below the upper.
+    int32_t piece = trace->path->piece[node];
+    bool lower = kind == 2 && piece > 0;
+    if (kind == 3 && piece == 0) return INFINITY;
+    double kink = friction_kink(problem->law, lower ? piece - 1 : piece);
     if (!isfinite(kink)) return INFINITY;
     double beyond = (speed - one * kink) / trace->scales.velocity;
-    return trace->path->fast[node] ? beyond : -beyond;
+    return lower ? beyond : -beyond;
 }
 
 // The bound that the tangent reaches first; distance INFINITY: none.
@@ -253,11 +257,11 @@ static void exchange(Trace *trace, Bound bound)
         *touches = !*touches;
     } else if (before == CONTACT_OPEN) {
         at->status[i] = at->velocity[t] < 0 ? CONTACT_SLIP_BACKWARD : CONTACT_SLIP_FORWARD;
-        path->fast[i] = fabs(at->velocity[t]) > friction_kink(trace->system.problem->law);
+        path->piece[i] = (uint8_t)friction_piece(trace->system.problem->law, fabs(at->velocity[t]));
         normal = 1;
     } else if (before == CONTACT_STICK) {
         at->status[i] = bound.kind == 0 ? CONTACT_SLIP_FORWARD : CONTACT_SLIP_BACKWARD;
-        path->fast[i] = 0;
+        path->piece[i] = 0;
         velocity_sign = status_direction(at->status[i]);
     } else if (bound.kind == 0) {
         at->status[i] = CONTACT_STICK;
@@ -267,9 +271,12 @@ static void exchange(Trace *trace, Bound bound)
         at->status[i] = CONTACT_OPEN;
         velocity_sign = 1;
         grown = interface_normal(i);
+    } else if (bound.kind == 2 && path->piece[i] > 0) {
+        path->piece[i]--;
+        velocity_sign = -direction;
     } else {
-        path->fast[i] = !path->fast[i];
-        velocity_sign = path->fast[i] ? direction : -direction;
+        path->piece[i]++;
+        velocity_sign = direction;
     }
     arrange(trace);
     memset(path->row, 0, ((size_t)trace->system.free_count + 1) * sizeof(double));
@@ -288,7 +295,9 @@ static bool stays_near(const Trace *trace)
     if (!(friction_drop(law) > 0)) return true;
     for (int32_t a = 0; a < trace->system.free_count; a++) {
         int32_t i = contact_slipping_node(&trace->system, path->free[a]);
-        if (i < 0 || path->fast[i]) continue;
+        if (i < 0) continue;
+        bool last = path->piece[i] > 0 && !isfinite(friction_kink(law, path->piece[i]));
+        if (last) continue;   // mu stays
         double before = fabs(path->kept[a]),
                after = fabs(trace->system.at->velocity[path->free[a]]);
         if (fabs(after - before) > BEND * fmax(law->critical_velocity, before)) return false;
@@ -389,7 +398,7 @@ static bool start_pressed(Trace *trace)
     }
     memset(at->status, CONTACT_STICK, (size_t)interface->contact_count);
     memset(at->rod_touches, problem->rod_kind != ROD_AWAY, (size_t)interface->rod_count);
-    memset(path->fast, 0, (size_t)interface->contact_count);
+    memset(path->piece, 0, (size_t)interface->contact_count);
     memset(at->velocity, 0, (size_t)path->count * sizeof(double));
     trace->tau = 4 * trace->scales.velocity;
     for (int32_t trial = 0; trial < STARTS; trial++) {
@@ -442,7 +451,7 @@ bool contact_path_follow(ContactPath *path, const ContactProblem *problem,
 {
     Trace trace = {
         .path = path,
-        .system = {.problem = problem, .at = solution, .beyond = path->fast, .free = path->free}};
+        .system = {.problem = problem, .at = solution, .piece = path->piece, .free = path->free}};
     if (!(problem->law->mu_static > 0)) return false;
     trace.scales = contact_scales(problem, NULL);
     return start_pressed(&trace) && trace_path(&trace);

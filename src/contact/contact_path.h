@@ -28,7 +28,7 @@ typedef struct ContactPath {
     double *tangent;   // [count + 1] of the free unknowns and of tau
     double *velocity_rate, *reaction_rate;   // [count] along the tangent
     double *kept;   // [count] free unknowns at the step's start
-    uint8_t *fast;   // [contact_count] slips beyond the kink of its law (friction_branch)
+    uint8_t *piece;   // [contact_count] of its law, where it slips (friction_branch)
     int64_t steps;   // counted: bounds reached, and points between
 } ContactPath;
 

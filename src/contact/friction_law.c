@@ -5,6 +5,109 @@
 #include "contact/friction_law.h"
 
 #include <math.h>
+#include <string.h>
+
+// The columns stand in the order of the kinds.
+FrictionUse friction_use(const FrictionLaw *law, const char *key)
+{
+    enum { KINDS = 6, NO = FRICTION_UNUSED, MAY = FRICTION_MAY, MUST = FRICTION_MUST };
+    static const struct {
+        const char *key;
+        uint8_t use[KINDS];
+    } table[] = {{"law", {MAY, MAY, MAY, MAY, MAY, MAY}},
+                 {"mu_static", {MUST, MUST, MUST, MAY, MAY, MAY}},
+                 {"mu_kinetic", {MUST, MUST, MAY, MAY, MAY, MAY}},
+                 {"critical_velocity", {MUST, MUST, MAY, MAY, MAY, MAY}},
+                 {"velocity", {NO, NO, NO, MUST, NO, NO}},
+                 {"mu", {NO, NO, NO, MUST, NO, NO}},
+                 {"interpolation", {NO, NO, NO, MAY, NO, NO}},
+                 {"formula", {NO, NO, NO, NO, MUST, NO}},
+                 {"file", {NO, NO, NO, NO, NO, MUST}},
+                 {"parameters", {NO, NO, NO, NO, NO, MAY}},
+                 {"velocity_max", {NO, NO, NO, NO, MAY, MAY}}};
+    for (size_t k = 0; k < sizeof table / sizeof table[0]; k++)
+        if (strcmp(table[k].key, key) == 0) return (FrictionUse)table[k].use[law->kind];
+    return FRICTION_UNUSED;
+}
+
+static bool read_table(const FrictionSource *source, FrictionLaw *law, const char **key, Error *err)
+{
+    FrictionTable *table = &law->own.table;
+    int32_t count = source->velocity_count;
+    *key = "velocity";
+    if (count < 2 || count > FRICTION_POINTS_MAX)
+        FAIL(err, ERROR_INPUT, "has %d numbers; a table has 2 to %d", count, FRICTION_POINTS_MAX);
+    if (source->velocity[0] != 0)
+        FAIL(err, ERROR_INPUT, "begins with %g; the first is 0, where mu holds at rest",
+             source->velocity[0]);
+    *table = (FrictionTable){.count = count, .straight = source->straight};
+    for (int32_t k = 0; k < count; k++) {
+        table->speed[k] = source->velocity[k];
+        if (k > 0 && !(table->speed[k] > table->speed[k - 1]))
+            FAIL(err, ERROR_INPUT, "%g stands after %g; velocities ascend", table->speed[k],
+                 table->speed[k - 1]);
+    }
+    *key = "mu";
+    if (source->mu_count != count)
+        FAIL(err, ERROR_INPUT, "has %d numbers, friction.velocity has %d", source->mu_count, count);
+    memcpy(table->mu, source->mu, (size_t)count * sizeof(double));
+    friction_table_slopes(table);
+    law->end = table->speed[count - 1];
+cleanup:
+    return error_is_clean(err);
+}
+
+// Of a formula: what the scene gives besides.
+static bool given_number(const void *context, const char *name, double *value)
+{
+    const FrictionLaw *law = context;
+    *value = strcmp(name, "mu_static") == 0           ? law->mu_static
+             : strcmp(name, "mu_kinetic") == 0        ? law->mu_kinetic
+             : strcmp(name, "critical_velocity") == 0 ? law->critical_velocity
+                                                      : 0;
+    return *value > 0;
+}
+
+static bool read_plugin(const FrictionSource *source, FrictionLaw *law, Error *err)
+{
+    AmontonsFriction *given = &law->own.plugin.given;
+    if (source->parameter_count > AMONTONS_FRICTION_PARAMETERS_MAX)
+        FAIL(err, ERROR_INPUT, "takes at most %d friction.parameters, not %d",
+             AMONTONS_FRICTION_PARAMETERS_MAX, source->parameter_count);
+    *given = (AmontonsFriction){.mu_static = law->mu_static,
+                                .mu_kinetic = law->mu_kinetic,
+                                .critical_velocity = law->critical_velocity,
+                                .parameter_count = source->parameter_count};
+    for (int32_t k = 0; k < source->parameter_count; k++)
+        given->parameters[k] = source->parameters[k];
+    TRY(friction_plugin_open(source->file, &law->own.plugin, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+bool friction_own_law(const FrictionSource *source, FrictionLaw *law, const char **key, Error *err)
+{
+    FormulaNames names = {given_number, law, "v",
+                          "is no number here: v, and mu_static, mu_kinetic, critical_velocity "
+                          "where friction gives them"};
+    law->end = source->end;
+    switch (law->kind) {
+    case FRICTION_TABLE:
+        return read_table(source, law, key, err);
+    case FRICTION_FORMULA:
+        *key = "formula";
+        return formula_read(source->formula, &names, &law->own.formula, err);
+    case FRICTION_PLUGIN:
+        *key = "file";
+        return read_plugin(source, law, err);
+    case FRICTION_LINEAR_WEAKENING:
+    case FRICTION_EXPONENTIAL_WEAKENING:
+    case FRICTION_COULOMB:
+        break;
+    }
+    *key = "law";
+    return true;
+}
 
 FrictionLaw friction_constant(double mu)
 {
@@ -23,11 +126,29 @@ const char *friction_law_name(const FrictionLaw *law)
     return "unknown";
 }
 
+bool friction_is_own(const FrictionLaw *law)
+{
+    switch (law->kind) {
+    case FRICTION_TABLE:
+    case FRICTION_FORMULA:
+    case FRICTION_PLUGIN:
+        return true;
+    case FRICTION_LINEAR_WEAKENING:
+    case FRICTION_EXPONENTIAL_WEAKENING:
+    case FRICTION_COULOMB:
+        break;
+    }
+    return false;
+}
+
 bool friction_has_drop(const FrictionLaw *law)
 {
     switch (law->kind) {
     case FRICTION_LINEAR_WEAKENING:
     case FRICTION_EXPONENTIAL_WEAKENING:
+    case FRICTION_TABLE:
+    case FRICTION_FORMULA:
+    case FRICTION_PLUGIN:
         return true;
     case FRICTION_COULOMB:
         break;
@@ -47,15 +168,41 @@ double friction_slip(const FrictionLaw *law, double pressure, double height, dou
     return drop * pressure * height / young;
 }
 
+// One's own law up to its end.
+static double own_value(const FrictionLaw *law, double speed, double *slope)
+{
+    const FrictionPlugin *plugin = &law->own.plugin;
+    if (law->kind == FRICTION_FORMULA) return formula_at(&law->own.formula, speed, slope);
+    if (law->kind == FRICTION_TABLE) {
+        const FrictionTable *table = &law->own.table;
+        return friction_table_at(table, friction_table_interval(table, speed), speed, slope);
+    }
+    *slope = plugin->slope(&plugin->given, speed);
+    return plugin->coefficient(&plugin->given, speed);
+}
+
+// The same at every speed.
+static double own_law(const FrictionLaw *law, double speed, double *slope)
+{
+    double mu = own_value(law, fmin(speed, law->end), slope);
+    if (speed >= law->end) *slope = 0;
+    return mu;
+}
+
 // Continuous at v_c, where the linear law has its kink.
 double friction_coefficient(const FrictionLaw *law, double speed)
 {
+    double ignored;
     switch (law->kind) {
     case FRICTION_LINEAR_WEAKENING:
         if (speed >= law->critical_velocity) return law->mu_kinetic;
         return law->mu_static - friction_drop(law) * speed / law->critical_velocity;
     case FRICTION_EXPONENTIAL_WEAKENING:
         return law->mu_kinetic + friction_drop(law) * exp(-speed / law->critical_velocity);
+    case FRICTION_TABLE:
+    case FRICTION_FORMULA:
+    case FRICTION_PLUGIN:
+        return own_law(law, speed, &ignored);
     case FRICTION_COULOMB:
         break;
     }
@@ -66,33 +213,75 @@ double friction_coefficient(const FrictionLaw *law, double speed)
 // more.
 double friction_slope(const FrictionLaw *law, double speed)
 {
+    double slope;
     switch (law->kind) {
     case FRICTION_LINEAR_WEAKENING:
         return speed < law->critical_velocity ? -friction_drop(law) / law->critical_velocity : 0.0;
     case FRICTION_EXPONENTIAL_WEAKENING:
         return -friction_drop(law) / law->critical_velocity * exp(-speed / law->critical_velocity);
+    case FRICTION_TABLE:
+    case FRICTION_FORMULA:
+    case FRICTION_PLUGIN:
+        own_law(law, speed, &slope);
+        return slope;
     case FRICTION_COULOMB:
         break;
     }
     return 0.0;
 }
 
-double friction_kink(const FrictionLaw *law)
+double friction_steepest(const FrictionLaw *law)
 {
-    return law->kind == FRICTION_LINEAR_WEAKENING ? law->critical_velocity : INFINITY;
+    return friction_is_own(law) ? law->steepest : -friction_slope(law, 0);
 }
 
-double friction_branch(const FrictionLaw *law, bool beyond, double speed, double *slope)
+bool friction_is_convex(const FrictionLaw *law)
 {
-    double kink = friction_kink(law);
-    if (!isfinite(kink) || beyond == (speed >= kink)) {
+    return !friction_is_own(law);
+}
+
+// One's own law has a kink at its end, beyond which it stays; a formula or plug-in may have more,
+// which nobody knows of.
+double friction_kink(const FrictionLaw *law, int32_t k)
+{
+    switch (law->kind) {
+    case FRICTION_LINEAR_WEAKENING:
+        return k == 0 ? law->critical_velocity : INFINITY;
+    case FRICTION_TABLE:
+        if (law->own.table.straight)
+            return k + 1 < law->own.table.count ? law->own.table.speed[k + 1] : INFINITY;
+        return k == 0 ? law->end : INFINITY;
+    case FRICTION_FORMULA:
+    case FRICTION_PLUGIN:
+        return k == 0 ? law->end : INFINITY;
+    case FRICTION_EXPONENTIAL_WEAKENING:
+    case FRICTION_COULOMB:
+        break;
+    }
+    return INFINITY;
+}
+
+int32_t friction_piece(const FrictionLaw *law, double speed)
+{
+    int32_t piece = 0;
+    while (speed >= friction_kink(law, piece)) piece++;
+    return piece;
+}
+
+// Either side of a kink is continued by its tangent.
+double friction_branch(const FrictionLaw *law, int32_t piece, double speed, double *slope)
+{
+    double low = piece > 0 ? friction_kink(law, piece - 1) : 0, high = friction_kink(law, piece);
+    if (!isfinite(low) || (speed >= low && speed < high)) {
         *slope = friction_slope(law, speed);
         return friction_coefficient(law, speed);
     }
-    // Both sides of the linear law's kink are straight.
-    double from = beyond ? kink : 0;
+    double from = low, mu;
+    if (speed >= high) from = nextafter(high, 0);
+    if (law->kind == FRICTION_LINEAR_WEAKENING) from = low;   // both sides are straight
+    mu = friction_coefficient(law, from);
     *slope = friction_slope(law, from);
-    return friction_coefficient(law, from) + *slope * (speed - from);
+    return mu + *slope * (speed - from);
 }
 
 // Exponential weakening never ends but by underflow: there is no speed from which on a node is
@@ -112,6 +301,10 @@ double friction_spent_speed(const FrictionLaw *law)
         return law->critical_velocity;
     case FRICTION_EXPONENTIAL_WEAKENING:
         return SPENT * law->critical_velocity;
+    case FRICTION_TABLE:
+    case FRICTION_FORMULA:
+    case FRICTION_PLUGIN:
+        return law->spent;
     case FRICTION_COULOMB:
         break;
     }
@@ -124,4 +317,19 @@ double friction_contact_density(const FrictionLaw *law, double speed)
 {
     double drop = friction_drop(law);
     return drop > 0 ? (friction_coefficient(law, speed) - law->mu_kinetic) / drop : 1.0;
+}
+
+// Points of a table and fifteen between each two; else a hundred to a decade, over the twelve below
+// the law's end, as a formula may change anywhere.
+double friction_look_speed(const FrictionLaw *law, int32_t k)
+{
+    enum { BETWEEN = 16, DECADE = 100, DECADES = 12 };
+    int32_t last = law->kind == FRICTION_TABLE ? BETWEEN * (law->own.table.count - 1)
+                                               : DECADES * DECADE + 1;
+    if (k > last) return INFINITY;
+    if (k == last) return law->end;
+    if (law->kind != FRICTION_TABLE)
+        return k == 0 ? 0 : law->end * pow(10, (double)(k - last) / DECADE);
+    const double *speed = law->own.table.speed + k / BETWEEN;
+    return speed[0] + (speed[1] - speed[0]) * (k % BETWEEN) / BETWEEN;
 }

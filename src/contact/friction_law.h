@@ -1,24 +1,30 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The local friction law |tau| <= mu(v) p: THE replaceable file. A law is a coefficient that falls
-// (or stays) as slip gets faster, continuous, with mu(0) the static threshold; stick is set-valued.
+// The local friction law |tau| <= mu(v) p: THE replaceable file. A law is a coefficient, continuous,
+// not negative, and nowhere above mu(0), the static threshold; stick is set-valued.
 //
 //   linear weakening   mu_S - (mu_S - mu_K) |v| / v_c  for |v| < v_c,  mu_K above
 //                      (Otsuki and Matsukawa, Sci. Rep. 3, 1586, 2013)
 //   exponential        mu_K + (mu_S - mu_K) exp(-|v| / v_c)
 //   Coulomb            mu_S
+//   one's own          a table, a formula or a plug-in: may rise again after it has fallen
 //
 // A new law is a line of FRICTION_LAWS and its cases in friction_law.c: nobody else asks for the
 // kind, but through the functions below.
 #ifndef AMONTONS_CONTACT_FRICTION_LAW_H
 #define AMONTONS_CONTACT_FRICTION_LAW_H
 
-#include <stdbool.h>
+#include "base/formula.h"
+#include "contact/friction_plugin.h"
+#include "contact/friction_table.h"
 
 // symbol, name in a scene
 #define FRICTION_LAWS(X)                                                                           \
     X(FRICTION_LINEAR_WEAKENING, "linear-weakening")                                               \
     X(FRICTION_EXPONENTIAL_WEAKENING, "exponential-weakening")                                     \
-    X(FRICTION_COULOMB, "coulomb")
+    X(FRICTION_COULOMB, "coulomb")                                                                 \
+    X(FRICTION_TABLE, "table")                                                                     \
+    X(FRICTION_FORMULA, "formula")                                                                 \
+    X(FRICTION_PLUGIN, "plugin")
 
 typedef enum FrictionKind {
 #define X(symbol, name) symbol,
@@ -26,22 +32,55 @@ typedef enum FrictionKind {
 #undef X
 } FrictionKind;
 
+// Nothing is owned: copies are as good.
 typedef struct FrictionLaw {
     FrictionKind kind;
-    double mu_static;   // mu_S, 1
-    double mu_kinetic;   // mu_K <= mu_S, 1; of laws that weaken
+    double mu_static;   // mu_S = mu(0), 1
+    double mu_kinetic;   // mu_K <= mu_S, the lowest coefficient, 1; of laws that weaken
     double critical_velocity;   // v_c > 0, velocity; of laws that weaken
+    // The rest: of one's own laws, by friction_own_law and contact/friction_look.
+    double end;   // beyond this speed mu stays, velocity
+    double steepest;   // the largest -mu'(v), one over a velocity
+    double spent;   // friction_spent_speed, velocity
+    union {
+        FrictionTable table;
+        Formula formula;   // of v
+        FrictionPlugin plugin;
+    } own;
 } FrictionLaw;
+
+// What one's own law is made of, as a scene gives it in its map `friction`. Nothing is owned.
+typedef struct FrictionSource {
+    const double *velocity, *mu;   // [velocity_count], [mu_count]
+    int32_t velocity_count, mu_count;
+    bool straight;
+    const char *formula, *file;
+    const double *parameters;   // [parameter_count] of a plug-in
+    int32_t parameter_count;
+    double end;   // of a formula or plug-in, velocity
+} FrictionSource;
+
+// What one of the keys of that map is to a law.
+typedef enum FrictionUse { FRICTION_UNUSED, FRICTION_MAY, FRICTION_MUST } FrictionUse;
+FrictionUse friction_use(const FrictionLaw *law, const char *key);
+
+// Makes one's own law of kind law->kind and of the numbers mu_static, mu_kinetic and
+// critical_velocity, 0 where they are not given; contact/friction_look has still to look at it.
+// *key: the one that is wrong (ERROR_INPUT), or that holds the law.
+bool friction_own_law(const FrictionSource *source, FrictionLaw *law, const char **key, Error *err);
 
 // mu at every speed; 0: no friction.
 FrictionLaw friction_constant(double mu);
 
 const char *friction_law_name(const FrictionLaw *law);   // "unknown" for a kind that there is not
 
+// A table, a formula or a plug-in.
+bool friction_is_own(const FrictionLaw *law);
+
 // The law has mu_K and v_c; else they mean nothing.
 bool friction_has_drop(const FrictionLaw *law);
 
-// mu_S - mu_K, 1: what the law loses from rest to fast slip; 0 where nothing weakens.
+// mu_S - mu_K, 1: what the law loses from rest to its lowest coefficient; 0 where nothing weakens.
 double friction_drop(const FrictionLaw *law);
 
 // The slip that the drop can drive under a mean pressure, drop * pressure * height / young, length;
@@ -51,14 +90,25 @@ double friction_slip(const FrictionLaw *law, double pressure, double height, dou
 // speed, here and below: |slip rate| >= 0.
 double friction_coefficient(const FrictionLaw *law, double speed);
 
-// d mu / d speed, <= 0, one over a velocity; at a kink the slope beyond it.
+// d mu / d speed, one over a velocity: below 0 where the law weakens, above 0 where it strengthens;
+// at a kink the slope beyond it.
 double friction_slope(const FrictionLaw *law, double speed);
 
-// The speed at which the slope jumps; INFINITY: nowhere.
-double friction_kink(const FrictionLaw *law);
+// The largest weakening -mu' of all speeds, one over a velocity.
+double friction_steepest(const FrictionLaw *law);
 
-// mu and its slope on one side of the kink, continued smoothly to any speed.
-double friction_branch(const FrictionLaw *law, bool beyond, double speed, double *slope);
+// mu' never falls: w + a mu(w), a > 0, has no more than two roots.
+bool friction_is_convex(const FrictionLaw *law);
+
+// The speed of the k-th place, from 0 on, where the slope jumps; INFINITY: there are no more. A law
+// of n kinks has pieces 0 to n.
+double friction_kink(const FrictionLaw *law, int32_t k);
+
+// The piece in which this speed lies.
+int32_t friction_piece(const FrictionLaw *law, double speed);
+
+// mu and its slope on one piece, continued smoothly to any speed.
+double friction_branch(const FrictionLaw *law, int32_t piece, double speed, double *slope);
 
 // Still weakening at this speed: a faster slip meets less friction.
 bool friction_weakens(const FrictionLaw *law, double speed);
@@ -70,5 +120,9 @@ double friction_spent_speed(const FrictionLaw *law);
 // phi = max(0, 1 - |v|/v_c), the density of real contacts that hold (the paper's Figure 1d); from
 // the coefficient for the other laws: (mu - mu_K) / (mu_S - mu_K), and 1 where nothing weakens.
 double friction_contact_density(const FrictionLaw *law, double speed);
+
+// The k-th of the speeds, ascending from 0 to its end, at which one's own law is looked at before
+// it is used (contact/friction_look); INFINITY: there are no more.
+double friction_look_speed(const FrictionLaw *law, int32_t k);
 
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A contact node that slips alone gains energy when weakening gives it more than viscosity takes,
 //
-//     -mu'(0) p w_i  >  S_C[t_i, t_i],     p the mean pressure, w_i the node's weight.
+//     -mu' p w_i  >  S_C[t_i, t_i],     mu' the law's steepest, p the mean pressure, w_i the weight.
 //
 // S_C of one node hardly depends on the mesh and w_i shrinks with it, so this is a matter of
 // element size: above it l_sc is shorter than an element.
@@ -34,7 +34,7 @@ void warnings_add(RunWarnings *warnings, const char *format, ...)
 void warnings_of_resolution(const Certificate *certificate, double load, RunWarnings *warnings)
 {
     const Interface *interface = certificate->moving.interface;
-    double slope = -friction_slope(certificate->moving.law, 0), length = 0;
+    double slope = friction_steepest(certificate->moving.law), length = 0;
     if (!(slope > 0) || !certificate->damping) return;   // no damping: the scene was warned of
     const double *schur = interface_operator_schur(certificate->damping);
     int32_t unstable = 0;

@@ -64,9 +64,18 @@ static bool is_static(const Scene *scene)
     return scene->rod.kind == ROD_NONE || scene->given[scene_key_index("rod.displacement")];
 }
 
+// The word of a key of the map `friction`; NULL: it is none.
+static const char *friction_word(const SceneKey *key)
+{
+    static const char map[] = "friction.";
+    size_t length = sizeof map - 1;
+    return strncmp(key->name, map, length) == 0 ? key->name + length : NULL;
+}
+
 static bool is_needed(const SceneKey *key, const Scene *scene)
 {
-    if (strcmp(key->name, "friction.mu_kinetic") == 0) return friction_has_drop(&scene->friction);
+    const char *word = friction_word(key);
+    if (word && !key->standard) return friction_use(&scene->friction, word) == FRICTION_MUST;
     if (strcmp(key->name, "rod.velocity") == 0)
         return scene->rod.kind != ROD_NONE && !is_static(scene);
     return !key->standard || (key->given_in_si && scene->units == UNITS_SI);
@@ -88,9 +97,26 @@ static bool check_required(const Check *check)
     return true;
 }
 
-// A law that strengthens with slip rate would need another certificate: mu_K <= mu_S.
+// A key of another law would do nothing.
+static bool check_friction_keys(const Check *check)
+{
+    int32_t count = 0;
+    const SceneKey *keys = scene_keys(&count);
+    const FrictionLaw *law = &check->scene->friction;
+    for (int32_t k = 0; k < count; k++) {
+        const char *word = friction_word(&keys[k]);
+        if (word && check->scene->given[k] && friction_use(law, word) == FRICTION_UNUSED)
+            return blame(check, keys[k].name, "the law `%s` does not read it; leave it out",
+                         friction_law_name(law));
+    }
+    return true;
+}
+
+// What holds at rest is the most: mu_K <= mu_S. One's own law is looked at by scene/own_law.
 static bool check_friction(const Check *check)
 {
+    if (!check_friction_keys(check)) return false;
+    if (friction_is_own(&check->scene->friction)) return true;
     const Scene *scene = check->scene;
     bool weakens = friction_has_drop(&scene->friction);
     double mu_static = scene->friction.mu_static, mu_kinetic = scene->friction.mu_kinetic;

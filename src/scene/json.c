@@ -53,6 +53,13 @@ static void write_supports(const Scene *scene, JsonWriter *json, const char *nam
     json_end(json);
 }
 
+static void write_numbers(const SceneNumbers *numbers, JsonWriter *json, const char *name)
+{
+    json_begin_list(json, name);
+    for (int32_t i = 0; i < numbers->count; i++) json_number(json, NULL, numbers->value[i]);
+    json_end(json);
+}
+
 static void write_names(const SceneNames *names, JsonWriter *json, const char *name)
 {
     json_begin_list(json, name);
@@ -61,11 +68,10 @@ static void write_names(const SceneNames *names, JsonWriter *json, const char *n
 }
 
 // A reader of the document finds it whatever folder the run was started in.
-static void write_mesh_file(const Scene *scene, JsonWriter *json, const char *name,
-                            const char *folder)
+static void write_file(const char *path, JsonWriter *json, const char *name, const char *folder)
 {
     char file[SCENE_TEXT_SIZE];
-    folder_relative(folder, scene->mesh.file, file, sizeof file);
+    folder_relative(folder, path, file, sizeof file);
     json_text(json, name, file);
 }
 
@@ -87,6 +93,9 @@ static void write_value(const SceneKey *key, const Scene *scene, JsonWriter *jso
         return;
     case KEY_CHOICE:
         json_text(json, name, key->choices[*(const int32_t *)field]);
+        return;
+    case KEY_NUMBERS:
+        write_numbers(field, json, name);
         return;
     case KEY_NAMES:
         write_names(field, json, name);
@@ -139,7 +148,9 @@ void scene_write_json(const Scene *scene, JsonWriter *json, const char *name, co
             rest = dot + 1;
         }
         if (strcmp(keys[k].name, "mesh.file") == 0)
-            write_mesh_file(scene, json, rest, folder);
+            write_file(scene->mesh.file, json, rest, folder);
+        else if (strcmp(keys[k].name, "friction.file") == 0)
+            write_file(scene->own_friction.file, json, rest, folder);
         else
             write_value(&keys[k], scene, json, rest);
     }

@@ -18,6 +18,7 @@ static const char *const law_choices[] = {
     FRICTION_LAWS(X)
 #undef X
         NULL};
+static const char *const interpolation_choices[] = {"cubic", "linear", NULL};
 static const char *const rod_ends_choices[] = {"exact", "nodes", NULL};
 static const char *const rod_choices[] = {"push", "bonded", "none", NULL};
 static const char *const switch_choices[] = {"off", "on", NULL};
@@ -68,16 +69,47 @@ static const SceneKey keys[] = {
      .sentence = "Plane stress (a thin plate) or plane strain (a wide block).",
      .choices = plane_choices},
     {"friction.law", KEY_CHOICE, offsetof(Scene, friction.kind), "1", RANGE_ANY, "linear-weakening",
-     .sentence = "How the local coefficient falls with slip rate.", .choices = law_choices},
+     .sentence =
+         "How the local coefficient changes with slip rate; `table`, `formula` and `plugin` "
+         "are one's own.",
+     .choices = law_choices},
     {"friction.mu_static", KEY_NUMBER, offsetof(Scene, friction.mu_static), "1", RANGE_NOT_NEGATIVE,
-     NULL, .sentence = "Local coefficient mu_S at rest."},
+     NULL, .sentence = "Local coefficient mu_S at rest; one's own law has it."},
     {"friction.mu_kinetic", KEY_NUMBER, offsetof(Scene, friction.mu_kinetic), "1",
      RANGE_NOT_NEGATIVE, NULL,
      .sentence =
-         "Local coefficient mu_K of fast slip, at most mu_static; not needed with `coulomb`."},
+         "Local coefficient mu_K of fast slip, at most mu_static; not needed with `coulomb` and "
+         "one's own law."},
     {"friction.critical_velocity", KEY_NUMBER, offsetof(Scene, friction.critical_velocity),
      "velocity", RANGE_NOT_NEGATIVE, "0",
      .sentence = "Slip rate v_c over which friction weakens; needed by the weakening laws."},
+    {"friction.velocity", KEY_NUMBERS, offsetof(Scene, own_friction.velocity), "velocity",
+     RANGE_NOT_NEGATIVE, NULL, .may_lack = true,
+     .sentence = "Law `table`: slip rates, ascending from 0; beyond the last mu stays."},
+    {"friction.mu", KEY_NUMBERS, offsetof(Scene, own_friction.mu), "1", RANGE_NOT_NEGATIVE, NULL,
+     .may_lack = true,
+     .sentence = "Law `table`: the coefficient at each, nowhere above the first."},
+    {"friction.interpolation", KEY_CHOICE, offsetof(Scene, own_friction.interpolation), "1",
+     RANGE_ANY, NULL, .may_lack = true,
+     .sentence = "Law `table`: between points `cubic` (each piece monotone; if not given) or "
+                 "`linear`.",
+     .choices = interpolation_choices},
+    {"friction.formula", KEY_TEXT, offsetof(Scene, own_friction.formula), "1", RANGE_ANY, NULL,
+     .may_lack = true,
+     .sentence = "Law `formula`: mu of the slip rate v >= 0, with + - * / ^, brackets, sqrt, exp, "
+                 "log, tanh, abs, min, max, and mu_static, mu_kinetic, critical_velocity where "
+                 "they are given."},
+    {"friction.file", KEY_TEXT, offsetof(Scene, own_friction.file), "1", RANGE_ANY, NULL,
+     .may_lack = true,
+     .sentence = "Law `plugin`: a shared object with the functions of amontons_friction.h, "
+                 "relative to the scene's folder; needs --trust."},
+    {"friction.parameters", KEY_NUMBERS, offsetof(Scene, own_friction.parameters), "1", RANGE_ANY,
+     NULL, .may_lack = true, .sentence = "Law `plugin`: at most 16 numbers for it."},
+    {"friction.velocity_max", KEY_NUMBER, offsetof(Scene, own_friction.velocity_max), "velocity",
+     RANGE_POSITIVE, NULL, .may_lack = true,
+     .sentence =
+         "Laws `formula` and `plugin`: slip rate beyond which mu stays, and up to which it is "
+         "looked at beforehand; if not given, that of sound, sqrt(E/rho)."},
     {"contact.radius", KEY_NUMBER, offsetof(Scene, contact.radius), "length", RANGE_NOT_NEGATIVE,
      "0",
      .sentence = "The substrate falls away from the middle of the block as x^2 / (2 radius); 0: it "
@@ -262,8 +294,12 @@ const char *scene_key_nearest(const char *name)
     for (int32_t k = 0; k < GROUP_COUNT; k++) names[k] = groups[k];
     for (int32_t k = 0; k < KEY_COUNT; k++) names[GROUP_COUNT + k] = keys[k].name;
     for (int32_t k = 0; k < COUNT; k++) words[k] = last_word(names[k]);
-    for (int32_t k = 0; k < COUNT; k++)   // right, but in another map
-        if (strcmp(words[k], last_word(name)) == 0) return names[k];
+    // Right, but in another map; of two, the one that most scenes have.
+    for (int32_t rare = 0; rare < 2; rare++)
+        for (int32_t k = 0; k < COUNT; k++)
+            if ((k >= GROUP_COUNT && keys[k - GROUP_COUNT].may_lack) == rare &&
+                strcmp(words[k], last_word(name)) == 0)
+                return names[k];
     int32_t nearest = text_nearest(name, names, COUNT);
     if (nearest < 0) nearest = text_nearest(last_word(name), words, COUNT);
     return nearest < 0 ? NULL : names[nearest];
@@ -299,6 +335,7 @@ void scene_key_allowed(const SceneKey *key, char *words, int32_t size)
         [KEY_TEXT] = "a text of at most 511 bytes",
         [KEY_NAME] = "a name of 1 to 63 bytes",
         [KEY_CHOICE] = "one of ",
+        [KEY_NUMBERS] = "a list of at most 64 numbers, each ",
         [KEY_NAMES] = "a name or a list of at most 32 names",
         [KEY_PARAMETERS] = "a map of at most 32 parameters, each a number or a word",
         [KEY_TRACTIONS] = "a list of at most 32 maps {group: NAME, x: STRESS, z: STRESS}",
@@ -307,6 +344,7 @@ void scene_key_allowed(const SceneKey *key, char *words, int32_t size)
     };
     const char *text = key->type == KEY_NUMBER ? ranges[key->range].words : by_type[key->type];
     bool names = key->type == KEY_NAMES && key->choices;
-    snprintf(words, (size_t)size, "%s", names ? "a list of: " : text);
+    snprintf(words, (size_t)size, "%s%s", names ? "a list of: " : text,
+             key->type == KEY_NUMBERS ? ranges[key->range].words : "");
     if (key->choices) join_choices(key->choices, words, size);
 }

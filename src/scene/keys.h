@@ -16,6 +16,7 @@ typedef enum SceneKeyType {
     KEY_TEXT,   // char[SCENE_TEXT_SIZE]
     KEY_NAME,   // char[GROUP_NAME_SIZE], not empty
     KEY_CHOICE,   // an enum, one of `choices`
+    KEY_NUMBERS,   // SceneNumbers: a list of numbers
     KEY_NAMES,   // SceneNames: one name or a list of them; of `choices` where there are any
     KEY_PARAMETERS,   // mesh.set: keys of any name, each a number or a word
     KEY_TRACTIONS,   // load.tractions: a list of {group, x, z}
@@ -47,6 +48,7 @@ typedef struct SceneKey {
     const char *standard;   // default, as it would be written in YAML; NULL: must be given
     const char *sentence;   // what it means, for the reference
     const char *const *choices;   // NULL-terminated, in the order of the enum; NULL otherwise
+    bool may_lack;   // without a default, and yet need not be given
     bool given_in_si;   // the default suits normalised scenes: with SI it must be given
 } SceneKey;
 

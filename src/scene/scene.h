@@ -10,7 +10,12 @@
 #include "io/mesh_file.h"
 #include "io/yaml_document.h"
 
-enum { SCENE_TEXT_SIZE = 512, SCENE_LIST_MAX = 32, SCENE_KEYS_MAX = 64 };   // of scene/keys
+enum {
+    SCENE_TEXT_SIZE = 512,
+    SCENE_LIST_MAX = 32,
+    SCENE_KEYS_MAX = 96,
+    SCENE_NUMBERS_MAX = 64
+};   // of scene/keys
 
 typedef enum SceneUnits { UNITS_NORMALISED, UNITS_SI } SceneUnits;
 typedef enum ScenePlane { PLANE_STRESS, PLANE_STRAIN } ScenePlane;
@@ -25,6 +30,7 @@ typedef enum SceneScheme {
     SCHEME_EULER,
     SCHEME_SDIRK3
 } SceneScheme;
+typedef enum SceneInterpolation { INTERPOLATION_CUBIC, INTERPOLATION_LINEAR } SceneInterpolation;
 typedef enum SceneReduce { REDUCE_AUTO, REDUCE_ALWAYS, REDUCE_NEVER } SceneReduce;
 typedef enum SceneAccuracy { ACCURACY_DRAFT, ACCURACY_STANDARD, ACCURACY_FINE } SceneAccuracy;
 
@@ -32,6 +38,11 @@ typedef struct SceneNames {
     int32_t count;
     char name[SCENE_LIST_MAX][GROUP_NAME_SIZE];
 } SceneNames;
+
+typedef struct SceneNumbers {
+    int32_t count;
+    double value[SCENE_NUMBERS_MAX];
+} SceneNumbers;
 
 typedef struct SceneTraction {
     char group[GROUP_NAME_SIZE];
@@ -62,7 +73,14 @@ typedef struct Scene {
         double young, poisson, density, eta1, eta2;
         ScenePlane plane;
     } material;
-    FrictionLaw friction;
+    FrictionLaw friction;   // made of what follows, where it is one's own
+    struct {
+        SceneNumbers velocity, mu, parameters;
+        SceneInterpolation interpolation;
+        char formula[SCENE_TEXT_SIZE];
+        char file[SCENE_TEXT_SIZE];   // of a plug-in, resolved against the scene file's folder
+        double velocity_max;   // 0: the speed of sound
+    } own_friction;
     struct {
         double radius;   // of the substrate's curvature; 0: flat
     } contact;

@@ -13,6 +13,7 @@
 #include "base/text.h"
 #include "scene/check.h"
 #include "scene/keys.h"
+#include "scene/own_law.h"
 #include "scene/value.h"
 
 #include <locale.h>
@@ -175,8 +176,8 @@ static bool store_defaults(Reader *reader, const char *group, Scene *scene, Erro
         reader->sources[k] = (SceneValue){0};
         if (key->standard)
             TRY(scene_value_set(key, &value, scene, err));
-        else if (key->type == KEY_NUMBER)
-            memcpy((char *)scene + key->offset, &(double){0}, sizeof(double));
+        else
+            scene_value_clear(key, scene);
     }
 cleanup:
     return error_is_clean(err);
@@ -222,18 +223,17 @@ cleanup:
 
 // --- reading ------------------------------------------------------------------------------------
 
-// mesh.file relative to the scene's folder becomes relative to the current one.
-static bool resolve_mesh_file(const char *path, Scene *scene, Error *err)
+// A file named by `key`, relative to the folder of the scene `path`, becomes relative to the
+// current one. An empty name stays.
+static bool resolve_file(const char *path, const char *key, char *name, Error *err)
 {
     const char *slash = strrchr(path, '/');
     char file[SCENE_TEXT_SIZE];
-    memcpy(file, scene->mesh.file, sizeof file);
-    if (file[0] == '/' || !slash) return true;
-    int length =
-        snprintf(scene->mesh.file, SCENE_TEXT_SIZE, "%.*s/%s", (int)(slash - path), path, file);
+    memcpy(file, name, sizeof file);
+    if (!file[0] || file[0] == '/' || !slash) return true;
+    int length = snprintf(name, SCENE_TEXT_SIZE, "%.*s/%s", (int)(slash - path), path, file);
     if (length >= SCENE_TEXT_SIZE)
-        FAIL(err, ERROR_INPUT, "mesh.file: the path %.200s... is longer than 511 bytes",
-             scene->mesh.file);
+        FAIL(err, ERROR_INPUT, "%s: the path %.200s... is longer than 511 bytes", key, name);
 cleanup:
     return error_is_clean(err);
 }
@@ -281,7 +281,9 @@ static bool finish_reading(Reader *reader, const char *path, Scene *scene, Error
     TRY(scene_check(scene, reader->sources, reader->file, err));
     if (!friction_has_drop(&scene->friction))
         scene->friction.mu_kinetic = scene->friction.mu_static;
-    TRY(resolve_mesh_file(path, scene, err));
+    TRY(resolve_file(path, "mesh.file", scene->mesh.file, err));
+    TRY(resolve_file(path, "friction.file", scene->own_friction.file, err));
+    TRY(scene_own_law(scene, err));
 cleanup:
     return error_is_clean(err);
 }

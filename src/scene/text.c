@@ -84,6 +84,16 @@ static void add_supports(Line *line, const Scene *scene)
     add(line, "]");
 }
 
+static void add_numbers(Line *line, const SceneNumbers *numbers)
+{
+    add(line, "[");
+    for (int32_t i = 0; i < numbers->count; i++) {
+        if (i > 0) add(line, ", ");
+        add_number(line, numbers->value[i]);
+    }
+    add(line, "]");
+}
+
 static void add_names(Line *line, const SceneNames *names)
 {
     add(line, "[");
@@ -112,6 +122,9 @@ void scene_key_value(const SceneKey *key, const Scene *scene, char *words, int32
         return;
     case KEY_CHOICE:
         add(&line, "%s", key->choices[*(const int32_t *)field]);
+        return;
+    case KEY_NUMBERS:
+        add_numbers(&line, field);
         return;
     case KEY_NAMES:
         add_names(&line, field);
@@ -142,12 +155,14 @@ void scene_write_reference(FILE *out)
         char allowed[300];
         scene_key_allowed(&keys[k], allowed, sizeof allowed);
         fprintf(out, "| `%s` | ", keys[k].name);
-        if (!keys[k].standard)
+        if (keys[k].may_lack)
+            fprintf(out, "none");
+        else if (!keys[k].standard)
             fprintf(out, "must be given");
         else
             fprintf(out, "`%s`%s", keys[k].standard,
                     keys[k].given_in_si ? "; with SI must be given" : "");
-        bool is_number = keys[k].type == KEY_NUMBER;
+        bool is_number = keys[k].type == KEY_NUMBER || keys[k].type == KEY_NUMBERS;
         fprintf(out, " | %s | %s | %s |\n", allowed, is_number ? keys[k].unit : "",
                 keys[k].sentence);
     }

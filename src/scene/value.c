@@ -36,12 +36,14 @@ static bool expect_scalar(const SceneKey *key, const SceneValue *value, Error *e
 
 typedef bool (*ValueSetter)(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err);
 
-// Hands each item of a list or map (`kind`), at most SCENE_LIST_MAX, to `set`.
+// Hands each item of a list or map (`kind`), at most SCENE_LIST_MAX (numbers: SCENE_NUMBERS_MAX), to
+// `set`.
 static bool set_items(const SceneKey *key, const SceneValue *value, YamlKind kind, ValueSetter set,
                       Scene *scene, Error *err)
 {
+    int32_t most = key->type == KEY_NUMBERS ? (int32_t)SCENE_NUMBERS_MAX : (int32_t)SCENE_LIST_MAX;
     if (yaml_kind(value->document, value->node) != kind ||
-        yaml_count(value->document, value->node) > SCENE_LIST_MAX) {
+        yaml_count(value->document, value->node) > most) {
         report_wrong(key, value, err);
         goto cleanup;
     }
@@ -122,6 +124,25 @@ static bool set_number(const SceneKey *key, const SceneValue *value, Scene *scen
         memcpy(field_of(key, scene), &number, sizeof number);
 cleanup:
     return error_is_clean(err);
+}
+
+static bool add_number(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+{
+    SceneNumbers *numbers = field_of(key, scene);
+    double number = 0;
+    TRY(read_number(key, value, scene->units, &number, err));
+    if (!scene_range_holds(key->range, number) || numbers->count == SCENE_NUMBERS_MAX)
+        report_wrong(key, value, err);
+    else
+        numbers->value[numbers->count++] = number;
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool set_numbers(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+{
+    scene_value_clear(key, scene);
+    return set_items(key, value, YAML_LIST, add_number, scene, err);
 }
 
 // --- words --------------------------------------------------------------------------------------
@@ -356,6 +377,15 @@ static bool set_fields(const SceneKey *key, const SceneValue *value, Scene *scen
     return error_is_clean(err);
 }
 
+void scene_value_clear(const SceneKey *key, Scene *scene)
+{
+    size_t size = key->type == KEY_NUMBER    ? sizeof(double)
+                  : key->type == KEY_NUMBERS ? sizeof(SceneNumbers)
+                  : key->type == KEY_CHOICE  ? sizeof(int32_t)
+                                             : SCENE_TEXT_SIZE;
+    memset(field_of(key, scene), 0, size);
+}
+
 bool scene_value_set(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
     switch (key->type) {
@@ -369,6 +399,8 @@ bool scene_value_set(const SceneKey *key, const SceneValue *value, Scene *scene,
         return copy_text(key, value, GROUP_NAME_SIZE, field_of(key, scene), err);
     case KEY_CHOICE:
         return set_choice(key, value, scene, err);
+    case KEY_NUMBERS:
+        return set_numbers(key, value, scene, err);
     case KEY_NAMES:
         return set_names(key, value, scene, err);
     case KEY_PARAMETERS:

@@ -17,4 +17,7 @@ typedef struct SceneValue {
 // show the place and say what is allowed.
 bool scene_value_set(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err);
 
+// Makes the field of a key without a default zero, as when it is not given.
+void scene_value_clear(const SceneKey *key, Scene *scene);
+
 #endif

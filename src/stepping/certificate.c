@@ -74,7 +74,7 @@ static bool is_definite(Certificate *certificate, const State *state, ContactMat
     if (!damping || (part > 0 && !own)) return false;
     moving_set_gather(moving, damping, 1 - part, 0, certificate->matrix);
     if (part > 0) moving_set_gather(moving, own, part, 1, certificate->matrix);
-    moving_set_add_rod(moving, 0, certificate->matrix);
+    moving_set_add_dampers(moving, 0, certificate->matrix);
     moving_set_subtract_weakening(moving, certificate->matrix);
     certificate->checks++;
     return dense_cholesky(certificate->matrix, moving->count);
@@ -111,7 +111,7 @@ static bool fill_coupled(Certificate *certificate, const State *state, ContactMa
     moving_set_find(&certificate->moving, state, false);
     moving_set_gather(&certificate->moving, closed, 1, 0, certificate->matrix);
     moving_set_couple(&certificate->moving, closed, certificate->matrix);
-    moving_set_add_rod(&certificate->moving, 0, certificate->matrix);
+    moving_set_add_dampers(&certificate->moving, 0, certificate->matrix);
     certificate->checks++;
     return true;
 }

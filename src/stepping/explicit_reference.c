@@ -143,19 +143,46 @@ static double sweep_free(ExplicitReference *scheme)
     return power[0] + power[1];
 }
 
-// The speed left of `free_speed` by friction, strength = (dt/m) r_n: the root of
-//     w + strength mu(w) - free_speed,    slope 1 + strength mu'(w);
-// 0: sticks. The law is convex, so Newton from the right goes down to the largest root.
+// w + strength mu(w) - free_speed, strength = (dt/m) r_n: what is too much of speed w for friction to
+// have left it of free_speed.
+static double excess_speed(const FrictionLaw *law, double free_speed, double strength, double speed)
+{
+    return speed + strength * friction_coefficient(law, speed) - free_speed;
+}
+
+// The lower end of the highest of EXCESS_PARTS parts of 0 to free_speed at which excess_speed is
+// below 0, so that a root lies above; -1: at none. Where friction falls less than speed rises, at
+// every speed, excess_speed rises and the whole is one part.
+static double below_largest_root(const FrictionLaw *law, double free_speed, double strength)
+{
+    enum { EXCESS_PARTS = 64 };
+    int32_t parts = strength * friction_steepest(law) < 1 ? 1 : EXCESS_PARTS;
+    for (int32_t k = parts - 1; k >= 0; k--) {
+        double low = free_speed * k / parts;
+        if (excess_speed(law, free_speed, strength, low) < 0) return low;
+    }
+    return -1;
+}
+
+// The speed left of `free_speed` by friction: the largest root of excess_speed; 0: sticks. Newton
+// from the right goes down to it where the law is convex; else halving helps where a step leaves
+// the interval that holds it.
 static double slip_speed(const FrictionLaw *law, double free_speed, double strength, bool slipped)
 {
     bool may_stick = free_speed <= strength * friction_coefficient(law, 0);
     if (may_stick && (!slipped || 1 + strength * friction_slope(law, 0) > 0)) return 0;
-    double speed = free_speed;
+    bool convex = friction_is_convex(law);
+    double speed = free_speed, high = free_speed;
+    double low = convex ? 0 : below_largest_root(law, free_speed, strength);
+    if (low < 0) return 0;
     for (int32_t k = 0; k < NEWTON_MAX; k++) {
         double slope = 1 + strength * friction_slope(law, speed);
-        if (slope <= 0) return 0;   // there is no root: it has come to rest
-        double excess = speed + strength * friction_coefficient(law, speed) - free_speed;
+        if (convex && slope <= 0) return 0;   // there is no root: it has come to rest
+        double excess = excess_speed(law, free_speed, strength, speed);
+        *(excess > 0 ? &high : &low) = speed;
         speed -= excess / slope;
+        bool outside = !(speed >= low && speed <= high);
+        if (!convex && outside) speed = 0.5 * (low + high);
         if (speed <= 0) return 0;
         if (fabs(excess) <= NEWTON_TOLERANCE * free_speed) break;
     }

@@ -125,7 +125,7 @@ static double load_at(Growth *growth, int32_t k)
 {
     MovingSet *moving = &growth->moving;
     moving_set_gather(moving, interface_operator_schur(growth->at[k]), 1, 0, growth->matrix);
-    moving_set_add_rod(moving, 1 / growth->shift[k], growth->matrix);
+    moving_set_add_dampers(moving, 1 / growth->shift[k], growth->matrix);
     if (!dense_lu(growth->matrix, moving->count, growth->pivots)) return INFINITY;
     return weakening_load(moving, growth->matrix, growth->pivots, 2000, 1e-12, growth->step);
 }
@@ -158,7 +158,7 @@ static bool factor_moving(Growth *growth, int32_t k)
     const double *schur = interface_operator_schur(growth->at[k]);
     moving_set_gather(moving, schur, 1, 0, growth->matrix);
     moving_set_couple(moving, schur, growth->matrix);
-    moving_set_add_rod(moving, 1 / growth->shift[k], growth->matrix);
+    moving_set_add_dampers(moving, 1 / growth->shift[k], growth->matrix);
     moving_set_subtract_weakening(moving, growth->matrix);
     return dense_lu(growth->matrix, moving->count, growth->pivots);
 }

@@ -33,7 +33,8 @@ static void add_slipping(MovingSet *set, const State *state, int32_t i)
     MovingUnknown *moving = add_unknown(set, t);
     moving->normal = n;
     moving->friction = status_direction(state->status[i]) * friction_coefficient(set->law, speed);
-    moving->weakening = -friction_slope(set->law, speed) * state->reaction[n];
+    double slope = friction_slope(set->law, speed);
+    *(slope > 0 ? &moving->damper : &moving->weakening) = fabs(slope) * state->reaction[n];
     set->weakens = set->weakens || moving->weakening > 0;
 }
 
@@ -85,7 +86,7 @@ void moving_set_couple(const MovingSet *set, const double *schur, double *matrix
     }
 }
 
-void moving_set_add_rod(const MovingSet *set, double reach, double *matrix)
+void moving_set_add_dampers(const MovingSet *set, double reach, double *matrix)
 {
     for (int64_t a = 0; a < set->count; a++)
         matrix[a * set->count + a] += set->list[a].damper + reach * set->list[a].spring;

@@ -5,10 +5,11 @@
 // of slip, and r_n answers to all that moves, so a disturbance v' of the velocities leaves in its
 // row
 //
-//     (S v')_t + d mu (S v')_n - w v'_t,     w = -mu'(|v_t|) r_n >= 0, its weakening
+//     (S v')_t + d mu (S v')_n - w v'_t,     w = -mu'(|v_t|) r_n
 //                                            (linear law: (mu_S - mu_K) r_n / v_c below v_c).
 //
-// A soft rod node that touches has a spring and a damper of its own (contact/rod).
+// w > 0 is the node's weakening. Where the law strengthens, -w is a damper like any other, and is
+// counted among what resists. A soft rod node that touches has a spring and a damper of its own (contact/rod).
 // Called by stepping/certificate and stepping/growth.
 #ifndef AMONTONS_STEPPING_MOVING_SET_H
 #define AMONTONS_STEPPING_MOVING_SET_H
@@ -19,8 +20,9 @@ typedef struct MovingUnknown {
     int32_t unknown;   // of the interface
     int32_t normal;   // of a slipping tangent; -1: no friction here
     double friction;   // of a slipping tangent: d mu(|v_t|)
-    double weakening;   // w, force * time / length
-    double damper;   // of a soft rod node that touches: lag / softness, force * time / length
+    double weakening;   // w >= 0, force * time / length
+    double damper;   // of a soft rod node that touches: lag / softness; of a node whose friction
+        // strengthens: mu' r_n; force * time / length
     double spring;   // of the same: 1 / softness, force / length
 } MovingUnknown;
 
@@ -47,7 +49,7 @@ void moving_set_gather(const MovingSet *set, const double *schur, double factor,
 void moving_set_couple(const MovingSet *set, const double *schur, double *matrix);
 // Adds dampers, and springs times `reach` (velocity to displacement, time; 0: none), to the
 // diagonal.
-void moving_set_add_rod(const MovingSet *set, double reach, double *matrix);
+void moving_set_add_dampers(const MovingSet *set, double reach, double *matrix);
 void moving_set_subtract_weakening(const MovingSet *set, double *matrix);
 
 #endif

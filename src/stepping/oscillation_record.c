@@ -45,7 +45,8 @@ static double weakening_of(const OscillationRecord *record, const State *state, 
     if (state->status[k] == CONTACT_STICK) return -1;
     if (state->status[k] == CONTACT_OPEN) return 0;
     double speed = fabs(state->slip_rate[interface_tangent(k)]);
-    return -friction_slope(record->law, speed) * state->reaction[interface_normal(k)];
+    double slope = friction_slope(record->law, speed);
+    return slope < 0 ? -slope * state->reaction[interface_normal(k)] : 0;   // 0: it strengthens
 }
 
 static bool is_fast(const OscillationRecord *record, const State *state)

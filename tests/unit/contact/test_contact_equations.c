@@ -11,7 +11,7 @@ static HandContact hand;
 static ContactMatrix matrix;
 static ContactProblem problem;
 static ContactSolution at;
-static uint8_t beyond[NODES];
+static uint8_t piece[NODES];
 static int32_t free_list[COUNT];
 
 // Speeds about v_c = 1 and away from it and from 0, where mu has no derivative.
@@ -20,14 +20,17 @@ static ContactEquations make_equations(Random *random, int32_t trial)
     static const double softness[RODS] = {0.3, 0, 2};
     Error err = {0};
     hand_contact_size(&hand, NODES, RODS);
-    hand.law = (FrictionLaw){(FrictionKind)(trial % 3), 0.9, 0.2, 1};
+    hand.law = (FrictionLaw){.kind = (FrictionKind)(trial % 3),
+                             .mu_static = 0.9,
+                             .mu_kinetic = 0.2,
+                             .critical_velocity = 1};
     hand.rod_softness = softness;
     hand.rod_reach = 0.7;
     hand_random_schur(random, 0.5, 1, &hand);
     assert_true(contact_matrix_create(hand.schur, COUNT, &matrix, &err));
     problem = hand_problem(&hand, &matrix);
     at = (ContactSolution){hand.velocity, hand.reaction, hand.status, hand.rod_touches};
-    ContactEquations equations = {&problem, &at, trial % 2 ? beyond : NULL, free_list, 0};
+    ContactEquations equations = {&problem, &at, trial % 2 ? piece : NULL, free_list, 0};
     for (int32_t k = 0; k < COUNT; k++) {
         double speed = random_between(random, 0, 1) < 0.5 ? 0.3 : 1.7;
         hand.velocity[k] = speed + random_between(random, -0.2, 0.2);
@@ -36,7 +39,7 @@ static ContactEquations make_equations(Random *random, int32_t trial)
     }
     for (int32_t i = 0; i < NODES; i++) {
         hand.status[i] = (uint8_t)random_index(random, 4);
-        beyond[i] = (uint8_t)random_index(random, 2);
+        piece[i] = (uint8_t)random_index(random, 2);
         if (hand.status[i] == CONTACT_SLIP_BACKWARD) hand.velocity[2 * i] *= -1;
         if (hand.status[i] != CONTACT_STICK) free_list[equations.free_count++] = 2 * i;
         if (hand.status[i] == CONTACT_OPEN) free_list[equations.free_count++] = 2 * i + 1;
@@ -63,8 +66,8 @@ static double residual_by_hand(const ContactEquations *equations, int32_t k)
     if (status == CONTACT_OPEN) return value;
     for (int32_t j = 0; j < COUNT; j++) normal += hand.schur[j * COUNT + k + 1] * hand.velocity[j];
     double speed = fabs(hand.velocity[k]), mu = friction_coefficient(&hand.law, speed);
-    if (equations->beyond && hand.law.kind == FRICTION_LINEAR_WEAKENING)
-        mu = beyond[k / 2] ? 0.2 : 0.9 - 0.7 * speed;
+    if (equations->piece && hand.law.kind == FRICTION_LINEAR_WEAKENING)
+        mu = piece[k / 2] ? 0.2 : 0.9 - 0.7 * speed;
     return value + (status == CONTACT_SLIP_FORWARD ? mu : -mu) * normal;
 }
 

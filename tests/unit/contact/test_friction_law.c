@@ -68,7 +68,7 @@ static void test_branches(void **state)
     (void)state;
     for (int k = 0; k < 3; k++) {
         FrictionLaw law = law_of(KINDS[k]);
-        double kink = friction_kink(&law), slope;
+        double kink = friction_kink(&law, 0), slope;
         assert_int_equal(isfinite(kink), KINDS[k] == FRICTION_LINEAR_WEAKENING);
         for (double v = 0.003; v < 0.2; v += 0.01) {
             double mu = friction_branch(&law, v >= kink, v, &slope);

@@ -191,7 +191,10 @@ static void assert_same_rates(const Case *test, double tolerance)
 }
 
 static const Material SOFT = {.young = 1, .poisson = 0.34, .density = 1, .eta1 = 1, .eta2 = 1};
-static const FrictionLaw LAW = {FRICTION_LINEAR_WEAKENING, 0.38, 0.1, 3.4e-4};
+static const FrictionLaw LAW = {.kind = FRICTION_LINEAR_WEAKENING,
+                                .mu_static = 0.38,
+                                .mu_kinetic = 0.1,
+                                .critical_velocity = 3.4e-4};
 
 static void set_state(Case *test, double pressure, int32_t slipping)
 {
@@ -251,7 +254,10 @@ static int32_t check_block(FrictionLaw law, double length, double pressure, bool
 static void test_against_dense(void **unused)
 {
     (void)unused;
-    const FrictionLaw glass = {FRICTION_LINEAR_WEAKENING, 1.2, 0.2, 3.9e-7};   // the paper's set B
+    const FrictionLaw glass = {.kind = FRICTION_LINEAR_WEAKENING,
+                               .mu_static = 1.2,
+                               .mu_kinetic = 0.2,
+                               .critical_velocity = 3.9e-7};   // the paper's set B
     for (int32_t reduced = 0; reduced < 2; reduced++) {
         assert_in_range(check_block(LAW, 1, 3e-3, reduced), 3, 27);
         assert_in_range(check_block(glass, 0.04, 2.5e-5, reduced), 2, 27);
@@ -265,7 +271,10 @@ static void test_rigid_block(void **unused)
     (void)unused;
     Error err = {0};
     Material stiff = {.young = 1e9, .poisson = 0.3, .density = 1.7, .eta1 = 1e6, .eta2 = 1e6};
-    Case test = {.law = {FRICTION_LINEAR_WEAKENING, 0.6, 0.2, 0.05}};
+    Case test = {.law = {.kind = FRICTION_LINEAR_WEAKENING,
+                         .mu_static = 0.6,
+                         .mu_kinetic = 0.2,
+                         .critical_velocity = 0.05}};
     BlockDef def = {ELEMENT_Q4, .nx = 2, .nz = 2, .length = 0.8, .height = 0.3};
     case_build_block(&test, &def, &stiff);
     double pressure = 4, rate = (0.6 - 0.2) * pressure / (1.7 * 0.3 * 0.05);
@@ -354,7 +363,10 @@ static void test_shear_column(void **unused)
     (void)unused;
     Error err = {0};
     double poisson = 0.34, shear = 1 / (2 * (1 + poisson)), eta = 0.5, density = 1, height = 0.5;
-    Case test = {.law = {FRICTION_LINEAR_WEAKENING, 0.38, 0.1, 3.4e-4}};
+    Case test = {.law = {.kind = FRICTION_LINEAR_WEAKENING,
+                         .mu_static = 0.38,
+                         .mu_kinetic = 0.1,
+                         .critical_velocity = 3.4e-4}};
     dense_use_one_thread();
     column_build(&test, shear, eta, density, height);
     double slope = 0.28 / 3.4e-4, oscillates = NAN, runs = NAN, overload = NAN;
@@ -390,7 +402,10 @@ static void test_scan(void **unused)
 {
     (void)unused;
     Error err = {0};
-    Case test = {.law = {FRICTION_LINEAR_WEAKENING, 1e-7, 0, 1e-4}};
+    Case test = {.law = {.kind = FRICTION_LINEAR_WEAKENING,
+                         .mu_static = 1e-7,
+                         .mu_kinetic = 0,
+                         .critical_velocity = 1e-4}};
     BlockDef def = {ELEMENT_Q4, .nx = 8, .nz = 4, .length = 1, .height = 0.5};
     case_build_block(&test, &def, &SOFT);
     case_open(&test, growth_def(1, 1.06, test.interface.contact_count));

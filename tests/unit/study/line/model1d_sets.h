@@ -28,13 +28,19 @@ static inline Model1d paper_model(double poisson, FrictionLaw law, double pressu
 
 static inline Model1d set_a(double pressure, double length)
 {
-    FrictionLaw law = {FRICTION_LINEAR_WEAKENING, 0.38, 0.1, 3.4e-4};
+    FrictionLaw law = {.kind = FRICTION_LINEAR_WEAKENING,
+                       .mu_static = 0.38,
+                       .mu_kinetic = 0.1,
+                       .critical_velocity = 3.4e-4};
     return paper_model(0.34, law, pressure, length);
 }
 
 static inline Model1d set_b(double pressure, double length)
 {
-    FrictionLaw law = {FRICTION_LINEAR_WEAKENING, 1.2, 0.2, 3.9e-7};
+    FrictionLaw law = {.kind = FRICTION_LINEAR_WEAKENING,
+                       .mu_static = 1.2,
+                       .mu_kinetic = 0.2,
+                       .critical_velocity = 3.9e-7};
     return paper_model(0.4, law, pressure, length);
 }
 

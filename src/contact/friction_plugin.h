@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A law whose functions stand in a shared object that somebody else wrote (amontons_friction.h).
+// Called by scene/own_law and contact/friction_law.
+#ifndef AMONTONS_CONTACT_FRICTION_PLUGIN_H
+#define AMONTONS_CONTACT_FRICTION_PLUGIN_H
+
+#include "amontons_friction.h"
+#include "base/error.h"
+
+typedef struct FrictionPlugin {
+    double (*coefficient)(const AmontonsFriction *given, double speed);
+    double (*slope)(const AmontonsFriction *given, double speed);
+    AmontonsFriction given;
+} FrictionPlugin;
+
+// Opens the file, which stays open until the program ends: copies of a law may be anywhere.
+// ERROR_INPUT where the user has not said that such a file may be trusted (variable AMONTONS_TRUST,
+// --trust), where it cannot be opened, or is no such plug-in.
+bool friction_plugin_open(const char *path, FrictionPlugin *plugin, Error *err);
+
+#endif

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "scene/own_law.h"
+
+#include "contact/friction_look.h"
+
+#include <math.h>
+#include <stdio.h>
+
+bool scene_own_law(Scene *scene, Error *err)
+{
+    if (!friction_is_own(&scene->friction)) return true;
+    const SceneNumbers *velocity = &scene->own_friction.velocity, *mu = &scene->own_friction.mu;
+    double fastest = scene->own_friction.velocity_max;
+    FrictionSource source = {
+        .velocity = velocity->value,
+        .velocity_count = velocity->count,
+        .mu = mu->value,
+        .mu_count = mu->count,
+        .straight = scene->own_friction.interpolation == INTERPOLATION_LINEAR,
+        .formula = scene->own_friction.formula,
+        .file = scene->own_friction.file,
+        .parameters = scene->own_friction.parameters.value,
+        .parameter_count = scene->own_friction.parameters.count,
+        .end = fastest > 0 ? fastest : sqrt(scene->material.young / scene->material.density)};
+    const char *word = "law";
+    char key[40];
+    bool done = friction_own_law(&source, &scene->friction, &word, err) &&
+                friction_look(&scene->friction, err);
+    snprintf(key, sizeof key, "friction.%s", word);
+    return scene_blame(scene, key, done, err);
+}

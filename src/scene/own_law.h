@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// One's own friction law from the keys of a scene. Called by scene/scene_read.
+#ifndef AMONTONS_SCENE_OWN_LAW_H
+#define AMONTONS_SCENE_OWN_LAW_H
+
+#include "scene/scene.h"
+
+// Completes scene->friction where it is a table, a formula or a plug-in; else does nothing.
+// ERROR_INPUT with file, line and key, and with the velocity where the law is not one to work with.
+bool scene_own_law(Scene *scene, Error *err);
+
+#endif
