@@ -33,7 +33,10 @@ static inline RigDef rig_def(void)
 {
     return (RigDef){.block = {.kind = ELEMENT_Q4, .nx = 4, .nz = 2, .length = 1, .height = 0.5},
                     .material = paper_material(),
-                    .law = {FRICTION_LINEAR_WEAKENING, 0.38, 0.1, 3.4e-4},   // the paper's set A
+                    .law = {.kind = FRICTION_LINEAR_WEAKENING,
+                            .mu_static = 0.38,
+                            .mu_kinetic = 0.1,
+                            .critical_velocity = 3.4e-4},   // the paper's set A
                     .rod_height = 0.25,
                     .rod_width = 0.1,
                     .traction = {0, -0.003}};

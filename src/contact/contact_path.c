@@ -21,7 +21,6 @@
 
 static const double NEAR = 1e-10;   // of the scales: on the path, on a bound
 static const double ASIDE = 0.5;   // of a step: Newton may lead so far from its tangent
-static const double BEND = 0.5;   // of v_c, or of its velocity: a node may go so far in a step
 static const double RAY = 1e6;   // of tau at the start: beyond, the path does not come back
 enum {
     STEPS_EACH = 200,   // steps for each unknown; with friction 5 on 12 pads 170 were needed
@@ -179,7 +178,7 @@ static double condition(const Trace *trace, int32_t node, int32_t kind, const do
     double speed = status_direction(status) * v[t];
     if (kind == 0) return speed / trace->scales.velocity;
     if (kind == 1) return r[n] / trace->scales.force;
-    // It stays within its piece of the law: above the lower end, where there is one; below the upper.
+    // Above the lower end of its piece of the law, where there is one; below the upper.
     int32_t piece = trace->path->piece[node];
     bool lower = kind == 2 && piece > 0;
     if (kind == 3 && piece == 0) return INFINITY;
@@ -271,12 +270,10 @@ static void exchange(Trace *trace, Bound bound)
         at->status[i] = CONTACT_OPEN;
         velocity_sign = 1;
         grown = interface_normal(i);
-    } else if (bound.kind == 2 && path->piece[i] > 0) {
-        path->piece[i]--;
-        velocity_sign = -direction;
     } else {
-        path->piece[i]++;
-        velocity_sign = direction;
+        int32_t up = bound.kind == 2 && path->piece[i] > 0 ? -1 : 1;
+        path->piece[i] = (uint8_t)(path->piece[i] + up);
+        velocity_sign = up * direction;
     }
     arrange(trace);
     memset(path->row, 0, ((size_t)trace->system.free_count + 1) * sizeof(double));
@@ -292,15 +289,10 @@ static bool stays_near(const Trace *trace)
 {
     const ContactPath *path = trace->path;
     const FrictionLaw *law = trace->system.problem->law;
-    if (!(friction_drop(law) > 0)) return true;
     for (int32_t a = 0; a < trace->system.free_count; a++) {
-        int32_t i = contact_slipping_node(&trace->system, path->free[a]);
-        if (i < 0) continue;
-        bool last = path->piece[i] > 0 && !isfinite(friction_kink(law, path->piece[i]));
-        if (last) continue;   // mu stays
-        double before = fabs(path->kept[a]),
-               after = fabs(trace->system.at->velocity[path->free[a]]);
-        if (fabs(after - before) > BEND * fmax(law->critical_velocity, before)) return false;
+        int32_t k = path->free[a], i = contact_slipping_node(&trace->system, k);
+        double before = fabs(path->kept[a]), after = fabs(trace->system.at->velocity[k]);
+        if (i >= 0 && !friction_is_straight(law, path->piece[i], before, after)) return false;
     }
     return true;
 }

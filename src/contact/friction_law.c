@@ -284,6 +284,22 @@ double friction_branch(const FrictionLaw *law, int32_t piece, double speed, doub
     return mu + *slope * (speed - from);
 }
 
+static const double BEND = 0.5;   // of v_c, or of its speed: a node may go so far
+static const double TURN = 0.1;   // of its steepest: the slope of one's own law may change so much
+
+// The last piece of a law with kinks is level, as is a law without a drop.
+bool friction_is_straight(const FrictionLaw *law, int32_t piece, double from, double to)
+{
+    bool last = piece > 0 && !isfinite(friction_kink(law, piece));
+    double before, after;
+    if (last || !(friction_drop(law) > 0)) return true;
+    if (fabs(to - from) > BEND * fmax(law->critical_velocity, from)) return false;
+    if (friction_is_convex(law)) return true;
+    friction_branch(law, piece, from, &before);
+    friction_branch(law, piece, to, &after);
+    return fabs(after - before) <= TURN * law->steepest;
+}
+
 // Exponential weakening never ends but by underflow: there is no speed from which on a node is
 // safe.
 bool friction_weakens(const FrictionLaw *law, double speed)

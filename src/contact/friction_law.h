@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The local friction law |tau| <= mu(v) p: THE replaceable file. A law is a coefficient, continuous,
-// not negative, and nowhere above mu(0), the static threshold; stick is set-valued.
+// The local friction law |tau| <= mu(v) p: THE replaceable file. A law is a coefficient that is
+// continuous, not negative, and nowhere above mu(0), the static threshold; stick is set-valued.
 //
 //   linear weakening   mu_S - (mu_S - mu_K) |v| / v_c  for |v| < v_c,  mu_K above
 //                      (Otsuki and Matsukawa, Sci. Rep. 3, 1586, 2013)
@@ -15,6 +15,7 @@
 
 #include "base/formula.h"
 #include "contact/friction_plugin.h"
+#include "contact/friction_source.h"
 #include "contact/friction_table.h"
 
 // symbol, name in a scene
@@ -48,26 +49,6 @@ typedef struct FrictionLaw {
         FrictionPlugin plugin;
     } own;
 } FrictionLaw;
-
-// What one's own law is made of, as a scene gives it in its map `friction`. Nothing is owned.
-typedef struct FrictionSource {
-    const double *velocity, *mu;   // [velocity_count], [mu_count]
-    int32_t velocity_count, mu_count;
-    bool straight;
-    const char *formula, *file;
-    const double *parameters;   // [parameter_count] of a plug-in
-    int32_t parameter_count;
-    double end;   // of a formula or plug-in, velocity
-} FrictionSource;
-
-// What one of the keys of that map is to a law.
-typedef enum FrictionUse { FRICTION_UNUSED, FRICTION_MAY, FRICTION_MUST } FrictionUse;
-FrictionUse friction_use(const FrictionLaw *law, const char *key);
-
-// Makes one's own law of kind law->kind and of the numbers mu_static, mu_kinetic and
-// critical_velocity, 0 where they are not given; contact/friction_look has still to look at it.
-// *key: the one that is wrong (ERROR_INPUT), or that holds the law.
-bool friction_own_law(const FrictionSource *source, FrictionLaw *law, const char **key, Error *err);
 
 // mu at every speed; 0: no friction.
 FrictionLaw friction_constant(double mu);
@@ -110,6 +91,10 @@ int32_t friction_piece(const FrictionLaw *law, double speed);
 // mu and its slope on one piece, continued smoothly to any speed.
 double friction_branch(const FrictionLaw *law, int32_t piece, double speed, double *slope);
 
+// Between these speeds the piece is as good as a straight line: contact/contact_path may step from
+// one to the other.
+bool friction_is_straight(const FrictionLaw *law, int32_t piece, double from, double to);
+
 // Still weakening at this speed: a faster slip meets less friction.
 bool friction_weakens(const FrictionLaw *law, double speed);
 
@@ -120,6 +105,14 @@ double friction_spent_speed(const FrictionLaw *law);
 // phi = max(0, 1 - |v|/v_c), the density of real contacts that hold (the paper's Figure 1d); from
 // the coefficient for the other laws: (mu - mu_K) / (mu_S - mu_K), and 1 where nothing weakens.
 double friction_contact_density(const FrictionLaw *law, double speed);
+
+// What a key of the map `friction` is to a law.
+FrictionUse friction_use(const FrictionLaw *law, const char *key);
+
+// Makes one's own law of kind law->kind and of the numbers mu_static, mu_kinetic and
+// critical_velocity, 0 where they are not given; contact/friction_look has still to look at it.
+// *key: the one that is wrong (ERROR_INPUT), or that holds the law.
+bool friction_own_law(const FrictionSource *source, FrictionLaw *law, const char **key, Error *err);
 
 // The k-th of the speeds, ascending from 0 to its end, at which one's own law is looked at before
 // it is used (contact/friction_look); INFINITY: there are no more.

@@ -15,8 +15,8 @@
 //          what it is at rest: so it is v_c of the linear and of the exponential law
 //
 // A v_c that is given stays, a mu_K too, which must be a lower bound. ERROR_INPUT, with the
-// velocity: not finite, negative, above mu(0), not continuous, or a slope that is not that of mu; or
-// a mu_static or mu_kinetic that is not that of the law.
+// velocity: not finite, negative, above mu(0), not continuous, or a slope that is not that of mu;
+// or a mu_static or mu_kinetic that is not that of the law.
 bool friction_look(FrictionLaw *law, Error *err);
 
 #endif

@@ -50,7 +50,7 @@ int32_t friction_table_interval(const FrictionTable *table, double speed)
 }
 
 // Hermite's cubic in s = (speed - start)/width:
-//     mu = a + width s (p (1 - s)^2 - q s (1 - s)) + (b - a) s^2 (3 - 2 s),   p, q slopes at the ends.
+//     mu = a + width s (p (1 - s)^2 - q s (1 - s)) + (b - a) s^2 (3 - 2 s),   p, q: end slopes.
 double friction_table_at(const FrictionTable *table, int32_t interval, double speed, double *slope)
 {
     double start = table->speed[interval], width = table->speed[interval + 1] - start;

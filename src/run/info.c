@@ -44,9 +44,14 @@ static bool info_scene(const char *path, const InfoOptions *options, FILE *out, 
         char value[1200];
         scene_key_value(&keys[k], scene, value, sizeof value);
         bool absent = !keys[k].standard && !scene->given[k];
+        if (keys[k].may_lack && absent) continue;
         fprintf(out, "  %-28s %s%s\n", keys[k].name, absent ? "-" : value,
                 scene->given[k] ? "" : "   (default)");
     }
+    if (friction_is_own(&scene->friction))
+        fprintf(out, "\nThe law's own mu at rest %.6g, lowest mu %.6g, v_c %.4g\n",
+                scene->friction.mu_static, scene->friction.mu_kinetic,
+                scene->friction.critical_velocity);
     fprintf(out, "\nThe mesh file is %s\n", scene->mesh.file);
     if (options->picture) TRY(info_scene_mesh(scene, options->picture, out, err));
 cleanup:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A contact node that slips alone gains energy when weakening gives it more than viscosity takes,
 //
-//     -mu' p w_i  >  S_C[t_i, t_i],     mu' the law's steepest, p the mean pressure, w_i the weight.
+//     -mu' p w_i  >  S_C[t_i, t_i],     mu' the steepest, p the mean pressure, w_i the weight.
 //
 // S_C of one node hardly depends on the mesh and w_i shrinks with it, so this is a matter of
 // element size: above it l_sc is shorter than an element.

@@ -4,10 +4,10 @@
 #include "contact/friction_look.h"
 
 #include <math.h>
-#include <stdio.h>
 
-bool scene_own_law(Scene *scene, Error *err)
+bool scene_own_law(Scene *scene, const char **key, Error *err)
 {
+    *key = "law";
     if (!friction_is_own(&scene->friction)) return true;
     const SceneNumbers *velocity = &scene->own_friction.velocity, *mu = &scene->own_friction.mu;
     double fastest = scene->own_friction.velocity_max;
@@ -22,10 +22,6 @@ bool scene_own_law(Scene *scene, Error *err)
         .parameters = scene->own_friction.parameters.value,
         .parameter_count = scene->own_friction.parameters.count,
         .end = fastest > 0 ? fastest : sqrt(scene->material.young / scene->material.density)};
-    const char *word = "law";
-    char key[40];
-    bool done = friction_own_law(&source, &scene->friction, &word, err) &&
-                friction_look(&scene->friction, err);
-    snprintf(key, sizeof key, "friction.%s", word);
-    return scene_blame(scene, key, done, err);
+    return friction_own_law(&source, &scene->friction, key, err) &&
+           friction_look(&scene->friction, err);
 }

@@ -6,7 +6,8 @@
 #include "scene/scene.h"
 
 // Completes scene->friction where it is a table, a formula or a plug-in; else does nothing.
-// ERROR_INPUT with file, line and key, and with the velocity where the law is not one to work with.
-bool scene_own_law(Scene *scene, Error *err);
+// *key: of the map `friction`, which is wrong (ERROR_INPUT, with the velocity where the law is not
+// one to work with).
+bool scene_own_law(Scene *scene, const char **key, Error *err);
 
 #endif

@@ -9,13 +9,9 @@
 #include "contact/friction_law.h"
 #include "io/mesh_file.h"
 #include "io/yaml_document.h"
+#include "scene/scene_values.h"
 
-enum {
-    SCENE_TEXT_SIZE = 512,
-    SCENE_LIST_MAX = 32,
-    SCENE_KEYS_MAX = 96,
-    SCENE_NUMBERS_MAX = 64
-};   // of scene/keys
+enum { SCENE_KEYS_MAX = 96 };   // of scene/keys
 
 typedef enum SceneUnits { UNITS_NORMALISED, UNITS_SI } SceneUnits;
 typedef enum ScenePlane { PLANE_STRESS, PLANE_STRAIN } ScenePlane;
@@ -30,30 +26,8 @@ typedef enum SceneScheme {
     SCHEME_EULER,
     SCHEME_SDIRK3
 } SceneScheme;
-typedef enum SceneInterpolation { INTERPOLATION_CUBIC, INTERPOLATION_LINEAR } SceneInterpolation;
 typedef enum SceneReduce { REDUCE_AUTO, REDUCE_ALWAYS, REDUCE_NEVER } SceneReduce;
 typedef enum SceneAccuracy { ACCURACY_DRAFT, ACCURACY_STANDARD, ACCURACY_FINE } SceneAccuracy;
-
-typedef struct SceneNames {
-    int32_t count;
-    char name[SCENE_LIST_MAX][GROUP_NAME_SIZE];
-} SceneNames;
-
-typedef struct SceneNumbers {
-    int32_t count;
-    double value[SCENE_NUMBERS_MAX];
-} SceneNumbers;
-
-typedef struct SceneTraction {
-    char group[GROUP_NAME_SIZE];
-    double x, z;   // stress
-} SceneTraction;
-
-// Nodes of a group that do not move along x, or z, or both.
-typedef struct SceneSupport {
-    char group[GROUP_NAME_SIZE];
-    bool x, z;
-} SceneSupport;
 
 typedef struct Scene {
     char path[SCENE_TEXT_SIZE];   // of the scene file, as given
@@ -74,13 +48,7 @@ typedef struct Scene {
         ScenePlane plane;
     } material;
     FrictionLaw friction;   // made of what follows, where it is one's own
-    struct {
-        SceneNumbers velocity, mu, parameters;
-        SceneInterpolation interpolation;
-        char formula[SCENE_TEXT_SIZE];
-        char file[SCENE_TEXT_SIZE];   // of a plug-in, resolved against the scene file's folder
-        double velocity_max;   // 0: the speed of sound
-    } own_friction;
+    SceneOwnFriction own_friction;
     struct {
         double radius;   // of the substrate's curvature; 0: flat
     } contact;

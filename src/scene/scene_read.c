@@ -277,13 +277,18 @@ cleanup:
 // When everything is gathered.
 static bool finish_reading(Reader *reader, const char *path, Scene *scene, Error *err)
 {
+    char key[KEY_NAME_SIZE];
+    const char *word;
+    bool done;
     TRY(store_settings(reader, scene, err));
     TRY(scene_check(scene, reader->sources, reader->file, err));
     if (!friction_has_drop(&scene->friction))
         scene->friction.mu_kinetic = scene->friction.mu_static;
     TRY(resolve_file(path, "mesh.file", scene->mesh.file, err));
     TRY(resolve_file(path, "friction.file", scene->own_friction.file, err));
-    TRY(scene_own_law(scene, err));
+    done = scene_own_law(scene, &word, err);
+    snprintf(key, sizeof key, "friction.%s", word);
+    TRY(scene_blame(scene, key, done, err));
 cleanup:
     return error_is_clean(err);
 }

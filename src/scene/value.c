@@ -36,8 +36,8 @@ static bool expect_scalar(const SceneKey *key, const SceneValue *value, Error *e
 
 typedef bool (*ValueSetter)(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err);
 
-// Hands each item of a list or map (`kind`), at most SCENE_LIST_MAX (numbers: SCENE_NUMBERS_MAX), to
-// `set`.
+// Hands each item of a list or map (`kind`), at most SCENE_LIST_MAX of them (of numbers
+// SCENE_NUMBERS_MAX), to `set`.
 static bool set_items(const SceneKey *key, const SceneValue *value, YamlKind kind, ValueSetter set,
                       Scene *scene, Error *err)
 {

@@ -143,8 +143,8 @@ static double sweep_free(ExplicitReference *scheme)
     return power[0] + power[1];
 }
 
-// w + strength mu(w) - free_speed, strength = (dt/m) r_n: what is too much of speed w for friction to
-// have left it of free_speed.
+// w + strength mu(w) - free_speed, strength = (dt/m) r_n: by how much speed w is more than what
+// friction leaves of free_speed.
 static double excess_speed(const FrictionLaw *law, double free_speed, double strength, double speed)
 {
     return speed + strength * friction_coefficient(law, speed) - free_speed;

@@ -9,7 +9,8 @@
 //                                            (linear law: (mu_S - mu_K) r_n / v_c below v_c).
 //
 // w > 0 is the node's weakening. Where the law strengthens, -w is a damper like any other, and is
-// counted among what resists. A soft rod node that touches has a spring and a damper of its own (contact/rod).
+// counted among what resists. A soft rod node that touches has a spring and a damper of its own
+// (contact/rod).
 // Called by stepping/certificate and stepping/growth.
 #ifndef AMONTONS_STEPPING_MOVING_SET_H
 #define AMONTONS_STEPPING_MOVING_SET_H

@@ -27,6 +27,8 @@ def allowed(folder, include):
     layer = folder.split("/")[0]
     if include == "amontons_error.h":
         return folder in ("base", "")   # what base/error.h shows to everybody
+    if include == "amontons_friction.h":
+        return folder in ("contact", "")   # what a plug-in and contact/friction_plugin share
     if include == "build_record.h":
         return layer == "run"   # generated
     if include in (*PUBLIC, "render/render.h") and layer in BELOW_SCENE:

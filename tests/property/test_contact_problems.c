@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "contact_by_hand.h"
 #include "dense_by_hand.h"
+#include "own_laws.h"
 
 static void random_loads(Random *random, HandContact *hand)
 {
@@ -60,6 +61,47 @@ static void test_large_problems(void **state)
     }
     for (int k = 0; k < 4; k++) assert_true(seen[k] > 200);   // the cases are not one-sided
     assert_true(touching > 50);
+}
+
+// A random table: it falls, and may rise again at each point.
+static FrictionLaw random_table(Random *random, double spacing, bool straight)
+{
+    enum { POINTS = 6 };
+    double velocity[POINTS] = {0}, mu[POINTS] = {random_between(random, 0.3, 0.5)};
+    for (int32_t k = 1; k < POINTS; k++) {
+        velocity[k] = velocity[k - 1] + spacing * random_between(random, 0.3, 1);
+        mu[k] = random_between(random, 0.2, 0.3);
+    }
+    return own_table(POINTS, velocity, mu, straight);
+}
+
+// The same with tables that weaken and strengthen, of cubics and of lines with a kink at each
+// point. Every other problem is small and has changes so steep that the path must be followed.
+static void test_own_laws(void **state)
+{
+    (void)state;
+    Random random = {.state = 32};
+    int32_t pieces[8] = {0};
+    int64_t rescued = 0;
+    for (int32_t trial = 0; trial < 200; trial++) {
+        bool small = trial % 4 < 2;
+        hand_contact_size(&hand, 1 + random_index(&random, small ? 6 : HAND_NODES), 2);
+        hand.law = random_table(&random, small ? 0.015 : 0.4, trial % 2);
+        hand_random_schur(&random, 3, 0.5, &hand);
+        random_loads(&random, &hand);
+        random_statuses(&random, &hand);
+        HandCounts counts;
+        if (!hand_contact_solve_by(&hand, true, &counts)) fail_msg("trial %d is not solved", trial);
+        rescued += counts.rescued;
+        assert_near("judged", hand_contact_error(&hand), 0, 1e-9);
+        for (int32_t i = 0; i < hand.interface.contact_count; i++)
+            if (status_slips(hand.status[i]))
+                pieces[friction_piece(&hand.law, fabs(hand.velocity[2 * i]))]++;
+    }
+    print_message("nodes on pieces 0 to 3: %d %d %d %d, %d by the path\n", pieces[0], pieces[1],
+                  pieces[2], pieces[3], (int)rescued);
+    for (int32_t k = 0; k < 3; k++) assert_true(pieces[k] > 20);
+    assert_true(rescued > 5);
 }
 
 // --- every combination of statuses --------------------------------------------------------------
@@ -254,6 +296,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_large_problems),
+        cmocka_unit_test(test_own_laws),
         cmocka_unit_test(test_small_coulomb_problems),
         cmocka_unit_test(test_small_weakening_problems),
         cmocka_unit_test(test_hard_problems),

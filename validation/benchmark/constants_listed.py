@@ -60,7 +60,6 @@ CONSTANTS = [
     *of("contact/contact_path.c",
         ("NEAR", "what counts as on the path, or on a bound, of the scales", "rounding, with room"),
         ("ASIDE", "how far Newton may lead from the tangent, of a step", HERE),
-        ("BEND", "how far a slip rate may go in a step, of v_c", HERE),
         ("RAY", "a path that has come so far does not come back", HERE),
         ("STEPS_EACH", "steps for each unknown, then the path is given up",
          "170 seen: 12 pads, friction 5"),
@@ -71,6 +70,7 @@ CONSTANTS = [
         ("SWEEPS_EACH", "sweeps of each node before a copy is renewed (time and rounding)", HERE),
         ("SINGULAR", "pivot, of its diagonal entry, below which nothing holds an open body", HERE)),
     *of("contact/friction_law.c",
+        ("BEND", "how far a slip rate may go in a step, of v_c", HERE),
         ("SPENT", "rate at which a node that starts fast is tried, of v_c, exponential law", HERE)),
     *of("contact/rod.c",
         ("END_SOFTNESS", "softness of the strip's end nodes", "validation/benchmark/precision.py")),
@@ -160,11 +160,22 @@ NOT_A_CHOICE = {
     "contact/contact_check.c": {"STILL": "rounding; the judge only reports"},
     "contact/contact_path.c": {
         "CONDITIONS": "a node has no more", "ALL": "a name", "NOWHERE": "a name"},
+    "contact/friction_law.c": {
+        "TURN": "the same as BEND for one's own law, which no case of the table has: chosen by "
+                "tests/property/test_contact_problems.c",
+        "KINDS": "of law", "NO": "a name", "MAY": "a name", "MUST": "a name",
+        "BETWEEN": "looks between two points", "DECADE": "looks", "DECADES": "looks"},
+    "contact/friction_look.c": {
+        "SAME": "rounding of a formula", "JUMP": "halved as long as it is larger",
+        "STEP": "of differences: half the digits", "SLOPE_ERROR": "that differences leave",
+        "CHANGED": "1 - 1/e: v_c of the exponential law", "SPENT_PART": "as of the exponential law"},
+    "contact/friction_table.h": {"FRICTION_POINTS_MAX": SIZE},
     "contact/interface.c": {"STRIP_TOLERANCE": ROUNDING},
     "contact/rod.c": {"PI": "pi"},
     "stepping/certificate.c": {"BETWEEN_RUNGS": "(sqrt 2 + 1/sqrt 2)/2: rungs double"},
     "stepping/explicit_reference.c": {
-        "BLOCK_SIZE": "two 2 x 2 blocks", "NODE_SIZE": "u and v of a node"},
+        "BLOCK_SIZE": "two 2 x 2 blocks", "NODE_SIZE": "u and v of a node",
+        "EXCESS_PARTS": "of an interval in which one's own law may have several roots"},
     "stepping/growth.h": {"GROWTH_KEPT": "rates shown", "GROWTH_SHIFTS_MAX": SIZE},
     "stepping/step_control.h": {"STEPS_LOOKED": "steps between looks whether a run gets on"},
     "stepping/step_control.c": {"STEPS_LEFT_MAX": "steps to go at which a run is given up"},

@@ -4,6 +4,7 @@
 #include "stepping/certificate.h"
 
 #include "certificate_rig.h"
+#include "own_laws.h"
 
 typedef struct Fixture {
     CertificateRig built;
@@ -41,8 +42,11 @@ static double least_eigenvalue(const Fixture *fixture, const double *schur, bool
         if (!contact && seen->rod_touches[k - 2 * interface->contact_count]) continue;
         if (status == CONTACT_STICK || (status != CONTACT_OPEN && !tangent)) continue;
         double speed = fabs(seen->slip_rate[k]);
-        if (status != CONTACT_OPEN && speed < fixture->built.rig.law.critical_velocity) {
-            const FrictionLaw *law = &fixture->built.rig.law;
+        const FrictionLaw *law = &fixture->built.rig.law;
+        if (status != CONTACT_OPEN && friction_is_own(law)) {
+            w[count] = -friction_slope(law, speed) * seen->reaction[k + 1];
+            *weakening = *weakening || w[count] > 0;
+        } else if (status != CONTACT_OPEN && speed < law->critical_velocity) {
             w[count] = (law->mu_static - law->mu_kinetic) / law->critical_velocity *
                        seen->reaction[k + 1];
             *weakening = true;
@@ -74,18 +78,13 @@ static void random_state(Random *random, double pressure, Fixture *fixture)
         seen->rod_touches[j] = (uint8_t)random_index(random, 2);
 }
 
-static void test_random_states(void **state)
+static void check_random_states(const RigDef *def, double scale)
 {
-    (void)state;
     Random random = {.state = 41};
-    RigDef def = rig_def();
-    def.rod_width = 0.5;   // two rod nodes
     Fixture fixture;
-    fixture_build(&def, &fixture);
+    fixture_build(def, &fixture);
     int32_t held = 0, cases = 0;
     for (int32_t trial = 0; trial < 300; trial++) {
-        // k p around eta: both answers are common.
-        double scale = def.law.critical_velocity / 0.28;
         random_state(&random, scale * random_between(&random, 0.1, 3), &fixture);
         bool weakens;
         double least = least_eigenvalue(&fixture, fixture.schur, &weakens);
@@ -97,6 +96,28 @@ static void test_random_states(void **state)
     assert_true(cases > 200 && held > 40 && held < cases - 40);
     assert_true(fixture.built.certificate.checks > 200);
     fixture_destroy(&fixture);
+}
+
+// k p around eta: both answers are common.
+static void test_random_states(void **state)
+{
+    (void)state;
+    RigDef def = rig_def();
+    def.rod_width = 0.5;   // two rod nodes
+    check_random_states(&def, def.law.critical_velocity / 0.28);
+}
+
+// A law that weakens, twice as steeply as it then strengthens: of random speeds a third has either,
+// and what strengthens helps the others to hold.
+static void test_strengthening(void **state)
+{
+    (void)state;
+    RigDef def = rig_def();
+    def.rod_width = 0.5;
+    const double velocity[] = {0, 1.7e-4, 3.4e-4, 6e-4}, mu[] = {0.38, 0.24, 0.1, 0.2};
+    def.law = own_table(4, velocity, mu, true);
+    assert_near("v_c", def.law.critical_velocity, 3.4e-4, 1e-12);
+    check_random_states(&def, 3.4e-4 / 0.28);
 }
 
 // One slipping node: lost exactly where (mu_S - mu_K) p w / v_c reaches S_C,tt.
@@ -148,6 +169,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_random_states),
+        cmocka_unit_test(test_strengthening),
         cmocka_unit_test(test_one_node),
         cmocka_unit_test(test_no_viscosity),
     };

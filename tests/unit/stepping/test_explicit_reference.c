@@ -4,6 +4,7 @@
 #include "stepping/explicit_reference.h"
 
 #include "contact/contact_check.h"
+#include "own_laws.h"
 #include "stepped_block.h"
 #include "stepping/stable_step.h"
 #include "stepping/step_control.h"
@@ -189,6 +190,48 @@ static void test_sled_stops(void **state)
     stepped_block_destroy(&block);
 }
 
+// The same sled under a law that weakens and strengthens again: its speed is that of Heun's method
+// for v' = -mu(v) P/(rho H). The block is soft, so its parts oscillate about the mean.
+static void test_sled_of_own_law(void **state)
+{
+    (void)state;
+    Error err = {0};
+    const double pressure = 0.001, mass = STEPPED_LENGTH * STEPPED_HEIGHT;
+    SteppedDef def = {.cells = 4,
+                      .pressure = pressure,
+                      .eta = 1,
+                      .law = own_formula("0.3 - 0.1 * tanh(v / 0.003) + 0.05 * tanh(v / 0.02)", 1),
+                      .rod_kind = ROD_AWAY};
+    SteppedBlock block;
+    Run run;
+    double step = 0, v = 0.02, time = 0, h = 1e-3;
+    stepped_block_build(&def, &block);
+    for (int32_t k = 0; k < block.state.dof_count; k += 2) block.state.velocity[k] = v;
+    bulk_operator_apply(&block.system, BULK_MASS, block.state.velocity, block.state.momentum);
+    assert_true(stable_step(&block.bulk, &step, &err));
+    run_start(&block, step, &run);
+    for (int32_t k = 0; k < 20; k++) {
+        double momentum = 0;
+        run_advance(&block, (int64_t)(1.5 / step), &run);
+        assert_true(judge(&block, &run) < 1e-9);
+        for (; time + h < block.state.time + 0.5 * h; time += h) {
+            double slowing[2], at = v;
+            for (int32_t s = 0; s < 2; s++) {
+                double mu = 0.3 - 0.1 * tanh(at / 0.003) + 0.05 * tanh(at / 0.02);
+                slowing[s] = mu * pressure * STEPPED_LENGTH / mass;
+                at = v - h * slowing[0];
+            }
+            v -= 0.5 * h * (slowing[0] + slowing[1]);
+        }
+        for (int32_t i = 0; i < block.state.dof_count; i += 2)
+            momentum += block.bulk.mass[i] * block.state.velocity[i];
+        assert_near("v", momentum / mass, v, 0.004 * 0.02);
+    }
+    assert_true(v < 0.01);
+    explicit_reference_destroy(&run.scheme);
+    stepped_block_destroy(&block);
+}
+
 // Stick-slip with each law, pushed and bonded: every observed step keeps the conditions exactly,
 // and all three statuses have been seen.
 static void test_conditions(void **state)
@@ -363,9 +406,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_order_elastic), cmocka_unit_test(test_order_viscous),
-        cmocka_unit_test(test_sled_stops),    cmocka_unit_test(test_conditions),
-        cmocka_unit_test(test_both_hold),     cmocka_unit_test(test_landing),
-        cmocka_unit_test(test_sudden_load),   cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_sled_stops),    cmocka_unit_test(test_sled_of_own_law),
+        cmocka_unit_test(test_conditions),    cmocka_unit_test(test_both_hold),
+        cmocka_unit_test(test_landing),       cmocka_unit_test(test_sudden_load),
+        cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,6 +3,7 @@
 // Coulomb friction and stops; under velocity weakening it runs away with the known growth rate,
 // which the certificate must see coming.
 #include "block_rig.h"
+#include "own_laws.h"
 
 static const double PRESSURE = 0.003, HEIGHT = 0.1;
 
@@ -125,11 +126,50 @@ static void test_runaway(void **state)
     rig_destroy(&rig);
 }
 
+// A law that weakens and strengthens again, under a shear between its lowest and its highest: the
+// block comes to the speed at which friction holds the balance, on the way that Heun's method finds
+// with steps of its own.
+static double acceleration(double shear, double v)
+{
+    return (shear - (0.1 + 0.28 * exp(-v / 3.4e-4) + 0.05 * log(1 + v / 1e-3))) * PRESSURE / HEIGHT;
+}
+
+static void test_strengthening(void **state)
+{
+    (void)state;
+    Error err = {0};
+    const double shear = 0.25, step = 2e-3;
+    RigDef def = stiff_def();
+    def.traction[0] = shear * PRESSURE;
+    StepControlDef steps = control_def(step);
+    BlockRig rig;
+    StepControl control;
+    def.law = own_formula("0.1 + 0.28 * exp(-v / 3.4e-4) + 0.05 * log(1 + v / 1e-3)", 0.1);
+    rig_build(&def, &rig);
+    assert_true(step_control_create(&rig.block, &steps, &control, &err));
+    settle(&control);
+    set_velocity(&control, 1e-3);   // past the static branch: 0.25 exceeds friction there
+    double v = mean_velocity(&control), time = 0, h = 1e-3, fastest = 0;
+    while (control.now.time < 4) {
+        assert_true(step_control_advance(&control, INFINITY, &err));
+        for (; time + h < control.now.time + 0.5 * h; time += h) {
+            double first = acceleration(shear, v), second = acceleration(shear, v + h * first);
+            v += 0.5 * h * (first + second);
+        }
+        fastest = fmax(fastest, fabs(mean_velocity(&control) - v));
+    }
+    assert_true(v > 5e-3);   // it ran a good way
+    assert_near("v", fastest, 0, 2e-6 * v);
+    step_control_destroy(&control);
+    rig_destroy(&rig);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_braking),
         cmocka_unit_test(test_runaway),
+        cmocka_unit_test(test_strengthening),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Values of keys that are more than a number or a word; parts of scene/scene.
+#ifndef AMONTONS_SCENE_SCENE_VALUES_H
+#define AMONTONS_SCENE_SCENE_VALUES_H
+
+#include "io/mesh_file.h"
+
+enum { SCENE_TEXT_SIZE = 512, SCENE_LIST_MAX = 32, SCENE_NUMBERS_MAX = 64 };
+
+typedef struct SceneNames {
+    int32_t count;
+    char name[SCENE_LIST_MAX][GROUP_NAME_SIZE];
+} SceneNames;
+
+typedef struct SceneNumbers {
+    int32_t count;
+    double value[SCENE_NUMBERS_MAX];
+} SceneNumbers;
+
+typedef struct SceneTraction {
+    char group[GROUP_NAME_SIZE];
+    double x, z;   // stress
+} SceneTraction;
+
+// Nodes of a group that do not move along x, or z, or both.
+typedef struct SceneSupport {
+    char group[GROUP_NAME_SIZE];
+    bool x, z;
+} SceneSupport;
+
+typedef enum SceneInterpolation { INTERPOLATION_CUBIC, INTERPOLATION_LINEAR } SceneInterpolation;
+
+// What the map `friction` has beside the kind of law and its three numbers.
+typedef struct SceneOwnFriction {
+    SceneNumbers velocity, mu, parameters;
+    SceneInterpolation interpolation;
+    char formula[SCENE_TEXT_SIZE];
+    char file[SCENE_TEXT_SIZE];   // of a plug-in, resolved against the scene file's folder
+    double velocity_max;   // 0: the speed of sound
+} SceneOwnFriction;
+
+#endif

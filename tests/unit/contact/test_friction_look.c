@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What is found of one's own law: the built-in laws written as formulas have their scales; what
+// cannot be a law is refused, with the velocity.
+#include "own_laws.h"
+
+static const FrictionLaw EXPONENTIAL = {.kind = FRICTION_EXPONENTIAL_WEAKENING,
+                                        .mu_static = 0.38,
+                                        .mu_kinetic = 0.1,
+                                        .critical_velocity = 3.4e-4};
+
+static void assert_same(const FrictionLaw *own, const FrictionLaw *known, double tolerance)
+{
+    double v_c = known->critical_velocity, steep = friction_steepest(known);
+    assert_near("mu_S", own->mu_static, known->mu_static, tolerance);
+    assert_near("mu_K", own->mu_kinetic, known->mu_kinetic, tolerance);
+    assert_near("v_c", own->critical_velocity, v_c, 1e-9 * v_c);
+    assert_near("spent", friction_spent_speed(own), friction_spent_speed(known), 1e-8 * v_c);
+    assert_near("steepest", friction_steepest(own), steep, 1e-12 * steep);
+    for (double v = 0; v < 8 * v_c; v += 0.037 * v_c) {
+        assert_near("mu", friction_coefficient(own, v), friction_coefficient(known, v), tolerance);
+        assert_near("slope", friction_slope(own, v), friction_slope(known, v), 1e-14 * steep);
+        assert_near("phi", friction_contact_density(own, v), friction_contact_density(known, v),
+                    1e-14);
+    }
+}
+
+static void test_known_laws(void **state)
+{
+    (void)state;
+    FrictionLaw law = own_formula("0.1 + 0.28 * exp(-v / 3.4e-4)", 1);
+    assert_same(&law, &EXPONENTIAL, 1e-16);
+    FrictionLaw linear = EXPONENTIAL;
+    linear.kind = FRICTION_LINEAR_WEAKENING;
+    law = own_formula("max(0.38 - 0.28 * v / 3.4e-4, 0.1)", 1);
+    assert_same(&law, &linear, 2e-16);
+    const double velocity[] = {0, 3.4e-4, 1}, mu[] = {0.38, 0.1, 0.1};
+    law = own_table(3, velocity, mu, true);
+    assert_same(&law, &linear, 2e-16);
+}
+
+// Numbers that the scene gives stay, to the bit.
+static void test_given(void **state)
+{
+    (void)state;
+    FrictionLaw given = EXPONENTIAL;
+    FrictionSource source = {
+        .end = 0.02,
+        .formula = "mu_kinetic + (mu_static - mu_kinetic) * exp(-v / critical_velocity)"};
+    given.kind = FRICTION_FORMULA;
+    FrictionLaw law = own_law(given, &source);
+    assert_near("mu_K", law.mu_kinetic, 0.1, 0);
+    assert_near("v_c", law.critical_velocity, 3.4e-4, 0);
+    assert_near("spent", law.spent, 5 * 3.4e-4, 0);
+    assert_near("end", friction_slope(&law, 0.02), 0, 0);
+}
+
+// Falls to its lowest at sqrt(a/b) - 1, rises to the end: closed form.
+static void test_strengthening(void **state)
+{
+    (void)state;
+    FrictionLaw law = own_formula("0.3 / (1 + v) + 0.01 * (1 + v)", 20);
+    double lowest_at = sqrt(30) - 1, lowest = 2 * sqrt(0.003);
+    assert_near("mu_S", law.mu_static, 0.31, 1e-15);
+    assert_near("mu_K", law.mu_kinetic, lowest, 1e-4);
+    assert_true(friction_weakens(&law, 0.99 * lowest_at));
+    assert_false(friction_weakens(&law, 1.01 * lowest_at));
+    assert_true(friction_slope(&law, 10) > 0);
+    // w = 0.3/(1 + v)^2 - 0.01: 1 - 1/e of 0.29 lost.
+    assert_near("v_c", law.critical_velocity, sqrt(0.3 / (0.29 / M_E + 0.01)) - 1, 1e-9);
+    FrictionLaw flat = own_formula("0.4", 1);
+    assert_near("no drop", friction_drop(&flat), 0, 0);
+    assert_near("no v_c", flat.critical_velocity, 0, 0);
+}
+
+static void test_refusals(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *formula, *words;
+    } known[] = {{"0.4 - 0.1 * v", "is -"},
+                 {"0.4 - 0.1 * v", "must not be negative"},
+                 {"0.3 + 0.1 * tanh(v)", "above that at rest, 0.3"},
+                 {"0.3 - 0.1 * sqrt(v)", "at velocity 0 the slope"},
+                 {"0.3 + 0.1 * log(v)", "at velocity 0 the coefficient is -inf"},
+                 {"0.3 - 0.1 * (v - 2) / abs(v - 2)", "at velocity 2 the coefficient jumps"},
+                 {"0.3 + 0 * exp(v * 300)", "not a finite number"},
+                 {"0.3 - 0.1 * abs(v) / v", "at velocity 0 the coefficient is"}};
+    for (size_t k = 0; k < sizeof known / sizeof known[0]; k++) {
+        Error err = {0};
+        const char *key = NULL;
+        FrictionLaw law = {.kind = FRICTION_FORMULA};
+        FrictionSource source = {.formula = known[k].formula, .end = 10};
+        assert_true(friction_own_law(&source, &law, &key, &err));
+        assert_false(friction_look(&law, &err));
+        assert_int_equal(err.code, ERROR_INPUT);
+        if (!strstr(err.message, known[k].words))
+            fail_msg("%s: \"%s\" lacks \"%s\"", known[k].formula, err.message, known[k].words);
+    }
+}
+
+// mu_static and mu_kinetic that are not those of the law.
+static void test_contradictions(void **state)
+{
+    (void)state;
+    for (int32_t k = 0; k < 2; k++) {
+        Error err = {0};
+        const char *key = NULL;
+        FrictionLaw law = {.kind = FRICTION_FORMULA, .mu_static = k ? 0 : 0.5, .mu_kinetic = 0.2};
+        FrictionSource source = {.formula = "0.1 + 0.3 * exp(-v)", .end = 10};
+        assert_true(friction_own_law(&source, &law, &key, &err));
+        assert_false(friction_look(&law, &err));
+        assert_non_null(strstr(err.message, k ? "mu_kinetic" : "mu_static is given as 0.5"));
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_known_laws), cmocka_unit_test(test_given),
+        cmocka_unit_test(test_strengthening), cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_contradictions)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

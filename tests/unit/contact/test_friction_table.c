@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Tables against the curve whose points they are: errors fall with the order, nothing overshoots,
+// slopes are those of differences.
+#include "own_laws.h"
+
+static double curve(double v)
+{
+    return 0.1 + 0.28 * exp(-v / 3.4e-4);
+}
+
+// The largest error of a table of `count` points of the exponential law.
+static double error_of(int32_t count, bool straight)
+{
+    double velocity[FRICTION_POINTS_MAX], mu[FRICTION_POINTS_MAX], worst = 0, end = 2e-3;
+    for (int32_t k = 0; k < count; k++) {
+        velocity[k] = end * k / (count - 1);
+        mu[k] = curve(velocity[k]);
+    }
+    FrictionLaw law = own_table(count, velocity, mu, straight);
+    for (int32_t k = 0; k < count; k++)
+        assert_near("a point", friction_coefficient(&law, velocity[k]), mu[k], 1e-15);
+    for (double v = 0; v < end; v += end / 3000)
+        worst = fmax(worst, fabs(friction_coefficient(&law, v) - curve(v)));
+    return worst;
+}
+
+static void test_orders(void **state)
+{
+    (void)state;
+    for (int32_t straight = 0; straight < 2; straight++) {
+        double order = log2(error_of(32, straight) / error_of(63, straight));
+        assert_in_range((int)(100 * order), straight ? 185 : 280, straight ? 205 : 320);
+    }
+    assert_true(error_of(63, false) < 2e-4 * 0.28);
+}
+
+// A law that falls, rises again and has steps of very different size: monotone between points, and
+// the slope is that of mu.
+static void test_monotone(void **state)
+{
+    (void)state;
+    enum { COUNT = 8 };
+    const double velocity[COUNT] = {0, 1e-4, 1.5e-4, 1e-3, 1.1e-3, 4e-3, 1e-2, 3e-2};
+    const double mu[COUNT] = {0.5, 0.499, 0.3, 0.12, 0.12, 0.119, 0.2, 0.35};
+    for (int32_t straight = 0; straight < 2; straight++) {
+        FrictionLaw law = own_table(COUNT, velocity, mu, straight);
+        for (int32_t k = 0; k + 1 < COUNT; k++) {
+            double width = velocity[k + 1] - velocity[k], h = 1e-6 * width;
+            for (double s = 0.01; s < 1; s += 0.01) {
+                double v = velocity[k] + s * width, slope = friction_slope(&law, v);
+                double rise = mu[k + 1] - mu[k], here = friction_coefficient(&law, v);
+                assert_true(slope * rise >= -1e-12);
+                assert_true((here - mu[k]) * rise >= 0 && (mu[k + 1] - here) * rise >= 0);
+                double difference =
+                    (friction_coefficient(&law, v + h) - friction_coefficient(&law, v - h)) /
+                    (2 * h);
+                assert_near("slope", slope, difference, 1e-7 * law.steepest);
+            }
+        }
+        assert_near("beyond", friction_coefficient(&law, 1), 0.35, 1e-15);
+        assert_near("beyond", friction_slope(&law, 0.03), 0, 0);
+    }
+}
+
+// Two points are a line for both kinds; pieces of straight tables are lines of their own.
+static void test_pieces(void **state)
+{
+    (void)state;
+    const double velocity[] = {0, 1, 3}, mu[] = {0.5, 0.2, 0.4};
+    double slope;
+    FrictionLaw two = own_table(2, velocity, mu, false), law = own_table(3, velocity, mu, true);
+    assert_near("two", friction_coefficient(&two, 0.25), 0.425, 1e-15);
+    assert_near("end", friction_kink(&two, 0), 1, 0);
+    assert_int_equal(friction_piece(&law, 0.5), 0);
+    assert_int_equal(friction_piece(&law, 1), 1);
+    assert_int_equal(friction_piece(&law, 7), 2);
+    assert_near("first, beyond", friction_branch(&law, 0, 2, &slope), -0.1, 1e-12);
+    assert_near("slope", slope, -0.3, 1e-12);
+    assert_near("second, before", friction_branch(&law, 1, 0, &slope), 0.1, 1e-12);
+    assert_near("slope", slope, 0.1, 1e-12);
+    assert_near("last, before", friction_branch(&law, 2, 0, &slope), 0.4, 1e-15);
+    assert_near("slope", slope, 0, 0);
+    assert_true(isinf(friction_kink(&law, 2)));
+}
+
+static void check_refused(int32_t count, const double *velocity, const double *mu, int32_t mu_count,
+                          const char *key, const char *words)
+{
+    Error err = {0};
+    FrictionLaw law = {.kind = FRICTION_TABLE};
+    FrictionSource source = {
+        .velocity = velocity, .velocity_count = count, .mu = mu, .mu_count = mu_count};
+    const char *found = NULL;
+    assert_false(friction_own_law(&source, &law, &found, &err) && friction_look(&law, &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+    assert_string_equal(found, key);
+    if (!strstr(err.message, words)) fail_msg("\"%s\" lacks \"%s\"", err.message, words);
+}
+
+static void test_refusals(void **state)
+{
+    (void)state;
+    const double up[] = {0, 1, 2}, back[] = {0, 2, 1}, late[] = {1, 2, 3};
+    const double fine[] = {0.4, 0.2, 0.3}, high[] = {0.4, 0.2, 0.5};
+    check_refused(1, up, fine, 1, "velocity", "2 to 64");
+    check_refused(3, late, fine, 3, "velocity", "begins with 1");
+    check_refused(3, back, fine, 3, "velocity", "1 stands after 2");
+    check_refused(3, up, fine, 2, "mu", "has 2 numbers, friction.velocity has 3");
+    check_refused(3, up, high, 3, "mu", "above that at rest, 0.4");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_orders), cmocka_unit_test(test_monotone),
+        cmocka_unit_test(test_pieces), cmocka_unit_test(test_refusals)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
