@@ -134,8 +134,11 @@ int option_count(const char *name, const char *word, int32_t low, int32_t high, 
 
 Option option_trust(bool *trusted)
 {
-    return (Option){"trust", 0, NULL, "Also use a .geo that runs commands or writes files",
-                    .flag = trusted};
+    return (Option){
+        "trust", 0, NULL,
+        "Also use a .geo that runs commands or writes files, and a friction law that is a "
+        "plug-in",
+        .flag = trusted};
 }
 
 void trust_meshes(void)

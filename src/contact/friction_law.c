@@ -156,9 +156,15 @@ bool friction_has_drop(const FrictionLaw *law)
     return false;
 }
 
+// Of a law that has one.
+static inline double drop_of(const FrictionLaw *law)
+{
+    return law->mu_static - law->mu_kinetic;
+}
+
 double friction_drop(const FrictionLaw *law)
 {
-    return friction_has_drop(law) ? law->mu_static - law->mu_kinetic : 0;
+    return friction_has_drop(law) ? drop_of(law) : 0;
 }
 
 double friction_slip(const FrictionLaw *law, double pressure, double height, double young)
@@ -189,20 +195,34 @@ static double own_law(const FrictionLaw *law, double speed, double *slope)
     return mu;
 }
 
+// Two functions that are not inlined: the built-in laws, asked some million times in a run, need no
+// stack.
+static __attribute__((noinline)) double own_coefficient(const FrictionLaw *law, double speed)
+{
+    double ignored;
+    return own_law(law, speed, &ignored);
+}
+
+static __attribute__((noinline)) double own_slope(const FrictionLaw *law, double speed)
+{
+    double slope;
+    own_law(law, speed, &slope);
+    return slope;
+}
+
 // Continuous at v_c, where the linear law has its kink.
 double friction_coefficient(const FrictionLaw *law, double speed)
 {
-    double ignored;
     switch (law->kind) {
     case FRICTION_LINEAR_WEAKENING:
         if (speed >= law->critical_velocity) return law->mu_kinetic;
-        return law->mu_static - friction_drop(law) * speed / law->critical_velocity;
+        return law->mu_static - drop_of(law) * speed / law->critical_velocity;
     case FRICTION_EXPONENTIAL_WEAKENING:
-        return law->mu_kinetic + friction_drop(law) * exp(-speed / law->critical_velocity);
+        return law->mu_kinetic + drop_of(law) * exp(-speed / law->critical_velocity);
     case FRICTION_TABLE:
     case FRICTION_FORMULA:
     case FRICTION_PLUGIN:
-        return own_law(law, speed, &ignored);
+        return own_coefficient(law, speed);
     case FRICTION_COULOMB:
         break;
     }
@@ -213,17 +233,15 @@ double friction_coefficient(const FrictionLaw *law, double speed)
 // more.
 double friction_slope(const FrictionLaw *law, double speed)
 {
-    double slope;
     switch (law->kind) {
     case FRICTION_LINEAR_WEAKENING:
-        return speed < law->critical_velocity ? -friction_drop(law) / law->critical_velocity : 0.0;
+        return speed < law->critical_velocity ? -drop_of(law) / law->critical_velocity : 0.0;
     case FRICTION_EXPONENTIAL_WEAKENING:
-        return -friction_drop(law) / law->critical_velocity * exp(-speed / law->critical_velocity);
+        return -drop_of(law) / law->critical_velocity * exp(-speed / law->critical_velocity);
     case FRICTION_TABLE:
     case FRICTION_FORMULA:
     case FRICTION_PLUGIN:
-        own_law(law, speed, &slope);
-        return slope;
+        return own_slope(law, speed);
     case FRICTION_COULOMB:
         break;
     }
@@ -305,6 +323,11 @@ bool friction_is_straight(const FrictionLaw *law, int32_t piece, double from, do
 bool friction_weakens(const FrictionLaw *law, double speed)
 {
     return friction_slope(law, speed) < 0.0;
+}
+
+bool friction_strengthens(const FrictionLaw *law)
+{
+    return friction_is_own(law) && law->strengthens;
 }
 
 // Of v_c: where exp(-5) is left of the exponential law's drop, under 1 %.

@@ -43,6 +43,7 @@ typedef struct FrictionLaw {
     double end;   // beyond this speed mu stays, velocity
     double steepest;   // the largest -mu'(v), one over a velocity
     double spent;   // friction_spent_speed, velocity
+    bool strengthens;   // at some speed a faster slip meets more friction
     union {
         FrictionTable table;
         Formula formula;   // of v
@@ -97,6 +98,9 @@ bool friction_is_straight(const FrictionLaw *law, int32_t piece, double from, do
 
 // Still weakening at this speed: a faster slip meets less friction.
 bool friction_weakens(const FrictionLaw *law, double speed);
+
+// At some speed a faster slip meets more friction.
+bool friction_strengthens(const FrictionLaw *law);
 
 // From about this speed on next to nothing weakens any more (linear law: nothing), velocity; 0
 // where nothing weakens.

@@ -109,7 +109,7 @@ static double find_spent(const FrictionLaw *law)
 // are looked at from both ends, and inside.
 bool friction_look(FrictionLaw *law, Error *err)
 {
-    double given = law->mu_static, before = 0, speed, lowest = INFINITY, lowest_at = 0;
+    double given = law->mu_static, before = 0, speed, lowest = INFINITY, lowest_at = 0, rise = 0;
     law->mu_static = friction_coefficient(law, 0);
     law->steepest = 0;
     for (int32_t k = 0; isfinite(speed = friction_look_speed(law, k)); k++) {
@@ -117,6 +117,7 @@ bool friction_look(FrictionLaw *law, Error *err)
         if (k > 0) TRY(is_continuous(law, before, speed, err));
         if (k > 0 && speed < law->end) TRY(slope_fits(law, speed, err));
         law->steepest = fmax(law->steepest, weakening(law, speed));
+        rise = fmax(rise, friction_slope(law, speed));
         if (friction_coefficient(law, speed) < lowest) lowest_at = speed;
         lowest = fmin(lowest, friction_coefficient(law, speed));
         before = speed;
@@ -132,6 +133,7 @@ bool friction_look(FrictionLaw *law, Error *err)
     if (!(law->mu_kinetic > 0)) law->mu_kinetic = lowest;
     law->mu_kinetic = fmin(law->mu_kinetic, law->mu_static);
     if (!(law->critical_velocity > 0)) law->critical_velocity = find_critical(law);
+    law->strengthens = rise > SAME * law->steepest;
     law->spent = law->steepest > 0 ? find_spent(law) : 0;
 cleanup:
     return error_is_clean(err);

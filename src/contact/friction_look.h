@@ -7,7 +7,7 @@
 #include "contact/friction_law.h"
 
 // law: kind, end and own are set; mu_static, mu_kinetic and critical_velocity as the scene gives
-// them, 0 where it does not. Sets these three, steepest and spent:
+// them, 0 where it does not. Sets these three, and what else of its shape is kept:
 //
 //   mu_S   mu(0)
 //   mu_K   the lowest coefficient

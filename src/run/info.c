@@ -41,7 +41,7 @@ static bool info_scene(const char *path, const InfoOptions *options, FILE *out, 
     TRY(amontons_scene_read(path, options->overrides, options->override_count, &scene, err));
     fprintf(out, "scene %s\n  %s\n\n", path, *scene->title ? scene->title : "(no title)");
     for (int32_t k = 0; k < count; k++) {
-        char value[1200];
+        char value[2000];
         scene_key_value(&keys[k], scene, value, sizeof value);
         bool absent = !keys[k].standard && !scene->given[k];
         if (keys[k].may_lack && absent) continue;

@@ -39,6 +39,13 @@ static bool check_scene(const Scene *scene, Error *err)
              "weakening friction.law (this one is `%s`) with friction.mu_static above "
              "friction.mu_kinetic",
              path, friction_law_name(&scene->friction));
+    if (friction_strengthens(&scene->friction))
+        FAIL(
+            err, ERROR_INPUT,
+            "%s: friction.law: the 1D model's closed forms take a line that has slid to be left at "
+            "mu_kinetic; this `%s` strengthens again at faster slip (`amontons stability` and "
+            "`run` take it)",
+            path, friction_law_name(&scene->friction));
     if (!(scene->load.pressure > 0))
         FAIL(err, ERROR_INPUT, "%s: the 1D model needs load.pressure above 0", path);
     if (scene->load.traction_count > 0 || scene->load.support_count > 0)

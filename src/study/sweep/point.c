@@ -15,7 +15,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { VALUE_SIZE = 8192, REPORT_BYTES_MAX = 1 << 28 };
+enum { VALUE_SIZE = 8192, REPORT_BYTES_MAX = 1 << 28, PLUGIN_BYTES_MAX = 1 << 28 };
 
 // The content of the mesh file decides, not its path; where it draws on others, the mesh that gmsh
 // makes of it with this point's parameters, every time.
@@ -39,6 +39,19 @@ cleanup:
     return error_is_clean(err);
 }
 
+// The functions of a friction law that is a plug-in, by the content of its file.
+static bool hash_plugin(const Scene *scene, Hash *hash, Error *err)
+{
+    char *bytes = NULL;
+    int32_t size = 0;
+    if (!*scene->own_friction.file) return true;
+    TRY(text_file_read(scene->own_friction.file, PLUGIN_BYTES_MAX, &bytes, &size, err));
+    hash_bytes(hash, bytes, (size_t)size);
+cleanup:
+    memory_free(bytes);
+    return error_is_clean(err);
+}
+
 // Numbers by their bits, the mesh by its content; the title and the path of the mesh do not count.
 bool point_hash(const Scene *scene, PointMesh *mesh, char text[HASH_TEXT_SIZE], Error *err)
 {
@@ -50,6 +63,7 @@ bool point_hash(const Scene *scene, PointMesh *mesh, char text[HASH_TEXT_SIZE], 
     TRY(hash_mesh(scene, mesh, err));
     hash_text(&hash, AMONTONS_VERSION);
     hash_bytes(&hash, &mesh->hash, sizeof mesh->hash);
+    TRY(hash_plugin(scene, &hash, err));
     for (int32_t k = 0; k < count; k++) {
         const void *field = (const char *)scene + keys[k].offset;
         bool counts = strcmp(keys[k].name, "title") != 0 && strcmp(keys[k].name, "mesh.file") != 0;
