@@ -29,6 +29,11 @@ def run(*words, status=(0,)):
     return done
 
 
+def headers_of(source):
+    """The library's; amontons_friction.h says what a plug-in defines."""
+    return sorted(header for header in source.glob("amontons*.h") if header.name != "amontons_friction.h")
+
+
 def library_of_headers(folder, headers):
     """A library with every function that the headers declare, empty, to be looked at only: what the real one has besides
     (its own structs) is nobody's business, and that it fits the headers its compiler has checked."""
@@ -47,7 +52,7 @@ def describe(folder, source=SOURCE / "src"):
     """The ABI as abidw has it, with nothing of this machine."""
     output = folder / "now.abi"
     run("abidw", "--no-corpus-path", "--no-comp-dir-path", "--no-show-locs", "--out-file", output,
-        library_of_headers(folder, sorted(source.glob("amontons*.h"))))
+        library_of_headers(folder, headers_of(source)))
     return output
 
 
