@@ -10,6 +10,7 @@
 #include "io/part_file.h"
 
 #include <fcntl.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -188,4 +189,15 @@ const double *cache_file_array(const CacheFile *file, const char *name, int64_t 
         return count < 0 || array->count == count ? array->values : NULL;
     }
     return NULL;
+}
+
+bool cache_file_whole(const CacheFile *file, const char *name, int32_t count, double limit,
+                      int32_t *values)
+{
+    const double *stored = cache_file_array(file, name, count);
+    for (int32_t k = 0; stored && k < count; k++) {
+        if (!(stored[k] >= 0 && stored[k] < limit) || stored[k] != floor(stored[k])) return false;
+        values[k] = (int32_t)stored[k];
+    }
+    return stored != NULL;
 }

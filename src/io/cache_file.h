@@ -46,4 +46,10 @@ void cache_file_destroy(CacheFile *file);
 // The array called `name`, or NULL; `count` is checked when it is not negative.
 const double *cache_file_array(const CacheFile *file, const char *name, int64_t count);
 
+// The same as whole numbers into `values` [count]. false: it is missing, or one of them is not
+// whole, below 0, or not below `limit` (a checksum says nothing about who wrote the file).
+bool cache_file_whole(const CacheFile *file, const char *name, int32_t count, double limit,
+                      int32_t *values);
+enum { CACHE_COUNT_LIMIT = 1 << 28 };   // of what arrays are counted by
+
 #endif

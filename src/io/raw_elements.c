@@ -67,6 +67,7 @@ static int compare_nodes(const void *a, const void *b)
 static void drop_copies(RawElements *elements)
 {
     int32_t kept = 0;
+    if (elements->count == 0) return;   // no array to sort
     qsort(elements->items, (size_t)elements->count, sizeof *elements->items, compare_nodes);
     for (int32_t k = 0; k < elements->count; k++) {
         const RawElement *item = &elements->items[k];

@@ -27,13 +27,13 @@ static bool borrow(const CacheFile *file, const char *name, int64_t count, doubl
 // false: an array is missing or of another length. The matrices stay where they were read to.
 static bool take_basis(CacheFile *file, ReducedBulk *reduced)
 {
-    const double *counts = cache_file_array(file, "counts", COUNTS);
-    if (!counts || !(counts[3] >= 0 && counts[3] <= REDUCTION_LEVELS_MAX)) return false;
-    ReducedBulk found = {.full_dofs = (int32_t)counts[0],
-                         .interface_count = (int32_t)counts[1],
-                         .interior_count = (int32_t)counts[2]};
+    int32_t counts[COUNTS];
+    if (!cache_file_whole(file, "counts", COUNTS, CACHE_COUNT_LIMIT, counts)) return false;
+    if (counts[3] > REDUCTION_LEVELS_MAX) return false;
+    ReducedBulk found = {
+        .full_dofs = counts[0], .interface_count = counts[1], .interior_count = counts[2]};
     found.count = found.interface_count + found.interior_count;
-    found.errors.count = (int32_t)counts[3];
+    found.errors.count = counts[3];
     int64_t m = found.interface_count, all = found.count, levels = found.errors.count;
     const double *inertia = cache_file_array(file, "inertia", levels);
     const double *error = cache_file_array(file, "error", levels);

@@ -90,15 +90,13 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Indices travel as doubles: exact up to 2^53.
-static bool read_indices(const CacheFile *file, const char *name, int32_t count, int32_t **out,
-                         Error *err)
+// Indices travel as doubles: exact up to 2^53. limit: what they are below.
+static bool read_indices(const CacheFile *file, const char *name, int32_t count, double limit,
+                         int32_t **out, Error *err)
 {
-    const double *values = cache_file_array(file, name, count);
-    if (!values) return false;
+    if (!cache_file_array(file, name, count)) return false;
     *out = NEW_ARRAY(int32_t, count, err);
-    for (int32_t k = 0; *out && k < count; k++) (*out)[k] = (int32_t)values[k];
-    return *out != NULL;
+    return *out && cache_file_whole(file, name, count, limit, *out);
 }
 
 // Copies: the file's bytes go when it is closed. false without an error: not there, or not so long.
@@ -128,29 +126,33 @@ static bool read_names(const CacheFile *file, Interface *interface, Error *err)
 // false without an error: an array is missing or of another length.
 static bool read_shape(const CacheFile *file, Shape *shape, Error *err)
 {
-    const double *counts = cache_file_array(file, "counts", COUNTS);
+    int32_t counts[COUNTS];
     const double *sizes = cache_file_array(file, "sizes", sizeof(ShapeSizes) / sizeof(double));
     const double *basis = cache_file_array(file, "basis", BASIS_NUMBERS);
     const double *face = cache_file_array(file, "rod_face", 2);
-    if (!counts || !sizes || !basis || !face) return false;
+    if (!cache_file_whole(file, "counts", COUNTS, CACHE_COUNT_LIMIT, counts)) return false;
+    if (!sizes || !basis || !face) return false;
     memcpy(&shape->sizes, sizes, sizeof shape->sizes);
+    double dofs = shape->sizes.full_dofs, nodes = dofs / 2;
+    if (!(dofs < INT32_MAX && shape->sizes.elements >= 0 && shape->sizes.elements < INT32_MAX))
+        return false;
     memcpy(shape->basis, basis, HASH_TEXT_SIZE);
     shape->basis[HASH_TEXT_SIZE - 1] = 0;
     Interface *interface = &shape->interface;
-    interface->contact_count = (int32_t)counts[0];
-    interface->rod_count = (int32_t)counts[1];
-    interface->pad_count = (int32_t)counts[2];
+    interface->contact_count = counts[0];
+    interface->rod_count = counts[1];
+    interface->pad_count = counts[2];
     interface->count = 2 * interface->contact_count + interface->rod_count;
     memcpy(interface->rod_face, face, sizeof interface->rod_face);
-    return read_indices(file, "node", interface->contact_count, &interface->node, err) &&
+    return read_indices(file, "node", interface->contact_count, nodes, &interface->node, err) &&
            read_numbers(file, "x", interface->contact_count, &interface->x, err) &&
            read_numbers(file, "weight", interface->contact_count, &interface->weight, err) &&
-           read_indices(file, "pad", interface->contact_count, &interface->pad, err) &&
+           read_indices(file, "pad", interface->contact_count, counts[2], &interface->pad, err) &&
            read_names(file, interface, err) &&
-           read_indices(file, "rod_node", interface->rod_count, &interface->rod_node, err) &&
+           read_indices(file, "rod_node", interface->rod_count, nodes, &interface->rod_node, err) &&
            read_numbers(file, "rod_z", interface->rod_count, &interface->rod_z, err) &&
            read_numbers(file, "rod_share", interface->rod_count, &interface->rod_share, err) &&
-           read_indices(file, "dofs", interface->count, &interface->dofs, err) &&
+           read_indices(file, "dofs", interface->count, dofs, &interface->dofs, err) &&
            read_numbers(file, "rotation", interface->count, &shape->rotation, err);
 }
 

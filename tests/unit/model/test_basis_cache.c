@@ -154,8 +154,11 @@ static void test_missing_arrays(void **state)
     snprintf(path, sizeof path, "%s/%s.basis", folder, NAME);
     double counts[4] = {DOFS, M, ALL - M, LEVELS}, few[LEVELS] = {0};
     CacheArray arrays[] = {{"counts", 4, counts}, {"inertia", LEVELS, few}, {"error", LEVELS, few}};
-    for (int trial = 0; trial < 2; trial++) {
-        counts[3] = trial ? 1e9 : LEVELS;   // more levels than there is room for
+    // More levels than there is room for; counts that are none, of which fuzzing found the first.
+    static const double bad[] = {LEVELS, 1e9, 1e103, -1, 0.5, NAN};
+    for (size_t trial = 0; trial < sizeof bad / sizeof *bad; trial++) {
+        counts[3] = bad[trial];
+        counts[1] = trial < 2 ? M : bad[trial];
         assert_true(cache_file_write(path, NAME, arrays, 3, &err));
         assert_false(load(NAME, false, &read, note));
         assert_string_equal(note, "a cached basis is not used: an array is missing");
