@@ -294,3 +294,38 @@ bool interface_operator_expand(InterfaceOperator *condensed, const double *inter
     dense_apply((DenseView){condensed->map, r, m}, interface, -1, 1, v + m);
     return true;
 }
+
+void bulk_operator_archive(BulkOperator *system, Archive *archive)
+{
+    archive_section(archive, "bulk");
+    archive_numbers(archive, system->load, system->dof_count);
+    archive_count(archive, &system->factorisations);
+    archive_count(archive, &system->solves);
+}
+
+static void hash_numbers(Hash *hash, const double *numbers, int64_t count)
+{
+    hash_bytes(hash, numbers, (size_t)count * sizeof(double));
+}
+
+// A reduced state is in coordinates of its basis: the same mesh reduced on another computer may
+// have another one.
+void bulk_operator_hash(const BulkOperator *system, Hash *hash)
+{
+    const Bulk *bulk = system->bulk;
+    const ReducedBulk *reduced = system->reduced;
+    hash_bytes(hash, &system->dof_count, sizeof system->dof_count);
+    hash_bytes(hash, system->interface_dofs,
+               (size_t)system->interface_count * sizeof *system->interface_dofs);
+    if (bulk) {
+        int64_t entries = bulk->pattern.start[bulk->dof_count];
+        hash_numbers(hash, bulk->mass, bulk->dof_count);
+        hash_numbers(hash, bulk->stiffness, entries);
+        hash_numbers(hash, bulk->damping, entries);
+    } else {
+        int64_t m = reduced->interface_count, all = reduced->count;
+        hash_numbers(hash, reduced->mass, all * all);
+        hash_numbers(hash, reduced->damping, all * all);
+        hash_numbers(hash, reduced->stiffness, m * m);
+    }
+}

@@ -10,6 +10,8 @@
 #ifndef AMONTONS_BULK_INTERFACE_OPERATOR_H
 #define AMONTONS_BULK_INTERFACE_OPERATOR_H
 
+#include "base/archive.h"
+#include "base/hash.h"
 #include "bulk/assembly.h"
 #include "bulk/reduced_bulk.h"
 
@@ -76,5 +78,10 @@ bool interface_operator_condense(InterfaceOperator *condensed, const double *rhs
 // v_b [interface_count] -> v [dof_count]
 bool interface_operator_expand(InterfaceOperator *condensed, const double *interface, double *v,
                                Error *err);
+
+// The load, which a caller may have changed, and the counters; all else is the model's.
+void bulk_operator_archive(BulkOperator *system, Archive *archive);
+// What a state of it depends on: a state of another bulk means nothing here.
+void bulk_operator_hash(const BulkOperator *system, Hash *hash);
 
 #endif

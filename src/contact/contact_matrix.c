@@ -12,6 +12,8 @@
 
 // Of both unknowns of every node: sweeps after which the copy is made anew.
 static const int32_t SWEEPS_EACH = 8;
+// Of an unknown, at most, before the copy is renewed: those, and one of each after the last look.
+enum { SWEEPS_KEPT = 9 };
 // Part of its diagonal entry that is left of an unknown when the others of O are held, at least: a
 // body that nothing holds has 0, up to rounding; one that a step's mass holds has far more.
 static const double SINGULAR = 1e-8;
@@ -25,6 +27,7 @@ bool contact_matrix_create(const double *schur, int32_t count, ContactMatrix *ma
     matrix->work = NEW_ARRAY(double, count, err);
     matrix->factors = memory_bytes(bytes, err);
     matrix->pivots = NEW_ARRAY(int32_t, count, err);
+    matrix->order = NEW_ARRAY(int32_t, SWEEPS_KEPT * (int64_t)count, err);
     matrix->status = NEW_ARRAY(uint8_t, count, err);
     return error_is_clean(err);
 }
@@ -36,6 +39,7 @@ void contact_matrix_destroy(ContactMatrix *matrix)
     memory_free(matrix->work);
     memory_free(matrix->factors);
     memory_free(matrix->pivots);
+    memory_free(matrix->order);
     memory_free(matrix->status);
     *matrix = (ContactMatrix){0};
 }
@@ -58,7 +62,7 @@ static bool sweep_unknown(ContactMatrix *matrix, int32_t k)
     if (back ? !(pivot < 0) : !(pivot > SINGULAR * matrix->schur[entry])) return false;
     if (!dense_sweep(matrix->closed, matrix->count, k, back, matrix->work)) return false;
     matrix->out[k] = !back;
-    matrix->swept++;
+    matrix->order[matrix->swept++] = k;
     matrix->sweeps++;
     return true;
 }
@@ -78,4 +82,38 @@ const double *contact_matrix_close(ContactMatrix *matrix, const uint8_t *status,
         }
     }
     return matrix->closed;
+}
+
+// The same sweeps of the same S in the same order: the copy to the last bit, in far less room.
+static void repeat_sweeps(ContactMatrix *matrix, int32_t swept, Archive *archive)
+{
+    renew_copy(matrix);
+    for (int32_t k = 0; k < swept && !archive->failed; k++) {
+        if (!sweep_unknown(matrix, matrix->order[k])) archive->failed = true;
+    }
+}
+
+void contact_matrix_archive(ContactMatrix *matrix, int64_t last, Archive *archive)
+{
+    int32_t swept = matrix->swept, rows = matrix->rows;
+    int64_t sweeps = matrix->sweeps, factored = matrix->factored == last ? last : 0;
+    archive_section(archive, "contact matrix");
+    archive_index(archive, &swept, -1, SWEEPS_KEPT * matrix->count + 1);
+    if (archive->failed) return;
+    if (swept > 0) archive_indices(archive, matrix->order, swept, 0, matrix->count);
+    archive_count(archive, &sweeps);
+    archive_count(archive, &factored);
+    if (factored > 0) {
+        archive_index(archive, &rows, 0, matrix->count + 1);
+        if (archive->failed) return;
+        archive_numbers(archive, matrix->factors, (int64_t)rows * rows);
+        archive_indices(archive, matrix->pivots, rows, 1, rows + 1);
+        archive_octets(archive, matrix->status, matrix->count);
+    }
+    if (!archive_reads(archive)) return;
+    matrix->factored = factored;
+    matrix->rows = rows;
+    matrix->swept = -1;
+    if (swept >= 0) repeat_sweeps(matrix, swept, archive);
+    matrix->sweeps = sweeps;
 }

@@ -13,7 +13,7 @@
 #ifndef AMONTONS_CONTACT_CONTACT_MATRIX_H
 #define AMONTONS_CONTACT_CONTACT_MATRIX_H
 
-#include "base/error.h"
+#include "base/archive.h"
 
 #include <stdint.h>
 
@@ -25,10 +25,12 @@ typedef struct ContactMatrix {
     double *work;   // [count]
     int32_t swept;   // sweeps since `closed` was copied from S; -1: it is no copy
     int64_t sweeps;   // counted
+    int32_t *order;   // [swept] the unknowns swept since then: rounding depends on it
     // Kept by contact/contact_solver: LU of the derivative, and the statuses that it is for.
     double *factors;   // [count^2]
     int32_t *pivots;   // [count]
     uint8_t *status;   // [contact_count + rod_count <= count] ContactStatus, rod_touches
+    int32_t rows;   // of the derivative
     int64_t factored;   // which of the solver's factorisations made it; 0: none is kept
 } ContactMatrix;
 
@@ -41,5 +43,9 @@ void contact_matrix_destroy(ContactMatrix *matrix);
 // same is asked for with other statuses. NULL: S_OO is nearly singular, nothing holds those nodes.
 const double *contact_matrix_close(ContactMatrix *matrix, const uint8_t *status,
                                    int32_t contact_count);
+
+// What of it a state consists of. last: the solver's last factorisation; those of others are never
+// used again. S is the same already.
+void contact_matrix_archive(ContactMatrix *matrix, int64_t last, Archive *archive);
 
 #endif

@@ -139,6 +139,7 @@ static bool factor(Solve *solve, const double *closed)
     int32_t free_count = solve->equations.free_count;
     contact_jacobian(&solve->equations, closed, free_count, kept->factors);
     solve->solver->factorisations++;
+    kept->rows = free_count;
     bool regular = dense_lu(kept->factors, free_count, kept->pivots);
     kept->factored = regular ? solve->solver->factorisations : 0;
     copy_statuses(solve, kept->status);

@@ -67,3 +67,15 @@ double rod_force(const Interface *interface, const double *reaction)
         force += reaction[interface_rod(interface, j)];
     return force;
 }
+
+void rod_archive(Rod *rod, Archive *archive)
+{
+    int32_t kind = (int32_t)rod->kind;
+    archive_section(archive, "rod");
+    archive_index(archive, &kind, ROD_AWAY, ROD_IS_BONDED + 1);
+    rod->kind = (RodKind)kind;
+    archive_number(archive, &rod->velocity);
+    archive_number(archive, &rod->since);
+    archive_number(archive, &rod->way);
+    archive_numbers(archive, rod->origin, rod->count);
+}

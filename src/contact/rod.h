@@ -23,6 +23,7 @@
 #ifndef AMONTONS_CONTACT_ROD_H
 #define AMONTONS_CONTACT_ROD_H
 
+#include "base/archive.h"
 #include "contact/interface.h"
 
 typedef enum RodKind {
@@ -59,5 +60,8 @@ double rod_bound(const Rod *rod, int32_t j, double position, double time, double
 
 // F_T, from the reactions on the interface [interface->count].
 double rod_force(const Interface *interface, const double *reaction);
+
+// How it moves and from where; its springs are the model's.
+void rod_archive(Rod *rod, Archive *archive);
 
 #endif

@@ -6,6 +6,7 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 // The property list carries the address of the disk; HDF5 copies it byte by byte.
@@ -160,7 +161,9 @@ bool array_disk_use(ArrayDisk *disk, const PartFile *file, hid_t access, hid_t *
         .fl_map = H5FD_FLMAP_DICHOTOMY,
     };
     DiskAddress address = {disk};
-    *disk = (ArrayDisk){.file = file};
+    struct stat status;
+    *disk = (ArrayDisk){.file = file};   // of a reopened file HDF5 itself says where its space ends
+    if (fstat(file->descriptor, &status) == 0) disk->end_of_file = (haddr_t)status.st_size;
     *driver = H5FDregister(&description);
     return *driver >= 0 && H5Pset_driver(access, *driver, &address) >= 0;
 }

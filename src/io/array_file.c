@@ -49,6 +49,14 @@ ArrayFile *array_file_open(const char *path, Error *err)
     return whole(file);
 }
 
+ArrayFile *array_file_reopen(const char *path, Error *err)
+{
+    ArrayFile *file = begin(err);
+    if (!file) return NULL;
+    file->hdf5 = file->module->reopen(path, err);
+    return whole(file);
+}
+
 bool array_file_close(ArrayFile *file, Error *err)
 {
     if (!file) return true;
@@ -78,6 +86,21 @@ bool array_file_append(ArrayFile *file, const char *name, const double *values, 
 bool array_file_flush(ArrayFile *file, Error *err)
 {
     return file->module->flush(file->hdf5, err);
+}
+
+bool array_file_sync(ArrayFile *file, Error *err)
+{
+    return file->module->sync(file->hdf5, err);
+}
+
+bool array_file_cut(ArrayFile *file, const char *name, int64_t rows, Error *err)
+{
+    return file->module->cut(file->hdf5, name, rows, err);
+}
+
+bool array_file_remove(ArrayFile *file, const char *name, Error *err)
+{
+    return file->module->remove(file->hdf5, name, err);
 }
 
 bool array_file_set_number(ArrayFile *file, const char *name, double value, Error *err)

@@ -17,6 +17,9 @@ typedef struct ArrayFile ArrayFile;
 ArrayFile *array_file_create(const char *path, Error *err);
 // Opens `path` for reading; where only `path`.part stands, that. Errors name the file.
 ArrayFile *array_file_open(const char *path, Error *err);
+// Opens a file of array_file_create to go on with, finished or not: it is called `path`.part again.
+// Its series are to be cut (array_file_cut) before more is appended to them.
+ArrayFile *array_file_reopen(const char *path, Error *err);
 // Closes; a created file gets its final name, unless a write failed: then the .part stays. Frees
 // `file` either way. NULL is fine.
 bool array_file_close(ArrayFile *file, Error *err);
@@ -31,6 +34,11 @@ bool array_file_add_series(ArrayFile *file, const ArraySeries *series, Error *er
 bool array_file_append(ArrayFile *file, const char *name, const double *values, int64_t rows,
                        Error *err);
 bool array_file_flush(ArrayFile *file, Error *err);   // a reader finds all that was appended so far
+bool array_file_sync(ArrayFile *file, Error *err);   // and also after a power cut
+// Of the series only the first `rows` rows stay. ERROR_FILE: it has fewer, or there is none.
+bool array_file_cut(ArrayFile *file, const char *name, int64_t rows, Error *err);
+// The array or attribute `name`, where there is one; no series that was appended to.
+bool array_file_remove(ArrayFile *file, const char *name, Error *err);
 
 bool array_file_set_number(ArrayFile *file, const char *name, double value, Error *err);
 bool array_file_set_text(ArrayFile *file, const char *name, const char *value, Error *err);

@@ -56,6 +56,16 @@ cleanup:
     return error_is_clean(err);
 }
 
+static bool hdf5_sync(Hdf5File *file, Error *err)
+{
+    TRY(hdf5_flush(file, err));
+    // EINVAL: a file system that cannot sync, which is no error.
+    if (fsync(file->part.descriptor) != 0 && errno != EINVAL)
+        FAIL(err, ERROR_FILE, "cannot write %s to disk: %s", file->part.part, strerror(errno));
+cleanup:
+    return error_is_clean(err);
+}
+
 // --- opening and closing ------------------------------------------------------------------------
 
 // The metadata cache may write only when told to. It then grows with the file, by some kilobytes a
@@ -71,8 +81,8 @@ static herr_t keep_metadata_until_flush(hid_t access)
     return H5Pset_mdc_config(access, &cache);
 }
 
-// The empty HDF5 file over the part that is open already.
-static bool create_hdf5(Hdf5File *file, Error *err)
+// The HDF5 file over the part that is open already: an empty one, or what is in it.
+static bool begin_hdf5(Hdf5File *file, bool anew, Error *err)
 {
     char cause[HDF5_CAUSE_SIZE];
     hid_t access = H5Pcreate(H5P_FILE_ACCESS);
@@ -81,7 +91,11 @@ static bool create_hdf5(Hdf5File *file, Error *err)
         keep_metadata_until_flush(access) < 0 ||
         H5Pset_file_space_strategy(creation, H5F_FSPACE_STRATEGY_NONE, false, 1) < 0)
         FAIL(err, ERROR_LIBRARY, "cannot prepare HDF5 for %s: %s", file->path, hdf5_cause(cause));
-    file->id = H5Fcreate(file->part.part, H5F_ACC_TRUNC, creation, access);
+    file->id = anew ? H5Fcreate(file->part.part, H5F_ACC_TRUNC, creation, access)
+                    : H5Fopen(file->part.part, H5F_ACC_RDWR, access);
+    if (file->id < 0 && !anew)
+        FAIL(err, ERROR_FILE, "cannot go on with %s, not a whole HDF5 file: %s", file->part.part,
+             hdf5_cause(cause));
     TRY(array_disk_check(&file->disk, file->id < 0 ? -1 : 0, "the header", err));
 cleanup:
     H5Pclose(access);
@@ -101,8 +115,8 @@ static void destroy(Hdf5File *file)
     memory_free(file);
 }
 
-// A second writer of the same path is refused by part_file as long as this one is open.
-static Hdf5File *hdf5_create(const char *path, Error *err)
+// For writing. A second writer of the path is refused by part_file as long as this one is open.
+static Hdf5File *begin_writing(const char *path, bool anew, Error *err)
 {
     Hdf5File *file = NEW_ARRAY(Hdf5File, 1, err);
     if (!file) return NULL;
@@ -111,14 +125,24 @@ static Hdf5File *hdf5_create(const char *path, Error *err)
     file->series_capacity = FIRST_SERIES;
     file->series = NEW_ARRAY(SeriesWriter, file->series_capacity, err);
     if (!file->series) goto cleanup;
-    TRY(part_file_create(&file->part, path, err));
+    TRY(anew ? part_file_create(&file->part, path, err) : part_file_reopen(&file->part, path, err));
     snprintf(file->path, sizeof file->path, "%s", path);
-    TRY(create_hdf5(file, err));
+    TRY(begin_hdf5(file, anew, err));
     return file;
 cleanup:
-    part_file_discard(&file->part);
+    if (anew) part_file_discard(&file->part);
     destroy(file);
     return NULL;
+}
+
+static Hdf5File *hdf5_create(const char *path, Error *err)
+{
+    return begin_writing(path, true, err);
+}
+
+static Hdf5File *hdf5_reopen(const char *path, Error *err)
+{
+    return begin_writing(path, false, err);
 }
 
 // `path` or, where only that stands, `path`.part; into file->path.
@@ -263,6 +287,11 @@ cleanup:
 
 // --- writing series -----------------------------------------------------------------------------
 
+static bool hdf5_has(Hdf5File *file, const char *name)
+{
+    return H5Lexists(file->id, name, H5P_DEFAULT) > 0;   // negative where a folder is missing
+}
+
 // NULL: none. A file has some twenty series, so a scan will do.
 static SeriesWriter *find_series(const Hdf5File *file, const char *name)
 {
@@ -309,12 +338,37 @@ cleanup:
     return error_is_clean(err);
 }
 
-// --- reading ------------------------------------------------------------------------------------
-
-static bool hdf5_has(Hdf5File *file, const char *name)
+// A series of a reopened file is opened when it is first cut.
+static bool hdf5_cut(Hdf5File *file, const char *name, int64_t rows, Error *err)
 {
-    return H5Lexists(file->id, name, H5P_DEFAULT) > 0;   // negative where a folder is missing
+    SeriesWriter opened = {0}, *series = find_series(file, name);
+    TRY(check_writable(file, err));
+    if (!series) {
+        TRY(grow_series_list(file, err));
+        TRY(series_open(&opened, file->id, name, err));
+        series = &file->series[file->series_count++];
+        *series = opened;
+        opened = (SeriesWriter){0};   // the list owns it now
+    }
+    TRY(series_cut(series, &file->disk, rows, err));
+cleanup:
+    series_destroy(&opened);
+    return error_is_clean(err);
 }
+
+// Of a series that is being written nothing may be removed; tables and attributes are.
+static bool hdf5_remove(Hdf5File *file, const char *name, Error *err)
+{
+    herr_t status = 0;
+    TRY(check_writable(file, err));
+    if (H5Aexists(file->id, name) > 0) status = H5Adelete(file->id, name);
+    if (hdf5_has(file, name)) status = H5Ldelete(file->id, name, H5P_DEFAULT);
+    TRY(array_disk_check(&file->disk, status, name, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// --- reading ------------------------------------------------------------------------------------
 
 // Rows and width of a dataset of one or two dimensions. The numbers come from a file, which may be
 // damaged: a product that would overflow is refused here, one too large by the allocator.
@@ -372,11 +426,15 @@ __attribute__((visibility("default"))) const ArrayFileModule *amontons_array_fil
     static const ArrayFileModule module = {
         .create = hdf5_create,
         .open = hdf5_open,
+        .reopen = hdf5_reopen,
         .close = hdf5_close,
         .abandon = hdf5_abandon,
         .add_series = hdf5_add_series,
         .append = hdf5_append,
         .flush = hdf5_flush,
+        .sync = hdf5_sync,
+        .cut = hdf5_cut,
+        .remove = hdf5_remove,
         .set_number = hdf5_set_number,
         .set_text = hdf5_set_text,
         .get_number = hdf5_get_number,

@@ -14,12 +14,16 @@ typedef struct Hdf5File Hdf5File;   // the module's own; an ArrayFile owns one
 typedef struct ArrayFileModule {
     Hdf5File *(*create)(const char *path, Error *err);
     Hdf5File *(*open)(const char *path, Error *err);
+    Hdf5File *(*reopen)(const char *path, Error *err);
     bool (*close)(Hdf5File *file, Error *err);   // frees `file` either way
     void (*abandon)(Hdf5File *file);
     bool (*add_series)(Hdf5File *file, const ArraySeries *series, Error *err);
     bool (*append)(Hdf5File *file, const char *name, const double *values, int64_t rows,
                    Error *err);
     bool (*flush)(Hdf5File *file, Error *err);
+    bool (*sync)(Hdf5File *file, Error *err);
+    bool (*cut)(Hdf5File *file, const char *name, int64_t rows, Error *err);
+    bool (*remove)(Hdf5File *file, const char *name, Error *err);
     bool (*set_number)(Hdf5File *file, const char *name, double value, Error *err);
     bool (*set_text)(Hdf5File *file, const char *name, const char *value, Error *err);
     bool (*get_number)(Hdf5File *file, const char *name, double *value, Error *err);

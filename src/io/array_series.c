@@ -95,6 +95,12 @@ static hid_t create_dataset(const SeriesWriter *writer, hid_t id)
     return dataset;
 }
 
+static int64_t chunk_rows(ArrayType type, int32_t width)
+{
+    int64_t rows = CHUNK_BYTES / ((int64_t)item_size(type) * width);
+    return rows < 1 ? 1 : rows > CHUNK_ROWS_MAX ? CHUNK_ROWS_MAX : rows;
+}
+
 // A chunk is compressed and read as one. The buffer holds one.
 bool series_create(SeriesWriter *writer, hid_t id, const ArraySeries *series, Error *err)
 {
@@ -102,8 +108,7 @@ bool series_create(SeriesWriter *writer, hid_t id, const ArraySeries *series, Er
     *writer = (SeriesWriter){.type = series->type, .width = series->width};
     if (series->width < 1 || item_size(series->type) == 0)
         FAIL(err, ERROR_LIBRARY, "%s has no values or no type", series->name);
-    int64_t rows = CHUNK_BYTES / ((int64_t)item_size(series->type) * series->width);
-    writer->chunk_rows = rows < 1 ? 1 : rows > CHUNK_ROWS_MAX ? CHUNK_ROWS_MAX : rows;
+    writer->chunk_rows = chunk_rows(series->type, series->width);
     writer->name = memory_text(series->name, err);
     if (!writer->name) goto cleanup;
     writer->buffer = memory_array(writer->chunk_rows * writer->width, item_size(writer->type), err);
@@ -111,6 +116,69 @@ bool series_create(SeriesWriter *writer, hid_t id, const ArraySeries *series, Er
     writer->dataset = create_dataset(writer, id);
     if (writer->dataset < 0)
         FAIL(err, ERROR_LIBRARY, "HDF5 cannot make %s: %s", writer->name, hdf5_cause(cause));
+cleanup:
+    return error_is_clean(err);
+}
+
+// What is stored, as ours; false: no such type.
+static bool find_type(hid_t stored, ArrayType *type)
+{
+    static const ArrayType types[] = {ARRAY_FLOAT64, ARRAY_FLOAT32, ARRAY_UINT8, ARRAY_INT32};
+    for (size_t k = 0; k < sizeof types / sizeof types[0]; k++) {
+        *type = types[k];
+        if (H5Tequal(stored, stored_type(*type)) > 0) return true;
+    }
+    return false;
+}
+
+// Type, width and rows of the dataset; its chunks are those that series_create would give it.
+static bool read_layout(SeriesWriter *writer)
+{
+    hsize_t shape[2] = {0, 1};
+    hid_t type = H5Dget_type(writer->dataset), space = H5Dget_space(writer->dataset);
+    bool known = find_type(type, &writer->type);
+    int rank = H5Sget_simple_extent_ndims(space);
+    known = known && rank >= 1 && rank <= 2 && H5Sget_simple_extent_dims(space, shape, NULL) >= 0 &&
+            shape[0] <= INT64_MAX && shape[1] >= 1 && shape[1] <= INT32_MAX;
+    H5Tclose(type);
+    H5Sclose(space);
+    if (!known) return false;
+    writer->row_count = (int64_t)shape[0];
+    writer->width = (int32_t)shape[1];
+    return true;
+}
+
+bool series_open(SeriesWriter *writer, hid_t id, const char *name, Error *err)
+{
+    char cause[HDF5_CAUSE_SIZE];
+    hid_t cache = H5Pcreate(H5P_DATASET_ACCESS);
+    *writer = (SeriesWriter){0};
+    TRY((writer->name = memory_text(name, err)));
+    // Chunks are CHUNK_BYTES at most, or a row.
+    H5Pset_chunk_cache(cache, CACHE_SLOTS, CHUNK_BYTES, 1.0);
+    writer->dataset = H5Lexists(id, name, H5P_DEFAULT) > 0 ? H5Dopen2(id, name, cache) : -1;
+    if (writer->dataset < 0)
+        FAIL(err, ERROR_FILE, "the file has no %s: %s", name, hdf5_cause(cause));
+    if (!read_layout(writer)) FAIL(err, ERROR_FILE, "%s is not as it was written", name);
+    writer->chunk_rows = chunk_rows(writer->type, writer->width);
+    TRY((writer->buffer =
+             memory_array(writer->chunk_rows * writer->width, item_size(writer->type), err)));
+cleanup:
+    H5Pclose(cache);
+    return error_is_clean(err);
+}
+
+// Buffered rows may be among those that go.
+bool series_cut(SeriesWriter *writer, const ArrayDisk *disk, int64_t rows, Error *err)
+{
+    hsize_t shape[2] = {(hsize_t)rows, (hsize_t)writer->width};
+    TRY(series_hand_over(writer, disk, err));
+    if (writer->row_count < rows)
+        FAIL(err, ERROR_FILE, "%s has %lld rows, %lld are to be kept", writer->name,
+             (long long)writer->row_count, (long long)rows);
+    herr_t status = writer->row_count > rows ? H5Dset_extent(writer->dataset, shape) : 0;
+    TRY(array_disk_check(disk, status, writer->name, err));
+    writer->row_count = rows;
 cleanup:
     return error_is_clean(err);
 }

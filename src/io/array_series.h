@@ -28,6 +28,11 @@ typedef struct SeriesWriter {
 bool series_create(SeriesWriter *writer, hid_t id, const ArraySeries *series, Error *err);
 void series_destroy(SeriesWriter *writer);
 
+// One that is in the file already, as it was created. *writer as above.
+bool series_open(SeriesWriter *writer, hid_t id, const char *name, Error *err);
+// Only the first `rows` rows stay. ERROR_FILE: it has fewer.
+bool series_cut(SeriesWriter *writer, const ArrayDisk *disk, int64_t rows, Error *err);
+
 // Takes `rows` rows of doubles, [rows * width], and hands full chunks on to HDF5.
 bool series_append(SeriesWriter *writer, const ArrayDisk *disk, const double *values, int64_t rows,
                    Error *err);

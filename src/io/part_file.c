@@ -20,17 +20,13 @@ bool part_file_name(const char *path, char *part)
     return true;
 }
 
-// Opens, locks, and checks that the name is still that of what was locked (another writer may have
-// renamed it meanwhile); else again.
-bool part_file_create(PartFile *file, const char *path, Error *err)
+// Opens the part and locks it, and checks that the name is still that of what was locked (another
+// writer may have renamed it meanwhile); else again. flags: O_CREAT or none. Not emptied when
+// opened (O_TRUNC): only the holder of the lock may do that.
+static bool open_part(PartFile *file, const char *path, int flags, Error *err)
 {
-    // Not emptied when opened (O_TRUNC): only the holder of the lock may do that.
-    *file = (PartFile){0};
-    if (!part_file_name(path, file->part))
-        FAIL(err, ERROR_FILE, "the name of the file to write is empty or too long: \"%s\"", path);
-    snprintf(file->path, sizeof file->path, "%s", path);
     while (!file->open) {
-        file->descriptor = open(file->part, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        file->descriptor = open(file->part, O_RDWR | O_CLOEXEC | flags, 0666);
         if (file->descriptor < 0)
             FAIL(err, ERROR_FILE, "cannot write %s: %s", path, strerror(errno));
         file->open = true;
@@ -43,11 +39,39 @@ bool part_file_create(PartFile *file, const char *path, Error *err)
         }
         if (!file_is_named(file->part, file->descriptor)) part_file_leave(file);
     }
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool name_part(PartFile *file, const char *path, Error *err)
+{
+    *file = (PartFile){0};
+    if (!part_file_name(path, file->part))
+        FAIL(err, ERROR_FILE, "the name of the file to write is empty or too long: \"%s\"", path);
+    snprintf(file->path, sizeof file->path, "%s", path);
+cleanup:
+    return error_is_clean(err);
+}
+
+bool part_file_create(PartFile *file, const char *path, Error *err)
+{
+    TRY(name_part(file, path, err));
+    TRY(open_part(file, path, O_CREAT, err));
     if (ftruncate(file->descriptor, 0) != 0) {
         int cause = errno;
         part_file_leave(file);
         FAIL(err, ERROR_FILE, "cannot write %s: %s", path, strerror(cause));
     }
+cleanup:
+    return error_is_clean(err);
+}
+
+bool part_file_reopen(PartFile *file, const char *path, Error *err)
+{
+    TRY(name_part(file, path, err));
+    if (rename(path, file->part) != 0 && errno != ENOENT)
+        FAIL(err, ERROR_FILE, "cannot go on with %s: %s", path, strerror(errno));
+    TRY(open_part(file, path, 0, err));
 cleanup:
     return error_is_clean(err);
 }

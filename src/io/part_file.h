@@ -2,7 +2,7 @@
 // A file being written: as `path`.part, renamed when all of it is on disk, so that a final name
 // never has half a file. Called by all writers of this folder.
 //
-//   create -> write ... -> commit     the file has its final name
+//   create -> write ... -> commit     the file has its final name (reopen: to go on with one)
 //                       -> discard    nothing is left
 //                       -> leave      `path`.part is left, for what may still be read of it
 #ifndef AMONTONS_IO_PART_FILE_H
@@ -27,6 +27,9 @@ bool part_file_name(const char *path, char *part);
 // Opens an empty `path`.part and locks it against other writers; what a killed process left there
 // is overwritten. ERROR_FILE names the path and the cause, here and below.
 bool part_file_create(PartFile *file, const char *path, Error *err);
+// Opens what there is of `path` to be gone on with: its .part, or the finished file, which is
+// called .part again until it is committed. ERROR_FILE where there is neither.
+bool part_file_reopen(PartFile *file, const char *path, Error *err);
 bool part_file_write(PartFile *file, const void *bytes, int64_t size, Error *err);
 
 // Onto the disk (fsync), then under the final name. A failure leaves it open, to discard or leave.

@@ -140,6 +140,33 @@ cleanup:
     return NULL;
 }
 
+// What only the end of a run knows goes.
+ArrayFile *result_file_reopen(const char *folder, Error *err)
+{
+    char path[PATH_MAX];
+    ArrayFile *file = NULL;
+    TRY(history_path(folder, path, err));
+    file = array_file_reopen(path, err);
+    if (!file) goto cleanup;
+    for (int32_t k = 0; k < RESULT_TABLES_COUNT; k++)
+        TRY(array_file_remove(file, table_rows[k].name, err));
+    TRY(array_file_remove(file, number_rows[NUMBER_MU_M].name, err));
+    TRY(array_file_remove(file, number_rows[NUMBER_L_C].name, err));
+    TRY(array_file_remove(file, "warnings", err));
+    return file;
+cleanup:
+    array_file_abandon(file);
+    return NULL;
+}
+
+bool result_file_cut(ArrayFile *file, int64_t rows, Error *err)
+{
+    for (int32_t k = 0; k < RESULT_SERIES_COUNT; k++)
+        TRY(array_file_cut(file, series_rows[k].name, rows, err));
+cleanup:
+    return error_is_clean(err);
+}
+
 // Tables (peaks, events) are known at the end only, and are added then.
 bool result_file_write_table(ArrayFile *file, ResultTable table, const double *values,
                              int32_t count, Error *err)

@@ -23,10 +23,14 @@ typedef struct ResultHead {
     const char *title, *units, *version;
     const char *pads;   // NULL: without names
     double numbers[RESULT_NUMBERS_COUNT];   // NaN: not known yet, not written
+    bool goes_on;   // with the history that is there, finished or not: numbers and nodes are in it
     int32_t contact_count;
     const double *nodes[RESULT_NODES_COUNT];
 } ResultHead;
 ArrayFile *result_file_create(const char *folder, const ResultHead *head, Error *err);
+// The history of RESULT, finished or not, to go on with; without the tables and numbers of an end.
+ArrayFile *result_file_reopen(const char *folder, Error *err);
+bool result_file_cut(ArrayFile *file, int64_t rows, Error *err);   // only the first steps stay
 bool result_file_write_table(ArrayFile *file, ResultTable table, const double *values,
                              int32_t count, Error *err);
 

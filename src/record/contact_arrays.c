@@ -58,3 +58,10 @@ bool contact_arrays_record(void *self, const Observation *seen, Error *err)
     arrays->started = true;
     return true;
 }
+
+void contact_arrays_archive(ContactArrays *arrays, Archive *archive)
+{
+    archive_section(archive, "contact arrays");
+    archive_flag(archive, &arrays->started);
+    archive_numbers(archive, arrays->origin, arrays->count);
+}

@@ -25,4 +25,7 @@ bool contact_arrays_create(const Interface *interface, const FrictionLaw *law,
 void contact_arrays_destroy(ContactArrays *arrays);
 bool contact_arrays_record(void *self, const Observation *seen, Error *err);   // a Recorder
 
+// What slip is counted from; the arrays follow from the step that is recorded next.
+void contact_arrays_archive(ContactArrays *arrays, Archive *archive);
+
 #endif

@@ -209,3 +209,45 @@ const Event *drops_least_resolved(const Drops *drops, int32_t first)
     }
     return least;
 }
+
+// events: its own is one of so many.
+static void drop_archive(Drop *drop, int32_t events, Archive *archive)
+{
+    archive_number(archive, &drop->U);
+    archive_number(archive, &drop->mu);
+    archive_number(archive, &drop->mu_after);
+    archive_index(archive, &drop->event, 0, events);
+    archive_integer(archive, &drop->pads);
+    archive_flag(archive, &drop->bulk);
+    archive_flag(archive, &drop->load);
+    archive_number(archive, &drop->critical_length);
+    archive_number(archive, &drop->front_uncertified);
+    archive_number(archive, &drop->front_growth);
+}
+
+// Work: room for as many as the list has.
+static bool make_series(Drops *drops, Error *err)
+{
+    SeriesItem *series = NEW_ARRAY(SeriesItem, drops->room, err);
+    if (!series) return false;
+    memory_free(drops->series);
+    drops->series = series;
+    return true;
+}
+
+bool drops_archive(Drops *drops, Archive *archive, Error *err)
+{
+    int32_t events = drops->events->count;   // which are read before
+    void *list = drops->list;
+    archive_section(archive, "drops");
+    TRY(archive_list(archive, &list, &drops->count, &drops->room, sizeof(Drop), err));
+    drops->list = list;
+    if (archive_reads(archive)) TRY(make_series(drops, err));
+    for (int32_t k = 0; k < drops->count; k++) drop_archive(&drops->list[k], events, archive);
+    drop_archive(&drops->rising, events + 1, archive);   // it has none yet
+    archive_number(archive, &drops->top);
+    archive_number(archive, &drops->fall);
+    archive_number(archive, &drops->mu_max);
+cleanup:
+    return error_is_clean(err);
+}

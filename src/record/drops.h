@@ -59,4 +59,6 @@ int32_t drops_series(const Drops *drops, DropKind kind, int32_t first);
 // slipped on the pad where slow slip turned fast; NULL: no such drop.
 const Event *drops_least_resolved(const Drops *drops, int32_t first);
 
+bool drops_archive(Drops *drops, Archive *archive, Error *err);
+
 #endif

@@ -275,3 +275,48 @@ bool events_pad_slid(const Events *events, const Interface *interface, int32_t p
         if (interface->pad[i] == p && !events->slipped[i]) return false;
     return true;
 }
+
+static void event_archive(Event *event, int32_t pad_count, Archive *archive)
+{
+    int32_t kind = (int32_t)event->kind;
+    archive_index(archive, &kind, EVENT_QUASI_STATIC, EVENT_LEADING + 1);
+    event->kind = (EventKind)kind;
+    archive_number(archive, &event->U_start);
+    archive_number(archive, &event->U_stop);
+    archive_number(archive, &event->t_start);
+    archive_number(archive, &event->t_stop);
+    archive_number(archive, &event->front_start);
+    archive_number(archive, &event->reach);
+    archive_number(archive, &event->peak_slip_rate);
+    archive_number(archive, &event->front_speed);
+    archive_index(archive, &event->pad, -1, pad_count);
+    archive_number(archive, &event->slip_length);
+    archive_number(archive, &event->slip_cells);
+    archive_numbers(archive, event->front_times, FRONT_STATIONS);
+}
+
+bool events_archive(Events *events, const Interface *interface, Archive *archive, Error *err)
+{
+    void *list = events->list;
+    archive_section(archive, "events");
+    TRY(archive_list(archive, &list, &events->count, &events->room, sizeof(Event), err));
+    events->list = list;
+    for (int32_t k = 0; k < events->count; k++)
+        event_archive(&events->list[k], interface->pad_count, archive);
+    archive_indices(archive, events->kinds, 3, 0, events->count + 1);
+    archive_index(archive, &events->rapid, -1, events->count);
+    archive_index(archive, &events->slow, -1, events->count);
+    archive_number(archive, &events->front_before);
+    archive_flag(archive, &events->began);
+    archive_flag(archive, &events->ended);
+    archive_flag(archive, &events->crossed);
+    archive_octets(archive, events->slipped, interface->contact_count);
+    archive_number(archive, &events->fast_front_start);
+    archive_number(archive, &events->fast_t_start);
+    archive_number(archive, &events->fast_reach);
+    front_path_archive(&events->path, interface->contact_count, archive);
+    pad_sums_archive(events->pads, interface->pad_count, archive);
+    pad_sums_archive(events->pads_before, interface->pad_count, archive);
+cleanup:
+    return error_is_clean(err);
+}

@@ -69,4 +69,6 @@ void events_close(Events *events, const Observation *last);   // ends what is un
 // Every node of pad p slipped in the rapid event that is under way, or that ended in this step.
 bool events_pad_slid(const Events *events, const Interface *interface, int32_t p);
 
+bool events_archive(Events *events, const Interface *interface, Archive *archive, Error *err);
+
 #endif

@@ -223,12 +223,26 @@ static bool make_room(Fields *fields, Error *err)
     return true;
 }
 
-// Room is there already: a record that fails half way leaves the list as it was.
+static void name_files(int32_t number, char bulk[NAME_SIZE - 8], char line[NAME_SIZE - 8])
+{
+    snprintf(bulk, NAME_SIZE - 8, "bulk_%06d.vtu", number);
+    snprintf(line, NAME_SIZE - 8, "interface_%06d.vtp", number);
+}
+
 static void add_entry(Fields *fields, double time, const char *part, const char *name)
 {
     int32_t k = fields->entry_count++;
     snprintf(fields->names[k], NAME_SIZE, "fields/%s", name);
     fields->entries[k] = (FieldSeriesEntry){.time = time, .part = part, .file = fields->names[k]};
+}
+
+// Room is there already: a record that fails half way leaves the list as it was.
+static void add_time(Fields *fields, double time)
+{
+    char bulk[NAME_SIZE - 8], line[NAME_SIZE - 8];
+    name_files(fields->written++, bulk, line);
+    add_entry(fields, time, "bulk", bulk);
+    add_entry(fields, time, "interface", line);
 }
 
 // Multiples of every_U and every_t, at the first step at or beyond each; a step that passes several
@@ -257,18 +271,35 @@ bool fields_record(void *self, const Observation *seen, Error *err)
     if (!is_due(fields, seen)) return true;
     double started = clock_seconds();
     char bulk[NAME_SIZE - 8], line[NAME_SIZE - 8], path[PATH_SIZE];
-    snprintf(bulk, sizeof bulk, "bulk_%06d.vtu", fields->written);
-    snprintf(line, sizeof line, "interface_%06d.vtp", fields->written);
+    name_files(fields->written, bulk, line);
     TRY(make_room(fields, err));
     TRY(write_bulk(fields, seen, bulk, err));
     TRY(write_line(fields, seen, line, err));
-    add_entry(fields, seen->t, "bulk", bulk);
-    add_entry(fields, seen->t, "interface", line);
-    fields->written++;
+    add_time(fields, seen->t);
     // The list is written anew each time: a run that is cut off leaves one that opens.
     snprintf(path, sizeof path, "%s/fields.pvd", fields->folder);
     TRY(field_file_write_pvd(path, fields->entries, fields->entry_count, err));
     fields->seconds += clock_seconds() - started;
+cleanup:
+    return error_is_clean(err);
+}
+
+// Without a folder there is no list: what a state with fields has of it is passed over.
+bool fields_archive(Fields *fields, Archive *archive, Error *err)
+{
+    int32_t written = fields->written;
+    archive_section(archive, "fields");
+    archive_integer(archive, &written);
+    archive_number(archive, &fields->next_U);
+    archive_number(archive, &fields->next_t);
+    if (archive_reads(archive)) fields->written = fields->entry_count = 0;
+    for (int32_t k = 0; k < written && !archive->failed; k++) {
+        double time = archive_reads(archive) ? NAN : fields->entries[2 * k].time;
+        archive_number(archive, &time);
+        if (!archive_reads(archive) || !fields->folder) continue;
+        TRY(make_room(fields, err));
+        add_time(fields, time);
+    }
 cleanup:
     return error_is_clean(err);
 }

@@ -57,5 +57,7 @@ bool fields_create(const FieldsDef *def, const char *folder, const Mesh *mesh,
                    const Interface *interface, Fields *fields, Error *err);
 void fields_destroy(Fields *fields);
 bool fields_record(void *self, const Observation *seen, Error *err);   // a Recorder
+// Which times were written and which are due; files of later times are written over as they come.
+bool fields_archive(Fields *fields, Archive *archive, Error *err);
 
 #endif

@@ -105,3 +105,10 @@ double front_path_speed(const FrontPath *path, const double times[FRONT_STATIONS
     bool together = path->station[k].pad == path->station[k + 1].pad;
     return together && elapsed != 0 ? path->spacing / elapsed : NAN;
 }
+
+void front_path_archive(FrontPath *path, int32_t contact_count, Archive *archive)
+{
+    archive_number(archive, &path->t_before);
+    archive_numbers(archive, path->rate_before, contact_count);
+    archive_numbers(archive, path->arrival, contact_count);
+}

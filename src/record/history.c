@@ -34,7 +34,8 @@ bool history_create(const char *folder, ResultHead *head, const Interface *inter
     head->nodes[NODES_X] = interface->x;
     head->nodes[NODES_WEIGHT] = interface->weight;
     head->nodes[NODES_PAD] = history->pad;
-    history->file = result_file_create(folder, head, err);
+    history->file = head->goes_on ? result_file_reopen(folder, err)
+                                  : result_file_create(folder, head, err);
     return history->file != NULL;
 }
 
@@ -160,6 +161,31 @@ bool history_record(void *self, const Observation *seen, Error *err)
     }
 cleanup:
     return error_is_clean(err);
+}
+
+bool history_archive(History *history, Archive *archive, Error *err)
+{
+    int64_t rows = history->rows;
+    bool kept = history->file != NULL;
+    archive_section(archive, "history");
+    archive_flag(archive, &kept);
+    archive_count(archive, &rows);
+    TRY(archive_check(archive, false, err));
+    if (!archive_reads(archive) || !history->file) goto cleanup;
+    if (!kept || !result_file_cut(history->file, rows, err)) {
+        error_clear(err);
+        FAIL(err, ERROR_INPUT,
+             "the history does not go as far as the saved state: it is that of another run, or was "
+             "cut off while it was written");
+    }
+    history->rows = rows;
+cleanup:
+    return error_is_clean(err);
+}
+
+bool history_sync(History *history, Error *err)
+{
+    return !history->file || array_file_sync(history->file, err);
 }
 
 // A table is stored a column at a time. Peaks are the bulk slidings among the drops; how many.

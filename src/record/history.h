@@ -29,6 +29,11 @@ bool history_create(const char *folder, ResultHead *head, const Interface *inter
 void history_destroy(History *history);
 bool history_record(void *self, const Observation *seen, Error *err);   // a Recorder
 
+// How many steps it has. Reading cuts it back to as many; ERROR_INPUT: it has fewer. A state saved
+// without a history is no state of one.
+bool history_archive(History *history, Archive *archive, Error *err);
+bool history_sync(History *history, Error *err);   // all steps onto the disk; fine without a file
+
 // Tables of peaks and events, and what is known only now; then the file gets its final name.
 bool history_finish(History *history, const Drops *drops, const Answers *answers, Error *err);
 

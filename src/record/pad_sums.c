@@ -28,3 +28,14 @@ void pad_sums(const Observation *seen, PadSum *sums)
         sum->fastest = fmax(sum->fastest, fabs(state->slip_rate[interface_tangent(i)]));
     }
 }
+
+void pad_sums_archive(PadSum *sums, int32_t count, Archive *archive)
+{
+    for (int32_t p = 0; p < count; p++) {
+        archive_number(archive, &sums[p].normal_force);
+        archive_number(archive, &sums[p].shear);
+        archive_number(archive, &sums[p].slipping);
+        archive_number(archive, &sums[p].slipping_cells);
+        archive_number(archive, &sums[p].fastest);
+    }
+}

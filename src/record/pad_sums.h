@@ -18,4 +18,6 @@ typedef struct PadSum {
 // sums: [pad_count], overwritten. Open nodes carry nothing and do not count as slipping.
 void pad_sums(const Observation *seen, PadSum *sums);
 
+void pad_sums_archive(PadSum *sums, int32_t count, Archive *archive);
+
 #endif

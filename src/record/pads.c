@@ -175,3 +175,34 @@ void pads_write_json(const Pads *pads, JsonWriter *json)
     }
     json_end(json);
 }
+
+static void cycle_archive(PadCycle *cycle, Archive *archive)
+{
+    archive_number(archive, &cycle->normal_force);
+    archive_number(archive, &cycle->shear);
+    archive_number(archive, &cycle->U_first_slip);
+    archive_number(archive, &cycle->U_detached);
+    archive_integer(archive, &cycle->order);
+    archive_number(archive, &cycle->U_rapid);
+    archive_number(archive, &cycle->t_rapid);
+    archive_number(archive, &cycle->slow_length);
+}
+
+void pads_archive(Pads *pads, Archive *archive)
+{
+    archive_section(archive, "pads");
+    for (int32_t p = 0; p < pads->count; p++) {
+        Pad *pad = &pads->list[p];
+        archive_number(archive, &pad->normal_force_start);
+        cycle_archive(&pad->now, archive);
+        cycle_archive(&pad->last, archive);
+        archive_integer(archive, &pad->slidings);
+        archive_flag(archive, &pad->rapid);
+    }
+    archive_octets(archive, pads->stuck, pads->contact_count);
+    archive_octets(archive, pads->slipped, pads->contact_count);
+    archive_integer(archive, &pads->detached);
+    archive_integer(archive, &pads->cycles);
+    archive_number(archive, &pads->mu);
+    archive_flag(archive, &pads->started);
+}

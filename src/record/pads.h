@@ -51,4 +51,6 @@ bool pads_record(void *self, const Observation *seen, Error *err);   // a Record
 
 void pads_write_json(const Pads *pads, JsonWriter *json);   // results.pads
 
+void pads_archive(Pads *pads, Archive *archive);
+
 #endif

@@ -155,3 +155,14 @@ bool certificate_excludes_runaway(Certificate *certificate, const State *state, 
     }
     return true;
 }
+
+void certificate_archive(Certificate *certificate, Archive *archive)
+{
+    bool damped = certificate->damping != NULL;
+    archive_section(archive, "certificate");
+    archive_count(archive, &certificate->checks);
+    archive_flag(archive, &damped);
+    if (damped != (certificate->damping != NULL)) archive->failed = true;
+    // It is never factored by the contact solver.
+    if (damped) contact_matrix_archive(&certificate->damping_contact, -1, archive);
+}

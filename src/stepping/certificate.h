@@ -67,4 +67,7 @@ bool certificate_excludes_runaway(Certificate *certificate, const State *state, 
 // included (stepping/weakening_load); INFINITY where S is singular.
 double certificate_load(Certificate *certificate, const State *state, ContactMatrix *rung);
 
+// What its one matrix keeps, and its counter.
+void certificate_archive(Certificate *certificate, Archive *archive);
+
 #endif

@@ -50,3 +50,15 @@ double energy_turnover(const EnergyLedger *ledger)
     return fabs(ledger->rod_work) + fabs(ledger->load_work) + ledger->viscous + ledger->frictional +
            ledger->elastic + ledger->kinetic + ledger->stored_at_start;
 }
+
+void energy_archive(EnergyLedger *ledger, Archive *archive)
+{
+    archive_section(archive, "energy");
+    archive_number(archive, &ledger->rod_work);
+    archive_number(archive, &ledger->load_work);
+    archive_number(archive, &ledger->viscous);
+    archive_number(archive, &ledger->frictional);
+    archive_number(archive, &ledger->elastic);
+    archive_number(archive, &ledger->kinetic);
+    archive_number(archive, &ledger->stored_at_start);
+}

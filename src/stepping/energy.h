@@ -35,4 +35,6 @@ double energy_imbalance(const EnergyLedger *ledger);   // work - stored - dissip
 // by magnitude, and what was stored then.
 double energy_turnover(const EnergyLedger *ledger);
 
+void energy_archive(EnergyLedger *ledger, Archive *archive);
+
 #endif

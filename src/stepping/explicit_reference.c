@@ -336,3 +336,13 @@ bool explicit_reference_advance(ExplicitReference *scheme, int64_t steps, State 
 cleanup:
     return error_is_clean(err);
 }
+
+void explicit_reference_archive(ExplicitReference *scheme, Archive *archive)
+{
+    archive_section(archive, "explicit steps");
+    archive_number(archive, &scheme->time);
+    archive_count(archive, &scheme->steps);
+    archive_number(archive, &scheme->residual);
+    archive_numbers(archive, scheme->now, NODE_SIZE * (int64_t)scheme->node_count);
+    archive_numbers(archive, scheme->bound, scheme->bound ? scheme->def.interface->count : 0);
+}

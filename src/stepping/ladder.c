@@ -83,3 +83,32 @@ double ladder_reduction_error(const Ladder *ladder)
     }
     return error;
 }
+
+static void drop_rung(Ladder *ladder, int32_t k)
+{
+    contact_matrix_destroy(&ladder->contact[k]);
+    interface_operator_destroy(ladder->rung[k]);
+    ladder->rung[k] = NULL;
+}
+
+bool ladder_archive(Ladder *ladder, int64_t last, Archive *archive, Error *err)
+{
+    double longest = ladder->step_max;
+    int32_t count = ladder->rung_count;
+    archive_section(archive, "ladder");
+    archive_number(archive, &longest);
+    archive_integer(archive, &count);
+    if (longest != ladder->step_max || count != ladder->rung_count) archive->failed = true;
+    for (int32_t k = 0; k < ladder->rung_count; k++) {
+        bool built = ladder->rung[k] != NULL;
+        archive_count(archive, &ladder->accepted[k]);
+        archive_flag(archive, &built);
+        TRY(archive_check(archive, false, err));
+        if (!built && ladder->rung[k]) drop_rung(ladder, k);
+        if (!built) continue;
+        TRY(ladder_rung(ladder, k, err));
+        contact_matrix_archive(&ladder->contact[k], last, archive);
+    }
+cleanup:
+    return error_is_clean(err);
+}

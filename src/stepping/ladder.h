@@ -38,4 +38,9 @@ ContactMatrix *ladder_contact(Ladder *ladder, int32_t k);
 // The largest error that the reduction of the bulk left in a rung that steps were accepted on.
 double ladder_reduction_error(const Ladder *ladder);
 
+// Which rungs are built, how often each was used, and what their contact matrices keep. Reading
+// builds those and no others: which are built decides how a run ends. last: the contact solver's
+// last factorisation. A ladder of other steps is a fault.
+bool ladder_archive(Ladder *ladder, int64_t last, Archive *archive, Error *err);
+
 #endif

@@ -89,3 +89,12 @@ bool oscillation_record_covers(const OscillationRecord *record, const State *sta
     }
     return !is_fast(record, state);
 }
+
+void oscillation_record_archive(OscillationRecord *record, Archive *archive)
+{
+    archive_section(archive, "oscillations");
+    archive_number(archive, &record->seen_for);
+    archive_flag(archive, &record->runs);
+    archive_numbers(archive, record->weakening,
+                    record->interface->contact_count + record->interface->rod_count);
+}

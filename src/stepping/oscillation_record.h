@@ -40,4 +40,6 @@ void oscillation_record_add(OscillationRecord *record, const State *state, doubl
 // `state` does nothing that was not seen, for long enough.
 bool oscillation_record_covers(const OscillationRecord *record, const State *state);
 
+void oscillation_record_archive(OscillationRecord *record, Archive *archive);
+
 #endif

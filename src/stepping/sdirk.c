@@ -275,3 +275,25 @@ void sdirk_add_energy(const Sdirk *scheme, const StepOutcome *outcome, double st
     }
     ledger->load_work += outcome->load_work;
 }
+
+// Counters: which factors are used again depends on one of them.
+static void solver_archive(ContactSolver *solver, Archive *archive)
+{
+    archive_section(archive, "contact solver");
+    archive_count(archive, &solver->factorisations);
+    archive_count(archive, &solver->solves);
+    archive_count(archive, &solver->iterations);
+    archive_count(archive, &solver->fallbacks);
+    archive_count(archive, &solver->rescued);
+    archive_count(archive, &solver->unsolved);
+    archive_count(archive, &solver->path.steps);
+}
+
+void sdirk_archive(Sdirk *scheme, Archive *archive)
+{
+    archive_section(archive, "scheme");
+    archive_numbers(archive, scheme->bound, scheme->interface->count);
+    archive_number(archive, &scheme->reach);
+    archive_count(archive, &scheme->steps);
+    solver_archive(&scheme->solver, archive);
+}

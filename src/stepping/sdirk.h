@@ -57,4 +57,7 @@ bool sdirk_step(Sdirk *scheme, int32_t k, const State *from, State *to, StepOutc
 void sdirk_add_energy(const Sdirk *scheme, const StepOutcome *outcome, double step,
                       EnergyLedger *ledger);
 
+// What the last step leaves: its bounds, by which it is judged, and counters. The rod is another's.
+void sdirk_archive(Sdirk *scheme, Archive *archive);
+
 #endif

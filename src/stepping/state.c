@@ -58,3 +58,18 @@ void state_copy(const State *from, State *to)
     memcpy(to->status, from->status, (size_t)from->contact_count);
     memcpy(to->rod_touches, from->rod_touches, (size_t)from->rod_count);
 }
+
+void state_archive(State *state, Archive *archive)
+{
+    archive_section(archive, "state");
+    archive_number(archive, &state->time);
+    archive_numbers(archive, state->displacement, state->dof_count);
+    archive_numbers(archive, state->velocity, state->dof_count);
+    archive_numbers(archive, state->elastic_force, state->dof_count);
+    archive_numbers(archive, state->momentum, state->dof_count);
+    archive_numbers(archive, state->inertia, state->dof_count);
+    archive_numbers(archive, state->slip_rate, state->interface_count);
+    archive_numbers(archive, state->reaction, state->interface_count);
+    archive_octets(archive, state->status, state->contact_count);
+    archive_octets(archive, state->rod_touches, state->rod_count);
+}

@@ -3,6 +3,7 @@
 #ifndef AMONTONS_STEPPING_STATE_H
 #define AMONTONS_STEPPING_STATE_H
 
+#include "base/archive.h"
 #include "bulk/interface_operator.h"
 #include "contact/contact_problem.h"
 
@@ -34,5 +35,7 @@ typedef struct State {
 bool state_create(const BulkOperator *system, const Interface *interface, State *state, Error *err);
 void state_destroy(State *state);
 void state_copy(const State *from, State *to);   // of the same sizes
+
+void state_archive(State *state, Archive *archive);
 
 #endif

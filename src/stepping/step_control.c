@@ -348,6 +348,7 @@ void step_control_use_explicit(StepControl *control, const ExplicitReference *sc
     ladder_destroy(&control->ladder);
     ladder_init(system, scheme->def.step, scheme->def.step, &control->ladder);
     control->def.step_max = control->def.step_min = scheme->def.step;
+    control->rung = control->coarsest = 0;
 }
 
 // The contact conditions of the last step stand where those of an implicit stage would. The
@@ -366,4 +367,38 @@ bool step_control_advance_explicit(StepControl *control, ExplicitReference *sche
         control->certified = certificate_holds(&control->certificate, &control->now);
 cleanup:
     return error_is_clean(err);
+}
+
+static void counters_archive(StepCounters *counters, Archive *archive)
+{
+    archive_count(archive, &counters->accepted);
+    archive_count(archive, &counters->rejected_error);
+    archive_count(archive, &counters->rejected_energy);
+    archive_count(archive, &counters->rejected_uncertified);
+    archive_count(archive, &counters->unsolved);
+    archive_count(archive, &counters->stepped_over_oscillations);
+}
+
+bool step_control_archive(StepControl *control, Archive *archive, Error *err)
+{
+    state_archive(&control->now, archive);
+    energy_archive(&control->ledger, archive);
+    sdirk_archive(&control->scheme, archive);
+    oscillation_record_archive(&control->oscillations, archive);
+    certificate_archive(&control->certificate, archive);
+    archive_section(archive, "step control");
+    archive_number(archive, &control->outcome.residual);
+    archive_number(archive, &control->last_step);
+    archive_flag(archive, &control->certified);
+    archive_flag(archive, &control->grows);
+    archive_flag(archive, &control->settles);
+    archive_integer(archive, &control->scanned);
+    archive_index(archive, &control->rung, 0, control->ladder.rung_count);
+    archive_index(archive, &control->coarsest, 0, control->ladder.rung_count + 1);
+    archive_count(archive, &control->hold);
+    archive_count(archive, &control->hold_end);
+    archive_count(archive, &control->looked_steps);
+    archive_number(archive, &control->looked_time);
+    counters_archive(&control->counters, archive);
+    return ladder_archive(&control->ladder, control->scheme.solver.factorisations, archive, err);
 }

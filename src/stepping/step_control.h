@@ -96,4 +96,7 @@ void step_control_disturb(StepControl *control);
 // Starts counting anew at `now`: time 0, ledger opened, coarse steps to be earned again.
 void step_control_restart(StepControl *control);
 
+// Everything on which the next step depends but what drives the block. `next` is work.
+bool step_control_archive(StepControl *control, Archive *archive, Error *err);
+
 #endif

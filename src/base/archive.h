@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A state as bytes. Whoever has a part of the state lists it in one function, which writes it,
+// reads it back, or only measures it, as the archive is set: so what is written and what is read
+// cannot differ.
+//
+//     void energy_archive(EnergyLedger *ledger, Archive *archive)
+//     {
+//         archive_section(archive, "energy");
+//         archive_number(archive, &ledger->rod_work);
+//         ...
+//     }
+//
+// Arrays are as long as their owner has them: one of another length is a fault, as are a section of
+// another name and an end that comes too early. After a fault nothing more is read, and
+// archive_check tells it. Numbers lie in the machine's own byte order, without gaps.
+#ifndef AMONTONS_BASE_ARCHIVE_H
+#define AMONTONS_BASE_ARCHIVE_H
+
+#include "base/error.h"
+
+#include <stddef.h>
+
+typedef enum ArchiveMode { ARCHIVE_MEASURES, ARCHIVE_WRITES, ARCHIVE_READS } ArchiveMode;
+
+enum { ARCHIVE_NAME_SIZE = 24 };
+
+typedef struct Archive {
+    ArchiveMode mode;
+    char *bytes;   // [size]; not owned; NULL while measuring
+    int64_t size;   // bytes that there are
+    int64_t at;   // bytes gone through
+    bool failed;   // what is read is not what was asked for
+    char section[ARCHIVE_NAME_SIZE];   // where
+} Archive;
+
+Archive archive_measure(void);
+Archive archive_write(void *bytes, int64_t size);
+Archive archive_read(const void *bytes, int64_t size);
+
+void archive_section(Archive *archive, const char *name);   // shorter than ARCHIVE_NAME_SIZE
+
+void archive_number(Archive *archive, double *number);
+void archive_integer(Archive *archive, int32_t *integer);
+void archive_count(Archive *archive, int64_t *count);
+void archive_flag(Archive *archive, bool *flag);
+void archive_numbers(Archive *archive, double *numbers, int64_t count);
+// Integers from `low` to below `high`: others are a fault, as what they count might not be there.
+void archive_indices(Archive *archive, int32_t *indices, int64_t count, int32_t low, int32_t high);
+void archive_index(Archive *archive, int32_t *index, int32_t low, int32_t high);
+void archive_octets(Archive *archive, uint8_t *octets, int64_t count);
+void archive_text(Archive *archive, char *text, int64_t size);   // all of its array
+
+// A list that grows: its length and room, as memory_grow has them. Reading makes *list anew with
+// that room (owned by the caller, zeroed), for the caller to go through its `*count` items.
+bool archive_list(Archive *archive, void **list, int32_t *count, int32_t *room, size_t size,
+                  Error *err);
+
+bool archive_reads(const Archive *archive);
+// ERROR_FILE: a fault, or (with `whole`) bytes left over.
+bool archive_check(const Archive *archive, bool whole, Error *err);
+
+#endif

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What is written is read back to the bit, by the same calls; what does not fit is a fault,
+// whatever the bytes are.
+#include "base/archive.h"
+
+#include "base/memory.h"
+#include "near.h"
+
+#include <stdlib.h>
+
+typedef struct Thing {
+    double number, numbers[3];
+    int32_t integer, index;
+    int64_t count;
+    bool flag;
+    uint8_t octets[5];
+    char text[8];
+    double *list;   // [list_count]
+    int32_t list_count, room;
+} Thing;
+
+static bool thing_archive(Thing *thing, Archive *archive, Error *err)
+{
+    void *list = thing->list;
+    archive_section(archive, "thing");
+    archive_number(archive, &thing->number);
+    archive_numbers(archive, thing->numbers, 3);
+    archive_integer(archive, &thing->integer);
+    archive_index(archive, &thing->index, -1, 4);
+    archive_count(archive, &thing->count);
+    archive_flag(archive, &thing->flag);
+    archive_octets(archive, thing->octets, 5);
+    archive_text(archive, thing->text, sizeof thing->text);
+    if (!archive_list(archive, &list, &thing->list_count, &thing->room, sizeof(double), err))
+        return false;
+    thing->list = list;
+    for (int32_t k = 0; k < thing->list_count; k++) archive_number(archive, &thing->list[k]);
+    return archive_check(archive, false, err);
+}
+
+static double values[4] = {1, -0.0, 3e-310, INFINITY};
+
+static Thing example(void)
+{
+    return (Thing){.number = -0.0,
+                   .numbers = {NAN, 1.0 / 3, 5e-324},
+                   .integer = INT32_MIN,
+                   .index = 3,
+                   .count = INT64_MAX,
+                   .flag = true,
+                   .octets = {0, 255, 1, 2, 3},
+                   .text = "abcdefg",
+                   .list = values,
+                   .list_count = 3,
+                   .room = 4};
+}
+
+// The bytes of the example, the caller's to free.
+static void *write_example(int64_t *size)
+{
+    Error err = {0};
+    Thing thing = example();
+    Archive archive = archive_measure();
+    assert_true(thing_archive(&thing, &archive, &err));
+    *size = archive.at;
+    void *bytes = malloc((size_t)*size);
+    archive = archive_write(bytes, *size);
+    assert_true(thing_archive(&thing, &archive, &err));
+    assert_true(archive_check(&archive, true, &err));
+    return bytes;
+}
+
+static void test_comes_back(void **state)
+{
+    (void)state;
+    Error err = {0};
+    int64_t size = 0;
+    void *bytes = write_example(&size);
+    Thing written = example(), thing = {0};
+    Archive archive = archive_read(bytes, size);
+    assert_true(thing_archive(&thing, &archive, &err));
+    assert_true(archive_check(&archive, true, &err));
+    assert_memory_equal(&thing.number, &written.number, sizeof(double));
+    assert_memory_equal(thing.numbers, written.numbers, sizeof thing.numbers);
+    assert_int_equal(thing.integer, written.integer);
+    assert_int_equal(thing.index, 3);
+    assert_true(thing.count == INT64_MAX && thing.flag);
+    assert_memory_equal(thing.octets, written.octets, 5);
+    assert_string_equal(thing.text, "abcdefg");
+    assert_int_equal(thing.list_count, 3);
+    assert_int_equal(thing.room, 4);
+    assert_memory_equal(thing.list, values, 3 * sizeof(double));
+    memory_free(thing.list);
+    free(bytes);
+}
+
+// Cut off anywhere, or longer than what is asked for.
+static void test_length_is_checked(void **state)
+{
+    (void)state;
+    int64_t size = 0, live = memory_counters().live;
+    char *bytes = write_example(&size);
+    for (int64_t cut = 0; cut < size; cut++) {
+        Error err = {0};
+        Thing thing = {0};
+        Archive archive = archive_read(bytes, cut);
+        assert_false(thing_archive(&thing, &archive, &err));
+        assert_int_equal(err.code, ERROR_FILE);
+        memory_free(thing.list);
+    }
+    Error err = {0};
+    Archive archive = archive_read(bytes, size);
+    archive_section(&archive, "thing");
+    assert_true(archive_check(&archive, false, &err));
+    assert_false(archive_check(&archive, true, &err));
+    assert_int_equal(memory_counters().live, live);
+    free(bytes);
+}
+
+static bool reads(const void *bytes, int64_t size, char message[ERROR_MESSAGE_SIZE])
+{
+    Error err = {0};
+    Thing thing = {0};
+    Archive archive = archive_read(bytes, size);
+    bool done = thing_archive(&thing, &archive, &err);
+    snprintf(message, ERROR_MESSAGE_SIZE, "%s", err.message);
+    memory_free(thing.list);
+    return done;
+}
+
+// Names, lengths, indices and rooms that cannot be; 12345 stands for what an array would be.
+static void test_contents_are_checked(void **state)
+{
+    (void)state;
+    enum { NAME = 24, NUMBER = 8, ARRAY_LENGTH = NAME + NUMBER };
+    enum { INDEX = ARRAY_LENGTH + 8 + 3 * 8 + 4, ROOM = INDEX + 4 + 8 + 1 + 8 + 5 + 8 + 8 + 4 };
+    const struct {
+        int64_t at;
+        int32_t value;
+    } wrong[] = {{0, 'x'},       {ARRAY_LENGTH, 2}, {INDEX, 4}, {INDEX, -2},
+                 {ROOM - 4, -1}, {ROOM - 4, 12345}, {ROOM, 2},  {ROOM, INT32_MAX}};
+    char message[ERROR_MESSAGE_SIZE];
+    int64_t size = 0;
+    char *bytes = write_example(&size);
+    assert_true(reads(bytes, size, message));
+    for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++) {
+        char kept[4];
+        memcpy(kept, bytes + wrong[k].at, 4);
+        memcpy(bytes + wrong[k].at, &wrong[k].value, 4);
+        assert_false(reads(bytes, size, message));
+        assert_non_null(strstr(message, "thing"));
+        memcpy(bytes + wrong[k].at, kept, 4);
+    }
+    free(bytes);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_comes_back),
+                                       cmocka_unit_test(test_length_is_checked),
+                                       cmocka_unit_test(test_contents_are_checked)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
