@@ -139,12 +139,18 @@ typedef void (*LevelCallback)(const LevelView *view, void *context);
 // Called after every accepted step (run) on the thread of the run. Must not keep `view`.
 typedef void (*StepCallback)(const StepView *view, void *context);
 
+// Called when "meshing", "reducing" or "relaxing" begins. Static storage.
+typedef void (*StageCallback)(const char *stage, void *context);
+
 typedef struct RunOptions {
     const char *folder;   // the result folder, created; NULL: nothing is written at all
     bool overwrite;   // replace an earlier result in it (else ERROR_INPUT)
+    bool resume;   // go on with the result in it from its checkpoint.bin (none fits: ERROR_INPUT)
+    double checkpoint_every;   // between two checkpoints, wall time, s; 0: 10, below 0: none
     StepCallback on_step;   // NULL: none
     LevelCallback on_level;   // NULL: none
-    void *context;   // handed to on_step and on_level
+    StageCallback on_stage;   // NULL: none
+    void *context;   // handed to these
     const volatile sig_atomic_t *stop;   // non-zero: finish the step, keep what is there, return
         // ERROR_INTERRUPT; NULL: never
     bool whole_block;   // amontons_simulation_block will be called: the mesh is made, also where

@@ -30,6 +30,23 @@ bool amontons_simulation_set_rod_velocity(Simulation *simulation, double velocit
 // Where load.pressure is the only load, and on the full mesh (reduction.use: never).
 bool amontons_simulation_set_pressure(Simulation *simulation, double pressure, Error *err);
 
+// A saved state: everything on which the next steps and the results depend, to the last bit, with a
+// checksum. One file of it is what `amontons run` leaves as checkpoint.bin.
+typedef struct SavedState {
+    void *bytes;   // [size] amontons_state_free
+    int64_t size;
+} SavedState;
+
+// Between two steps. `restore` puts a simulation to where the saved one was: of the same scene
+// (time.until, title and pictures may differ), mesh and version. ERROR_INPUT: it is of others, and
+// nothing was changed; after any other error the simulation can only be destroyed. A history in a
+// result folder is cut back to that step; it must go as far.
+bool amontons_simulation_save(Simulation *simulation, SavedState *state, Error *err);
+bool amontons_simulation_restore(Simulation *simulation, const SavedState *state, Error *err);
+bool amontons_state_write(const SavedState *state, const char *path, Error *err);
+bool amontons_state_read(const char *path, SavedState *state, Error *err);
+void amontons_state_free(SavedState *state);   // zeroed is fine
+
 // All nodes of the mesh; dimensions: 2, x and z. The arrays belong to the simulation; displacement
 // and velocity are recovered at each call, and stay until the next.
 typedef struct BlockView {

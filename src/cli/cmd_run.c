@@ -25,13 +25,18 @@ static const CommandText text = {
         " With --to 1% the mesh is refined and runs are repeated until the error bar of mu_M is 1 "
         "% "
         "or less; the bar then holds the error of the mesh, of branches that coexist, and of the "
-        "finite number of slidings."
+        "finite number of slidings. Now and then a checkpoint is written: a run that was cut off "
+        "goes "
+        "on with --resume, to the same bits as if nothing had happened; one that came to its end "
+        "goes "
+        "farther with --extend."
         "\vValues are written as in the scene: --set load.pressure=0.006, "
         "--set output.figures=[], --set output.fields=none; `amontons info keys` lists all keys. "
         "A .geo is refined by its parameter `refine`, any other mesh by splitting its cells. "
-        "Ctrl-C ends the run after the present step and keeps its results. Example:\n\n"
+        "Ctrl-C ends the run after the present step and keeps its results. Examples:\n\n"
         "  amontons run validation/paper/fig1.yaml --set mesh.set.nx=40 -o coarse\n"
-        "  amontons run validation/paper/fig1.yaml --to 1% --within 5min"};
+        "  amontons run validation/paper/fig1.yaml --to 1% --within 5min\n"
+        "  amontons run validation/paper/fig1.yaml -o first --extend U=0.03"};
 
 // A line for each mesh, above the progress bar.
 static void show_level(const LevelView *view, void *context)
@@ -62,39 +67,79 @@ static double seconds_of(const char *word)
     return NAN;
 }
 
-// --to and --within become values of the scene, which `words` points at. to, within: NULL where not
-// given. Status 0 or 2.
-static int ask_accuracy(const char *to, const char *within, char settings[2][SETTING_SIZE],
-                        SceneWords *words)
+// The words of the command line that become values of the scene or of the run.
+typedef struct RunWords {
+    const char *to, *within, *extend, *checkpoint;   // NULL: not given
+    bool resume, profile;
+    char settings[3][SETTING_SIZE];
+} RunWords;
+
+static void add_setting(const char *setting, SceneWords *words)
 {
-    OptionWords *list = &words->settings;
-    if (within && !to)
+    words->settings.list[words->settings.count++] = setting;
+}
+
+// `--extend U=0.02`: the scene's end alone; whatever else would end it does not. Status 0 or 2.
+static int ask_extension(RunWords *own, SceneWords *words)
+{
+    const char *extend = own->extend;
+    if (!extend) return 0;
+    if (strncmp(extend, "U=", 2) != 0 && strncmp(extend, "t=", 2) != 0)
+        return report_misuse("--extend: found `%.40s`; allowed: where the run is to end, U=0.02 or "
+                             "t=500",
+                             extend);
+    snprintf(own->settings[2], SETTING_SIZE, "time.until={%c: %.50s}", *extend, extend + 2);
+    add_setting(own->settings[2], words);
+    own->resume = true;
+    return 0;
+}
+
+// The error bar wanted, and the time for it. Status 0 or 2.
+static int ask_accuracy(RunWords *own, SceneWords *words)
+{
+    if (own->within && !own->to)
         return report_misuse("--within: needs --to, the error bar wanted (--to 1%%)");
-    if (within && !(seconds_of(within) > 0))
+    if (own->within && !(seconds_of(own->within) > 0))
         return report_misuse("--within: found `%.40s`; allowed: a time such as 300s, 5min or 1h",
-                             within);
-    if (list->count + 2 > OPTION_WORDS_MAX) return report_misuse("--to: too many --set before it");
-    if (to) {
-        snprintf(settings[0], SETTING_SIZE, "accuracy.mu=%.50s", to);
-        list->list[list->count++] = settings[0];
+                             own->within);
+    if (own->to) {
+        snprintf(own->settings[0], SETTING_SIZE, "accuracy.mu=%.50s", own->to);
+        add_setting(own->settings[0], words);
     }
-    if (within) {
-        snprintf(settings[1], SETTING_SIZE, "accuracy.within=%.17g", seconds_of(within));
-        list->list[list->count++] = settings[1];
+    if (own->within) {
+        snprintf(own->settings[1], SETTING_SIZE, "accuracy.within=%.17g", seconds_of(own->within));
+        add_setting(own->settings[1], words);
     }
     return 0;
 }
 
+// Status 0 or 2.
+static int ask_own(RunWords *own, SceneWords *words)
+{
+    if (words->settings.count + 3 > OPTION_WORDS_MAX) return report_misuse("too many --set");
+    if (own->checkpoint && !(seconds_of(own->checkpoint) > 0))
+        return report_misuse("--checkpoint: found `%.40s`; allowed: a time such as 30s or 5min",
+                             own->checkpoint);
+    int status = ask_accuracy(own, words);
+    if (status == 0) status = ask_extension(own, words);
+    if (status == 0 && own->resume && words->overwrite)
+        return report_misuse("--overwrite removes what --resume and --extend would go on from");
+    return status;
+}
+
 // Warnings are printed also after a failure: they may explain it. The exit status.
-static int run_scene(const Scene *scene, const SceneWords *words, bool profile)
+static int run_scene(const Scene *scene, const SceneWords *words, const RunWords *own)
 {
     Error err = {0};
     RunSummary summary = {0};
     Progress progress = progress_begin(words->quiet);
     RunOptions run = {.folder = words->folder,
                       .overwrite = words->overwrite,
+                      .resume = own->resume,
+                      .checkpoint_every = own->checkpoint ? seconds_of(own->checkpoint) : 0,
                       .on_step = progress_step,
                       .on_level = words->quiet ? NULL : show_level,
+                      .on_stage = progress_stage,
                       .context = &progress,
                       .stop = stop_on_signals()};
     bool done = amontons_run(scene, &run, &summary, &err);
@@ -102,7 +147,7 @@ static int run_scene(const Scene *scene, const SceneWords *words, bool profile)
     report_warnings(&summary.warnings);
     if (!done) return report_error(&err);
     if (!words->quiet) closing_print(amontons_scene_title(scene), &summary);
-    if (profile) closing_print_profile(&summary);
+    if (own->profile) closing_print_profile(&summary);
     return 0;
 }
 
@@ -110,26 +155,29 @@ static int run_scene(const Scene *scene, const SceneWords *words, bool profile)
 int command_run(int argc, char **argv)
 {
     SceneWords words = {0};
+    RunWords run = {0};
     Scene *scene = NULL;
-    bool profile = false;
     char folder[256];
-    const char *to = NULL, *within = NULL;
-    char settings[2][SETTING_SIZE];
     const Option own[] = {
         {"to", 0, "PERCENT", "Refine until the error bar of mu_M is at most this (--to 1%)",
-         .word = &to},
+         .word = &run.to},
         {"within", 0, "TIME",
-         "With --to: begin no mesh or run that would end later (300s, 5min, 1h)", .word = &within},
+         "With --to: begin no mesh or run that would end later (300s, 5min, 1h)",
+         .word = &run.within},
+        {"resume", 0, NULL, "Go on with the run in DIR that was cut off", .flag = &run.resume},
+        {"extend", 0, "END", "Go on with the run in DIR beyond its end, to U=0.02 or t=500",
+         .word = &run.extend},
+        {"checkpoint", 0, "TIME", "Between two checkpoints (10s)", .word = &run.checkpoint},
         {"profile", 0, NULL, "Print at the end where the time went, and what was skipped and why",
-         .flag = &profile},
+         .flag = &run.profile},
         {0}};
     int status = scene_words_read(&text, own, argc, argv, &words);
-    if (status == 0) status = ask_accuracy(to, within, settings, &words);
+    if (status == 0) status = ask_own(&run, &words);
     if (status == 0) status = scene_words_open(&words, &scene);
     if (status != 0) return status;
     default_folder(words.scene, "-result", folder, sizeof folder);
     if (!words.folder) words.folder = folder;
-    status = run_scene(scene, &words, profile);
+    status = run_scene(scene, &words, &run);
     amontons_scene_destroy(scene);
     return status;
 }

@@ -93,11 +93,21 @@ Progress progress_begin(bool quiet)
     if (quiet) progress.style = PROGRESS_QUIET;
     if (!quiet && isatty(STDERR_FILENO)) progress.style = PROGRESS_BAR;
     if (progress.style == PROGRESS_BAR) {
-        fprintf(stderr, "preparing mesh and start ...");
+        fprintf(stderr, "preparing ...");
         fflush(stderr);
         progress.bar_stands = true;
     }
     return progress;
+}
+
+// On a terminal only: a log has no use for what is over before it is read.
+void progress_stage(const char *stage, void *context)
+{
+    Progress *progress = context;
+    if (progress->style != PROGRESS_BAR || progress->running) return;
+    fprintf(stderr, "\r%s ...\033[K", stage);
+    fflush(stderr);
+    progress->bar_stands = true;
 }
 
 // The clock starts at the first step: mesh and relaxation are not steps, and would spoil the time

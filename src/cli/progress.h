@@ -20,6 +20,7 @@ typedef struct Progress {
 
 Progress progress_begin(bool quiet);   // looks whether standard error is a terminal
 
+void progress_stage(const char *stage, void *progress);   // a StageCallback
 void progress_step(const StepView *view, void *progress);   // a StepCallback
 
 // "1:05", "2:03:40"; "-:--" for NaN.

@@ -268,7 +268,7 @@ static void set_scales(Model *model)
 
 // Three ways, the shortest that is open: shape and basis from the cache; meshed and assembled, the
 // basis from the cache; all made here.
-bool model_obtain(const Scene *scene, Model *model, Error *err)
+bool model_obtain(const Scene *scene, const StageNotice *notice, Model *model, Error *err)
 {
     double started = clock_seconds();
     char key[HASH_TEXT_SIZE];
@@ -277,9 +277,11 @@ bool model_obtain(const Scene *scene, Model *model, Error *err)
     *model = model_of(scene);
     TRY(find_key(model, key, err));
     TRY(find_shape(model, key, &shape, &found, err));
+    if (notice && (!found || wants_mesh(scene))) notice->tell(notice->self, "meshing");
     if (!found || wants_mesh(scene)) TRY(model_read_mesh(model, err));
     if (found && wants_mesh(scene) && 2 * model->mesh.node_count != model->reduced.full_dofs)
         found = forget_shape(model, &shape);
+    if (notice && !found) notice->tell(notice->self, "reducing");
     if (!found) TRY(model_build_bulk(model, err));
     // What a scene may ask of a shape is checked here, wherever the shape comes from.
     TRY(check_rod(scene, found ? shape.sizes.rod_reach : rod_reach(model), err));

@@ -5,8 +5,15 @@
 
 #include "model/model.h"
 
+// Who wants to know what takes its time.
+typedef struct StageNotice {
+    void (*tell)(void *self, const char *stage);   // "meshing", "reducing"; static storage
+    void *self;   // not owned
+} StageNotice;
+
 // The shortest way to model->system: what the scene does not need of it is not done, and a shape in
 // the cache is neither meshed nor assembled. On failure `model` holds what was made.
-bool model_obtain(const Scene *scene, Model *model, Error *err);
+// notice: NULL: nobody.
+bool model_obtain(const Scene *scene, const StageNotice *notice, Model *model, Error *err);
 
 #endif

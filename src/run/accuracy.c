@@ -356,6 +356,10 @@ bool amontons_run(const Scene *scene, const RunOptions *options, RunSummary *sum
     accuracy->options = options;
     accuracy->started = clock_seconds();
     accuracy->levels.wanted = scene->accuracy.mu;
+    if (options->resume)
+        FAIL(err, ERROR_INPUT,
+             "an error bar (--to, accuracy.mu) is found from several runs, which do not go on from "
+             "a checkpoint: say --overwrite");
     TRY(result_folder_claim(options->folder, options->overwrite, &folder, err));
     TRY(find_levels(accuracy, err));
     result_folder_release(&folder);   // the last run claims it for itself

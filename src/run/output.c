@@ -30,6 +30,7 @@ bool output_open_history(Simulation *simulation, Error *err)
         .title = scene->title,
         .units = scene->units == UNITS_SI ? "si" : "normalised",
         .version = AMONTONS_VERSION,
+        .goes_on = simulation->goes_on,
         .numbers = {[NUMBER_LENGTH] = simulation->model.length,
                     [NUMBER_PRESSURE] = scene->load.pressure,
                     [NUMBER_LOAD] = simulation->model.scales.load,

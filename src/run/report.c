@@ -179,6 +179,7 @@ bool report_write(const char *folder, const RunReport *report, Error *err)
         json_text(json, "message", report->failure->message);
     }
     json_text(json, "version", AMONTONS_VERSION);
+    json_integer(json, "resumed", report->resumed);
     write_warnings(json, report->warnings);
     scene_write_json(report->scene, json, "scene", folder);
     write_steps(json, report->counters);

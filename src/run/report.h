@@ -33,6 +33,7 @@ typedef struct RunReport {
     const RunTiming *timing;
     const Model *model;
     int64_t relaxation_steps;
+    int32_t resumed;   // so many times gone on from a checkpoint
     const RunErrors *errors;
     const Events *events;
     const Drops *drops;

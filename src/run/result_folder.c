@@ -20,11 +20,14 @@
 
 enum { PATH_SIZE = PATH_MAX + 300 };
 
+// A run that was killed while a process of its own read for it (base/apart) leaves that for a
+// moment, with its lock; s.
+static const double LOCK_WAIT = 1;
 static const char LOCK_NAME[] = "amontons.lock", PART[] = ".part";
 
 // What proves a result, in the order in which it is removed; each also with PART behind it.
 static const char *const OWN_FILES[] = {
-    "run.json",   "history.h5",     "fields.pvd",   "static.json",  "static.h5",
+    "run.json",   CHECKPOINT_FILE,  "history.h5",   "fields.pvd",   "static.json", "static.h5",
     "static.vtu", "stability.json", "stability.h5", "model1d.json", "model1d.h5"};
 enum { OWN_FILE_COUNT = sizeof OWN_FILES / sizeof OWN_FILES[0] };
 
@@ -104,7 +107,7 @@ static bool take_lock(ResultFolder *folder, Error *err)
 {
     char path[PATH_SIZE], host[65] = "", holder[128] = "";
     snprintf(path, sizeof path, "%s/%s", folder->path, LOCK_NAME);
-    if (file_lock_take(&folder->lock, path, 0)) {
+    if (file_lock_take(&folder->lock, path, LOCK_WAIT)) {
         gethostname(host, sizeof host - 1);
         dprintf(folder->lock.descriptor, "process %ld on %s\n", (long)getpid(), host);
         return true;
@@ -124,6 +127,20 @@ cleanup:
     return false;
 }
 
+// There is a checkpoint, and no report of a run that came to its end.
+static bool may_go_on(const char *folder)
+{
+    char path[PATH_SIZE], start[128] = "";
+    snprintf(path, sizeof path, "%s/%s", folder, CHECKPOINT_FILE);
+    if (access(path, F_OK) != 0) return false;
+    snprintf(path, sizeof path, "%s/%s", folder, OWN_FILES[0]);
+    FILE *report = fopen(path, "r");
+    if (!report) return true;
+    start[fread(start, 1, sizeof start - 1, report)] = 0;
+    fclose(report);
+    return !strstr(start, "\"done\"");
+}
+
 bool result_folder_claim(const char *path, bool overwrite, ResultFolder *folder, Error *err)
 {
     char found[PATH_SIZE];
@@ -138,6 +155,11 @@ bool result_folder_claim(const char *path, bool overwrite, ResultFolder *folder,
         own_path(path, k, found);
         folder->has_earlier = access(found, F_OK) == 0;
     }
+    if (folder->has_earlier && !overwrite && may_go_on(path))
+        FAIL(err, ERROR_INPUT,
+             "%s holds a result that was cut off: go on with it (--resume), choose another folder "
+             "(-o) or say --overwrite",
+             path);
     if (folder->has_earlier && !overwrite)
         FAIL(err, ERROR_INPUT,
              "%s holds an earlier result (%s): choose another folder (-o) or say --overwrite", path,
@@ -158,6 +180,17 @@ bool result_folder_clear(ResultFolder *folder, Error *err)
     }
     TRY(empty_folder(folder->path, "fields", is_field, err));
     TRY(empty_folder(folder->path, "figures", is_figure, err));
+    folder->has_earlier = false;
+cleanup:
+    return error_is_clean(err);
+}
+
+bool result_folder_take_up(ResultFolder *folder, Error *err)
+{
+    char path[PATH_SIZE];
+    snprintf(path, sizeof path, "%s/%s", folder->path, OWN_FILES[0]);
+    if (unlink(path) != 0 && errno != ENOENT)
+        FAIL(err, ERROR_FILE, "cannot remove the earlier report %s: %s", path, strerror(errno));
     folder->has_earlier = false;
 cleanup:
     return error_is_clean(err);

@@ -3,12 +3,14 @@
 // the files of an earlier result are ever removed. Called by run/simulation, run/static_solve and
 // the studies of one scene.
 //
-//   claim -> (input accepted) -> clear -> (files are written) -> release
+//   claim -> (input accepted) -> clear or take_up -> (files are written) -> release
 #ifndef AMONTONS_RUN_RESULT_FOLDER_H
 #define AMONTONS_RUN_RESULT_FOLDER_H
 
 #include "amontons.h"
 #include "io/file_lock.h"
+
+#define CHECKPOINT_FILE "checkpoint.bin"   // of a run (run/checkpoint)
 
 typedef struct ResultFolder {
     char path[AMONTONS_PATH_SIZE];   // empty: nothing is written at all
@@ -22,6 +24,9 @@ bool result_folder_claim(const char *path, bool overwrite, ResultFolder *folder,
 
 // Removes the earlier result, where there is one; to be called once the input is known to be right.
 bool result_folder_clear(ResultFolder *folder, Error *err);
+
+// Instead of clear, to go on with the earlier result: only its report is removed.
+bool result_folder_take_up(ResultFolder *folder, Error *err);
 
 bool result_folder_is_ours(const ResultFolder *folder);   // files may be written now
 void result_folder_release(ResultFolder *folder);   // zeroed and released too

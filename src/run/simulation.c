@@ -6,8 +6,10 @@
 #include "base/dense.h"
 #include "base/memory.h"
 #include "model/obtain.h"
+#include "run/checkpoint.h"
 #include "run/explicit_loop.h"
 #include "run/output.h"
+#include "run/saved_state.h"
 #include "run/start.h"
 #include "run/summary.h"
 #include "run/warnings.h"
@@ -108,10 +110,76 @@ cleanup:
     return error_is_clean(err);
 }
 
+// For a StageNotice.
+static void tell_stage(void *self, const char *stage)
+{
+    const Simulation *simulation = self;
+    if (simulation->options.on_stage)
+        simulation->options.on_stage(stage, simulation->options.context);
+}
+
+// From the scene: an earlier result goes, the block relaxes, t = 0 is recorded.
+static bool begin_anew(Simulation *simulation, Error *err)
+{
+    TRY(result_folder_clear(&simulation->folder, err));   // the scene can be computed
+    tell_stage(simulation, "relaxing");
+    double begun = clock_processor_seconds();
+    TRY(start_relax(simulation, err));
+    simulation->timing.outside -= clock_processor_seconds() - begun;
+    TRY(explicit_loop_prepare(simulation, err));
+    TRY(open_recorders(simulation, err));
+    TRY(record_step(simulation, err));
+    simulation->allocations_before = memory_counters().allocations;
+cleanup:
+    return error_is_clean(err);
+}
+
+// From a checkpoint, which is known to be this scene's before the result is touched.
+static bool go_on(Simulation *simulation, const SavedState *state, Error *err)
+{
+    double time;
+    TRY(saved_state_fits(simulation, state, &time, err));
+    if (time > simulation->t_end * (1 + 1e-9))
+        FAIL(err, ERROR_INPUT,
+             "time.until is at t = %g, and this result goes to t = %g already: give a later end "
+             "(--extend U=...)",
+             simulation->t_end, time);
+    TRY(result_folder_take_up(&simulation->folder, err));
+    simulation->goes_on = true;
+    TRY(explicit_loop_prepare(simulation, err));
+    TRY(open_recorders(simulation, err));
+    TRY(amontons_simulation_restore(simulation, state, err));
+    simulation->resumed++;
+cleanup:
+    if (!error_is_clean(err))
+        error_context(err, "%s/%s", simulation->options.folder, CHECKPOINT_FILE);
+    return error_is_clean(err);
+}
+
+// What a scene must have to be run; claims the folder, and reads the checkpoint where it is to go
+// on from one.
+static bool accept(Simulation *simulation, SavedState *state, Error *err)
+{
+    const Scene *scene = &simulation->scene;
+    const RunOptions *options = &simulation->options;
+    TRY(result_folder_claim(options->folder, options->overwrite || options->resume,
+                            &simulation->folder, err));
+    if (!(scene->time.until_U > 0) && !(scene->time.until_t > 0))
+        FAIL(err, ERROR_INPUT,
+             "%s: says not when to stop (time.until): it is a scene for `amontons static`",
+             scene->path);
+    if (options->resume && !options->folder)
+        FAIL(err, ERROR_INPUT, "a run without a result folder leaves nothing to go on from");
+    if (options->resume) TRY(checkpoint_read(options->folder, state, err));
+cleanup:
+    return error_is_clean(err);
+}
+
 // On failure *out still holds what was made: amontons_run reports it, and everyone destroys it.
 bool amontons_simulation_create(const Scene *scene, const RunOptions *options, Simulation **out,
                                 Error *err)
 {
+    SavedState state = {0};
     *out = NULL;
     Simulation *simulation = NEW_ARRAY(Simulation, 1, err);
     if (!simulation) goto cleanup;
@@ -120,36 +188,45 @@ bool amontons_simulation_create(const Scene *scene, const RunOptions *options, S
     simulation->options = *options;
     simulation->scene.output.whole = options->whole_block;
     simulation->pressure = scene->load.pressure;
-    simulation->started = clock_seconds();
+    simulation->started = simulation->checkpoint_at = clock_seconds();
     dense_use_one_thread();
-    TRY(result_folder_claim(options->folder, options->overwrite, &simulation->folder, err));
-    if (!(scene->time.until_U > 0) && !(scene->time.until_t > 0))
-        FAIL(err, ERROR_INPUT,
-             "%s: says not when to stop (time.until): it is a scene for `amontons static`",
-             scene->path);
+    TRY(accept(simulation, &state, err));
     const char *warning = amontons_scene_warning(scene);
     if (warning) warnings_add(&simulation->warnings, "%s", warning);
-    TRY(model_obtain(&simulation->scene, &simulation->model, err));
+    StageNotice notice = {.tell = tell_stage, .self = simulation};
+    TRY(model_obtain(&simulation->scene, &notice, &simulation->model, err));
     TRY(start_prepare_steps(simulation, err));
-    TRY(result_folder_clear(&simulation->folder, err));   // the scene can be computed
     warnings_of_resolution(&simulation->control.certificate, simulation->model.scales.load,
                            &simulation->warnings);
     warnings_of_rod(scene, &simulation->model.interface, simulation->model.height,
                     &simulation->warnings);
-    double begun = clock_processor_seconds();
-    TRY(start_relax(simulation, err));
-    simulation->timing.outside -= clock_processor_seconds() - begun;
-    TRY(explicit_loop_prepare(simulation, err));
-    TRY(open_recorders(simulation, err));
-    TRY(record_step(simulation, err));
+    if (options->resume)
+        TRY(go_on(simulation, &state, err));
+    else
+        TRY(begin_anew(simulation, err));
     simulation->timing.outside += clock_processor_seconds();
-    simulation->allocations_before = memory_counters().allocations;
 cleanup:
+    amontons_state_free(&state);
     return error_is_clean(err);
 }
 
+// What is left is less than a rung that is built: not worth a factorisation. The periodic regime is
+// looked at only when an event has ended.
+bool simulation_is_finished(const Simulation *simulation)
+{
+    const StepControl *control = &simulation->control;
+    bool implicit = simulation->scene.time.scheme != SCHEME_EXPLICIT;
+    double remaining = simulation->t_end - control->now.time;
+    bool finished = isfinite(simulation->t_end) &&
+                    (remaining <= 1e-9 * simulation->t_end ||
+                     (implicit && !step_control_fits(control, remaining)));
+    if (simulation->scene.time.until_periodic && simulation->events.ended)
+        finished = finished || answers_are_known(&simulation->drops);
+    return finished;
+}
+
 // An explicit `step` is one record of many small ones. *finished: the end of the scene, or the
-// periodic regime where the scene asks for it; looked at only when an event has ended.
+// periodic regime where the scene asks for it.
 bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *finished, Error *err)
 {
     StepControl *control = &simulation->control;
@@ -164,12 +241,7 @@ bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *fini
     bool implicit = simulation->scene.time.scheme != SCHEME_EXPLICIT;
     bool ends = isfinite(simulation->t_end);
     if (implicit && ends) TRY(step_control_gets_on(control, simulation->t_end, err));
-    // What is left is less than a rung that is built: not worth a factorisation.
-    remaining = simulation->t_end - control->now.time;
-    *finished = ends && (remaining <= 1e-9 * simulation->t_end ||
-                         (implicit && !step_control_fits(control, remaining)));
-    if (simulation->scene.time.until_periodic && simulation->events.ended)
-        *finished = *finished || answers_are_known(&simulation->drops);
+    *finished = simulation_is_finished(simulation);
     if (view)
         *view = step_view(&simulation->seen, &simulation->events, &simulation->contact,
                           simulation->t_end);
@@ -190,6 +262,7 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
 {
     double started = clock_seconds();
     simulation->timing.outside -= clock_processor_seconds();
+    if (!failure) TRY(checkpoint_at_end(simulation, err));
     events_close(&simulation->events, &simulation->seen);
     simulation->errors.reduction = ladder_reduction_error(&simulation->control.ladder);
     Answers answers = answers_to_report(simulation);
@@ -213,6 +286,7 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
                             .timing = &simulation->timing,
                             .model = &simulation->model,
                             .relaxation_steps = simulation->relaxation_steps,
+                            .resumed = simulation->resumed,
                             .errors = &simulation->errors,
                             .events = &simulation->events,
                             .drops = &simulation->drops,
@@ -251,15 +325,26 @@ void amontons_simulation_destroy(Simulation *simulation)
     memory_free(simulation);
 }
 
+// Always false.
+static bool stop_here(Simulation *simulation, Error *err)
+{
+    Error unseen = {0};
+    bool kept = checkpoint_is_kept(simulation) && checkpoint_now(simulation, &unseen);
+    FAIL(err, ERROR_INTERRUPT, "stopped at U = %g (t = %g); what was computed is kept in %s%s",
+         simulation->seen.U, simulation->seen.t, simulation->folder.path,
+         kept ? "; the same command with --resume goes on from there" : "");
+cleanup:
+    return false;
+}
+
 bool simulation_loop(Simulation *simulation, Error *err)
 {
     const volatile sig_atomic_t *stop = simulation->options.stop;
-    for (bool finished = false; !finished;) {
+    bool finished = simulation->goes_on && simulation_is_finished(simulation);
+    while (!finished) {
         TRY(amontons_simulation_step(simulation, NULL, &finished, err));
-        if (stop && *stop)
-            FAIL(err, ERROR_INTERRUPT,
-                 "stopped at U = %g (t = %g); what was computed is kept in %s", simulation->seen.U,
-                 simulation->seen.t, simulation->folder.path);
+        checkpoint_when_due(simulation);
+        if (stop && *stop) TRY(stop_here(simulation, err));
     }
 cleanup:
     return error_is_clean(err);

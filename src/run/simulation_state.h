@@ -6,6 +6,7 @@
 
 #include "amontons.h"
 #include "amontons_simulation.h"
+#include "base/hash.h"
 #include "model/model.h"
 #include "record/contact_arrays.h"
 #include "record/fields.h"
@@ -41,6 +42,11 @@ struct Simulation {
     RunErrors errors;
     RunWarnings warnings;
     const Levels *levels;   // several meshes and runs, of which this is one; NULL: it is alone
+    char identity[HASH_TEXT_SIZE];   // of scene, bulk and interface; empty: not asked for yet
+    bool goes_on;   // from a checkpoint
+    int32_t resumed;   // so many times since t = 0
+    bool checkpoint_failed;   // and the run was warned of it
+    double checkpoint_at, checkpoint_cost;   // wall clock of the last one; how long it took, s
     double last_unquiet;   // when slip was last rapid or not certified, time
     double started;   // wall clock, s
     int64_t allocations_before;   // memory_counters() when the time loop began
@@ -51,6 +57,9 @@ struct Simulation {
 // What amontons_run and run/accuracy are made of, beside the pieces in amontons.h.
 bool simulation_run(const Scene *scene, const RunOptions *options, RunSummary *summary, Error *err);
 bool simulation_loop(Simulation *simulation, Error *err);   // steps to the end of the scene
+
+bool simulation_is_finished(const Simulation *simulation);   // the scene's end, or its period
+double steering_end(const Simulation *simulation);   // when the scene ends, as the rod moves now
 
 // Closes history, draws, reports. failure: NULL, or why the run ended early; it is reported, and
 // what was computed is kept.

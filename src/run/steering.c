@@ -15,8 +15,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// When the scene ends, as step_rule_end has it, from here on.
-static double end_from_now(const Simulation *simulation)
+// As step_rule_end has it, from here on.
+double steering_end(const Simulation *simulation)
 {
     double until_U = simulation->scene.time.until_U, until_t = simulation->scene.time.until_t;
     const Rod *rod = &simulation->rod;
@@ -41,7 +41,7 @@ bool amontons_simulation_set_rod_velocity(Simulation *simulation, double velocit
         FAIL(err, ERROR_INPUT, "%s: rod.kind none: there is no rod to be moved",
              simulation->scene.path);
     rod_set_velocity(&simulation->rod, velocity, simulation->control.now.time);
-    simulation->t_end = end_from_now(simulation);
+    simulation->t_end = steering_end(simulation);
     disturb(simulation);
 cleanup:
     return error_is_clean(err);

@@ -4,6 +4,7 @@
 #ifndef AMONTONS_SCENE_KEYS_H
 #define AMONTONS_SCENE_KEYS_H
 
+#include "base/hash.h"
 #include "io/json_writer.h"
 #include "scene/scene.h"
 
@@ -70,6 +71,9 @@ void scene_key_value(const SceneKey *key, const Scene *scene, char *words, int32
 // nested as in YAML, so that it can be read again as a scene. mesh.file as seen from `folder`, in
 // which the document stands.
 void scene_write_json(const Scene *scene, JsonWriter *json, const char *name, const char *folder);
+
+// Adds the keys that count, with their values.
+bool scene_hash(const Scene *scene, bool (*counts)(const char *key), Hash *hash, Error *err);
 
 // The reference: one Markdown table row a key.
 void scene_write_reference(FILE *out);

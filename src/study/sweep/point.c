@@ -15,7 +15,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { VALUE_SIZE = 8192, REPORT_BYTES_MAX = 1 << 28, PLUGIN_BYTES_MAX = 1 << 28 };
+enum { REPORT_BYTES_MAX = 1 << 28 };
 
 // The content of the mesh file decides, not its path; where it draws on others, the mesh that gmsh
 // makes of it with this point's parameters, every time.
@@ -39,52 +39,21 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The functions of a friction law that is a plug-in, by the content of its file.
-static bool hash_plugin(const Scene *scene, Hash *hash, Error *err)
+static bool key_counts(const char *key)
 {
-    char *bytes = NULL;
-    int32_t size = 0;
-    if (!*scene->own_friction.file) return true;
-    TRY(text_file_read(scene->own_friction.file, PLUGIN_BYTES_MAX, &bytes, &size, err));
-    hash_bytes(hash, bytes, (size_t)size);
-cleanup:
-    memory_free(bytes);
-    return error_is_clean(err);
+    return strcmp(key, "title") != 0 && strcmp(key, "mesh.file") != 0;
 }
 
-// Numbers by their bits, the mesh by its content; the title and the path of the mesh do not count.
+// The mesh by its content; the title and the path of the mesh do not count.
 bool point_hash(const Scene *scene, PointMesh *mesh, char text[HASH_TEXT_SIZE], Error *err)
 {
-    int32_t count = 0;
-    const SceneKey *keys = scene_keys(&count);
     Hash hash = hash_start();
-    char *words = NEW_ARRAY(char, VALUE_SIZE, err);
-    TRY(words);
     TRY(hash_mesh(scene, mesh, err));
     hash_text(&hash, AMONTONS_VERSION);
     hash_bytes(&hash, &mesh->hash, sizeof mesh->hash);
-    TRY(hash_plugin(scene, &hash, err));
-    for (int32_t k = 0; k < count; k++) {
-        const void *field = (const char *)scene + keys[k].offset;
-        bool counts = strcmp(keys[k].name, "title") != 0 && strcmp(keys[k].name, "mesh.file") != 0;
-        if (!counts) continue;
-        hash_text(&hash, keys[k].name);
-        if (keys[k].type == KEY_NUMBER) {
-            hash_number(&hash, *(const double *)field);
-        } else if (keys[k].type == KEY_PARAMETERS) {
-            for (int32_t i = 0; i < scene->mesh.parameter_count; i++) {
-                hash_text(&hash, scene->mesh.parameters[i].name);
-                hash_text(&hash, scene->mesh.parameters[i].text);
-                hash_number(&hash, scene->mesh.parameters[i].value);
-            }
-        } else {
-            scene_key_value(&keys[k], scene, words, VALUE_SIZE);
-            hash_text(&hash, words);
-        }
-    }
+    TRY(scene_hash(scene, key_counts, &hash, err));
     hash_write(&hash, text);
 cleanup:
-    memory_free(words);
     return error_is_clean(err);
 }
 
@@ -138,24 +107,40 @@ const char *point_status_name(PointStatus status)
     return names[status];
 }
 
-// Only run.json: it alone makes a point finished.
+// Of a run that was cut off. Short ones have none.
+static void checkpoint_path(const Sweep *sweep, int32_t point, char path[POINT_PATH_SIZE + 16])
+{
+    point_folder(sweep, point, path);
+    strcat(path, "/checkpoint.bin");
+}
+
+// run.json, which alone makes a point finished, and what it could be gone on with from.
 void point_remove(const Sweep *sweep, int32_t point)
 {
     char path[POINT_PATH_SIZE + 16];
     report_path(sweep, point, path);
     unlink(path);   // the rest is the next run's to overwrite
+    checkpoint_path(sweep, point, path);
+    unlink(path);
 }
 
-// An ordinary run, over what an earlier try may have left in the folder.
+// An ordinary run, which goes on with what was cut off or is written over what an earlier try may
+// have left in the folder.
 bool point_run(const Sweep *sweep, int32_t point, Error *err)
 {
-    char folder[POINT_PATH_SIZE];
+    char folder[POINT_PATH_SIZE], checkpoint[POINT_PATH_SIZE + 16];
     RunSummary summary;
     RunOptions options = {.folder = folder, .overwrite = true};
     Scene *scene = NEW_ARRAY(Scene, 1, err);
     TRY(scene);
     point_folder(sweep, point, folder);
     TRY(point_scene(sweep, point, scene, err));
+    checkpoint_path(sweep, point, checkpoint);
+    options.resume = access(checkpoint, F_OK) == 0 && !(scene->accuracy.mu > 0);
+    if (amontons_run(scene, &options, &summary, err) || !options.resume) goto cleanup;
+    if (err->code != ERROR_INPUT) goto cleanup;
+    *err = (Error){0};   // a checkpoint of another version or basis: from the start
+    options.resume = false;
     TRY(amontons_run(scene, &options, &summary, err));
 cleanup:
     memory_free(scene);

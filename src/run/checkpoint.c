@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "run/checkpoint.h"
+
+#include "base/clock.h"
+#include "run/warnings.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <unistd.h>
+
+static const double EVERY = 10;   // s of wall time
+static const double SHARE = 0.01;   // of the time that checkpoints may take, where they are large
+
+enum { PATH_SIZE = AMONTONS_PATH_SIZE + 32 };
+
+static void find_path(const char *folder, char path[PATH_SIZE])
+{
+    snprintf(path, PATH_SIZE, "%s/%s", folder, CHECKPOINT_FILE);
+}
+
+// Runs on several meshes do not go on from one state.
+bool checkpoint_is_kept(const Simulation *simulation)
+{
+    return result_folder_is_ours(&simulation->folder) && !(simulation->scene.accuracy.mu > 0) &&
+           simulation->options.checkpoint_every >= 0;
+}
+
+bool checkpoint_now(Simulation *simulation, Error *err)
+{
+    char path[PATH_SIZE];
+    SavedState state = {0};
+    double started = clock_seconds();
+    find_path(simulation->folder.path, path);
+    TRY(history_sync(&simulation->history, err));
+    TRY(amontons_simulation_save(simulation, &state, err));
+    TRY(amontons_state_write(&state, path, err));
+cleanup:
+    amontons_state_free(&state);
+    simulation->checkpoint_at = clock_seconds();
+    simulation->checkpoint_cost = simulation->checkpoint_at - started;
+    simulation->timing.output += simulation->checkpoint_cost;
+    return error_is_clean(err);
+}
+
+void checkpoint_when_due(Simulation *simulation)
+{
+    double asked = simulation->options.checkpoint_every;
+    double since = clock_seconds() - simulation->checkpoint_at;
+    double every = asked > 0 ? asked : fmax(EVERY, simulation->checkpoint_cost / SHARE);
+    if (since < every) return;
+    if (!checkpoint_is_kept(simulation)) return;
+    Error failed = {0};
+    if (checkpoint_now(simulation, &failed) || simulation->checkpoint_failed) return;
+    warnings_add(&simulation->warnings, "a checkpoint could not be written: %s", failed.message);
+    simulation->checkpoint_failed = true;
+}
+
+bool checkpoint_at_end(Simulation *simulation, Error *err)
+{
+    char path[PATH_SIZE];
+    if (!result_folder_is_ours(&simulation->folder)) return true;
+    if (checkpoint_is_kept(simulation) && simulation->history.file)
+        return checkpoint_now(simulation, err);
+    find_path(simulation->folder.path, path);
+    unlink(path);
+    return true;
+}
+
+bool checkpoint_read(const char *folder, SavedState *state, Error *err)
+{
+    char path[PATH_SIZE];
+    find_path(folder, path);
+    if (access(path, F_OK) != 0)
+        FAIL(err, ERROR_INPUT,
+             "%s has no %s to go on from: the run ended before its first one, or wrote none; say "
+             "--overwrite to begin anew",
+             folder, CHECKPOINT_FILE);
+    TRY(amontons_state_read(path, state, err));
+cleanup:
+    return error_is_clean(err);
+}

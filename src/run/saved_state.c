@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The list is gone through three times: to measure, to write, and later to read (base/archive). In
+// front of it stands what it is and of what, behind it a checksum:
+//
+//     "amontons-state 1"  version  identity  time  { parts of the state }  checksum
+//
+// What can be made again from the scene is not saved: mesh, matrices, the rungs' factors. What
+// depends on rounding in the past is: factors that the next step may use again, the order of sweeps
+// (contact/contact_matrix), products that are carried on (stepping/state).
+#include "run/saved_state.h"
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "io/part_file.h"
+#include "scene/keys.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+// A new number where the list changes its order or meaning.
+static const char FORMAT[] = "amontons-state 1";
+enum { WORD_SIZE = 32, CHECKSUM_SIZE = HASH_TEXT_SIZE - 1 };
+
+// --- of what ------------------------------------------------------------------------------------
+
+// What may differ: how far it goes, and what is only shown of it.
+static bool key_counts(const char *key)
+{
+    static const char *const free[] = {"title", "mesh.file", "friction.file", "reduction.cache",
+                                       "output.figures"};
+    for (size_t k = 0; k < sizeof free / sizeof free[0]; k++)
+        if (strcmp(key, free[k]) == 0) return false;
+    return strncmp(key, "time.until", strlen("time.until")) != 0;
+}
+
+// By the matrices themselves, not by the mesh file: a reduced state is in coordinates of its basis.
+static bool find_identity(Simulation *simulation, Error *err)
+{
+    const Interface *interface = &simulation->model.interface;
+    Hash hash = hash_start();
+    if (simulation->identity[0]) return true;
+    TRY(scene_hash(&simulation->scene, key_counts, &hash, err));
+    bulk_operator_hash(&simulation->model.system, &hash);
+    size_t contacts = (size_t)interface->contact_count, rods = (size_t)interface->rod_count;
+    hash_bytes(&hash, interface->x, contacts * sizeof *interface->x);
+    hash_bytes(&hash, interface->weight, contacts * sizeof *interface->weight);
+    hash_bytes(&hash, interface->pad, contacts * sizeof *interface->pad);
+    hash_bytes(&hash, simulation->rod.softness, rods * sizeof *simulation->rod.softness);
+    hash_write(&hash, simulation->identity);
+cleanup:
+    return error_is_clean(err);
+}
+
+// *found: what the state has in this place, where it is read.
+static void pass_word(Archive *archive, const char *word, char found[WORD_SIZE + 1])
+{
+    memset(found, 0, WORD_SIZE + 1);
+    snprintf(found, WORD_SIZE + 1, "%s", word);
+    archive_text(archive, found, WORD_SIZE + 1);
+}
+
+// *time: of the state.
+static bool archive_head(Simulation *simulation, Archive *archive, double *time, Error *err)
+{
+    char format[WORD_SIZE + 1], version[WORD_SIZE + 1], identity[WORD_SIZE + 1];
+    TRY(find_identity(simulation, err));
+    pass_word(archive, FORMAT, format);
+    pass_word(archive, AMONTONS_VERSION, version);
+    pass_word(archive, simulation->identity, identity);
+    if (archive->failed || strcmp(format, FORMAT) != 0)
+        FAIL(err, ERROR_INPUT, "it is not a saved state as this version writes it");
+    if (strcmp(version, AMONTONS_VERSION) != 0)
+        FAIL(err, ERROR_INPUT, "it was saved by version %s, this is %s", version, AMONTONS_VERSION);
+    if (strcmp(identity, simulation->identity) != 0)
+        FAIL(err, ERROR_INPUT,
+             "it is the state of another scene or mesh; only time.until, title and output.figures "
+             "may differ (and the reduction must be the one that was made then)");
+    *time = simulation->control.now.time;
+    archive_number(archive, time);
+cleanup:
+    return error_is_clean(err);
+}
+
+// --- the list -----------------------------------------------------------------------------------
+
+static void archive_errors(RunErrors *errors, Archive *archive)
+{
+    archive_section(archive, "errors");
+    archive_number(archive, &errors->energy);
+    archive_number(archive, &errors->complementarity);
+    archive_number(archive, &errors->moment);
+    archive_number(archive, &errors->equation);
+    archive_number(archive, &errors->penetration);
+    archive_number(archive, &errors->moment_quasi_static);
+}
+
+static void archive_warnings(RunWarnings *warnings, Archive *archive)
+{
+    archive_section(archive, "warnings");
+    archive_index(archive, &warnings->count, 0, RUN_WARNINGS_MAX + 1);
+    for (int32_t k = 0; k < warnings->count && !archive->failed; k++)
+        archive_text(archive, warnings->text[k], RUN_WARNING_SIZE);
+}
+
+// in_loop: allocations of the loop of steps. They and wall times are summed over the parts of a
+// run; how its basis was come by is told of the first.
+static void archive_report(Simulation *simulation, int64_t in_loop, Archive *archive)
+{
+    double elapsed = clock_seconds() - simulation->started;
+    archive_section(archive, "report");
+    archive_count(archive, &simulation->relaxation_steps);
+    archive_integer(archive, &simulation->resumed);
+    archive_number(archive, &elapsed);
+    archive_number(archive, &simulation->timing.relax);
+    archive_number(archive, &simulation->timing.solve);
+    archive_number(archive, &simulation->timing.output);
+    archive_count(archive, &in_loop);
+    archive_flag(archive, &simulation->model.from_cache);
+    archive_text(archive, simulation->model.cache_note, sizeof simulation->model.cache_note);
+    if (!archive_reads(archive)) return;
+    simulation->started = clock_seconds() - elapsed;
+    simulation->allocations_before = memory_counters().allocations - in_loop;
+}
+
+// A scene that ends elsewhere than the saved one ends where it says itself.
+static void archive_end(Simulation *simulation, Archive *archive)
+{
+    double end = simulation->t_end;
+    double until[] = {simulation->scene.time.until_U, simulation->scene.time.until_t};
+    archive_section(archive, "end");
+    archive_number(archive, &end);
+    archive_numbers(archive, until, 2);
+    if (!archive_reads(archive)) return;
+    bool same = until[0] == simulation->scene.time.until_U &&
+                until[1] == simulation->scene.time.until_t;
+    const Rod *rod = &simulation->rod;
+    bool steered = rod->since != 0 || rod->velocity != simulation->scene.rod.velocity;
+    if (same)
+        simulation->t_end = end;
+    else if (steered)
+        simulation->t_end = steering_end(simulation);
+}
+
+// All but the report, which counts what the others allocate.
+static bool archive_parts(Simulation *simulation, Archive *archive, Error *err)
+{
+    const Interface *interface = &simulation->model.interface;
+    archive_section(archive, "load");
+    archive_number(archive, &simulation->pressure);
+    archive_number(archive, &simulation->model.scales.load);
+    archive_number(archive, &simulation->last_unquiet);
+    bulk_operator_archive(&simulation->model.system, archive);
+    int64_t factorisations = simulation->model.system.factorisations;
+    rod_archive(&simulation->rod, archive);
+    TRY(step_control_archive(&simulation->control, archive, err));
+    simulation->model.system.factorisations = factorisations;   // rungs made again do not count
+    archive_end(simulation, archive);
+    explicit_reference_archive(&simulation->explicit_reference, archive);
+    TRY(events_archive(&simulation->events, interface, archive, err));
+    TRY(drops_archive(&simulation->drops, archive, err));
+    pads_archive(&simulation->pads, archive);
+    contact_arrays_archive(&simulation->contact, archive);
+    archive_errors(&simulation->errors, archive);
+    archive_warnings(&simulation->warnings, archive);
+    TRY(fields_archive(&simulation->fields, archive, err));
+    TRY(history_archive(&simulation->history, archive, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// --- save and restore ---------------------------------------------------------------------------
+
+// In two passes: the first measures. What it allocates itself is not the loop's.
+bool amontons_simulation_save(Simulation *simulation, SavedState *state, Error *err)
+{
+    Archive archive = archive_measure();
+    Hash hash = hash_start();
+    char checksum[HASH_TEXT_SIZE];
+    double time;
+    int64_t before = memory_counters().allocations;
+    int64_t in_loop = before - simulation->allocations_before;
+    *state = (SavedState){0};
+    for (int pass = 0; pass < 2; pass++) {
+        TRY(archive_head(simulation, &archive, &time, err));
+        TRY(archive_parts(simulation, &archive, err));
+        archive_report(simulation, in_loop, &archive);
+        if (pass == 1) break;
+        state->size = archive.at + CHECKSUM_SIZE;
+        TRY((state->bytes = memory_bytes(state->size, err)));
+        archive = archive_write(state->bytes, archive.at);
+    }
+    TRY(archive_check(&archive, true, err));
+    hash_bytes(&hash, state->bytes, (size_t)archive.at);
+    hash_write(&hash, checksum);
+    memcpy((char *)state->bytes + archive.at, checksum, CHECKSUM_SIZE);
+cleanup:
+    if (!error_is_clean(err)) amontons_state_free(state);
+    simulation->allocations_before += memory_counters().allocations - before;
+    return error_is_clean(err);
+}
+
+// What the state's archive holds, checked as a whole.
+static bool open_archive(const SavedState *state, Archive *archive, Error *err)
+{
+    Hash hash = hash_start();
+    char checksum[HASH_TEXT_SIZE];
+    int64_t size = state->size - CHECKSUM_SIZE;
+    if (!state->bytes || size < 0) FAIL(err, ERROR_INPUT, "it is too short for a saved state");
+    hash_bytes(&hash, state->bytes, (size_t)size);
+    hash_write(&hash, checksum);
+    if (memcmp((const char *)state->bytes + size, checksum, CHECKSUM_SIZE) != 0)
+        FAIL(err, ERROR_INPUT, "it is no saved state, or damaged: its checksum does not hold");
+    *archive = archive_read(state->bytes, size);
+cleanup:
+    return error_is_clean(err);
+}
+
+bool saved_state_fits(Simulation *simulation, const SavedState *state, double *time, Error *err)
+{
+    Archive archive;
+    return open_archive(state, &archive, err) && archive_head(simulation, &archive, time, err);
+}
+
+// The arrays that a caller sees are those of the step that was saved.
+bool amontons_simulation_restore(Simulation *simulation, const SavedState *state, Error *err)
+{
+    Archive archive;
+    double time;
+    TRY(open_archive(state, &archive, err));
+    TRY(archive_head(simulation, &archive, &time, err));
+    TRY(archive_parts(simulation, &archive, err));
+    simulation->seen = observe(&simulation->control, &simulation->model.scales);
+    TRY(contact_arrays_record(&simulation->contact, &simulation->seen, err));
+    archive_report(simulation, 0, &archive);
+    TRY(archive_check(&archive, true, err));
+cleanup:
+    if (!error_is_clean(err)) error_context(err, "the state cannot be put back");
+    return error_is_clean(err);
+}
+
+bool amontons_state_write(const SavedState *state, const char *path, Error *err)
+{
+    PartFile file = {0};
+    TRY(part_file_create(&file, path, err));
+    TRY(part_file_write(&file, state->bytes, state->size, err));
+    TRY(part_file_commit(&file, err));
+cleanup:
+    part_file_discard(&file);
+    return error_is_clean(err);
+}
+
+// Checked when it is restored.
+bool amontons_state_read(const char *path, SavedState *state, Error *err)
+{
+    struct stat status;
+    int64_t at = 0;
+    *state = (SavedState){0};
+    int descriptor = open(path, O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0 || fstat(descriptor, &status) != 0)
+        FAIL(err, ERROR_FILE, "cannot read %s: %s", path, strerror(errno));
+    if (!S_ISREG(status.st_mode)) FAIL(err, ERROR_INPUT, "%s is no file", path);
+    state->size = status.st_size;
+    TRY((state->bytes = memory_bytes(state->size, err)));
+    while (at < state->size) {
+        ssize_t got = read(descriptor, (char *)state->bytes + at, (size_t)(state->size - at));
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) FAIL(err, ERROR_FILE, "cannot read %s: %s", path, strerror(errno));
+        at += got;
+    }
+cleanup:
+    if (descriptor >= 0) close(descriptor);
+    if (!error_is_clean(err)) amontons_state_free(state);
+    return error_is_clean(err);
+}
+
+void amontons_state_free(SavedState *state)
+{
+    memory_free(state->bytes);
+    *state = (SavedState){0};
+}

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a state of a simulation consists of, in one list, and whether a saved one belongs to it. The
+// functions that save and restore are public: amontons_simulation.h.
+#ifndef AMONTONS_RUN_SAVED_STATE_H
+#define AMONTONS_RUN_SAVED_STATE_H
+
+#include "run/simulation_state.h"
+
+// The simulation may be restored from `state`: its checksum holds, and it was saved by this version
+// from this scene, mesh and basis. ERROR_INPUT, nothing is changed: which of these is not so.
+// *time: the state's.
+bool saved_state_fits(Simulation *simulation, const SavedState *state, double *time, Error *err);
+
+#endif

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Numbers by their bits, all else as it would be written in YAML.
+#include "scene/keys.h"
+
+#include "base/memory.h"
+#include "io/text_file.h"
+
+enum { VALUE_SIZE = 8192, PLUGIN_BYTES_MAX = 1 << 28 };
+
+// The functions of a friction law that is a plug-in, by the content of its file.
+static bool hash_plugin(const Scene *scene, Hash *hash, Error *err)
+{
+    char *bytes = NULL;
+    int32_t size = 0;
+    if (!*scene->own_friction.file) return true;
+    TRY(text_file_read(scene->own_friction.file, PLUGIN_BYTES_MAX, &bytes, &size, err));
+    hash_bytes(hash, bytes, (size_t)size);
+cleanup:
+    memory_free(bytes);
+    return error_is_clean(err);
+}
+
+static void hash_parameters(const Scene *scene, Hash *hash)
+{
+    for (int32_t i = 0; i < scene->mesh.parameter_count; i++) {
+        hash_text(hash, scene->mesh.parameters[i].name);
+        hash_text(hash, scene->mesh.parameters[i].text);
+        hash_number(hash, scene->mesh.parameters[i].value);
+    }
+}
+
+bool scene_hash(const Scene *scene, bool (*counts)(const char *key), Hash *hash, Error *err)
+{
+    int32_t count = 0;
+    const SceneKey *keys = scene_keys(&count);
+    char *words = NEW_ARRAY(char, VALUE_SIZE, err);
+    TRY(words);
+    TRY(hash_plugin(scene, hash, err));
+    for (int32_t k = 0; k < count; k++) {
+        const void *field = (const char *)scene + keys[k].offset;
+        if (!counts(keys[k].name)) continue;
+        hash_text(hash, keys[k].name);
+        if (keys[k].type == KEY_NUMBER) {
+            hash_number(hash, *(const double *)field);
+        } else if (keys[k].type == KEY_PARAMETERS) {
+            hash_parameters(scene, hash);
+        } else {
+            scene_key_value(&keys[k], scene, words, VALUE_SIZE);
+            hash_text(hash, words);
+        }
+    }
+cleanup:
+    memory_free(words);
+    return error_is_clean(err);
+}
