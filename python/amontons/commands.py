@@ -49,10 +49,11 @@ def _table(struct: Any, kept: list[tuple[Any, ...]]) -> np.ndarray:
 
 
 def run(scene: Any, settings: Settings | None = None, folder: Any = None, *, overwrite: bool = False,
-        progress: Progress | None = None) -> Result:
+        resume: bool = False, progress: Progress | None = None) -> Result:
     """One simulation: `amontons run`. settings: {"load.pressure": 0.006}, as --set.
 
     folder: of the results. None: one that is removed with the Result, and no pictures are drawn.
+    resume: go on with the run in `folder` that was cut off, or, with a later time.until, beyond its end.
     progress: called after every step with a StepView (t, U, mu, fraction, ...), which it must not keep.
     Ctrl-C ends the run after the present step (KeyboardInterrupt); what was computed is in `folder`.
     """
@@ -62,7 +63,7 @@ def run(scene: Any, settings: Settings | None = None, folder: Any = None, *, ove
         folder, overwrite = tempfile.mkdtemp(prefix="amontons-"), True
         given = {"output.figures": [], **given}
     try:
-        result = _run_in(Scene(scene, given), folder, overwrite, progress)
+        result = _run_in(Scene(scene, given), folder, overwrite, resume, progress)
     except BaseException:
         if temporary:
             shutil.rmtree(folder, ignore_errors=True)
@@ -72,10 +73,10 @@ def run(scene: Any, settings: Settings | None = None, folder: Any = None, *, ove
     return result
 
 
-def _run_in(read: Scene, folder: Any, overwrite: bool, progress: Progress | None) -> Result:
+def _run_in(read: Scene, folder: Any, overwrite: bool, resume: bool, progress: Progress | None) -> Result:
     stop = ctypes.c_int(0)
     summary = c.RunSummary()
-    options = c.RunOptions(folder=path_or_none(folder), overwrite=overwrite,
+    options = c.RunOptions(folder=path_or_none(folder), overwrite=overwrite, resume=resume,
                            on_step=_callback(c.StepCallback, progress, stop), stop=ctypes.pointer(stop))
     call_stoppable(lib.amontons_run, stop, read.handle, ctypes.byref(options), ctypes.byref(summary))
     result = Result(folder)

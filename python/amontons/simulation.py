@@ -100,6 +100,34 @@ class Simulation:
         load.pressure is the only load, and on the full mesh ({"reduction.use": "never"})."""
         call(lib.amontons_simulation_set_pressure, self._handle, pressure)
 
+    def save(self, path: Any = None) -> bytes:
+        """The state: everything on which the next steps depend, to the last bit; also into the file `path`."""
+        state = c.SavedState()
+        call(lib.amontons_simulation_save, self._handle, ctypes.byref(state))
+        try:
+            if path is not None:
+                call(lib.amontons_state_write, ctypes.byref(state), str(path).encode())
+            return ctypes.string_at(state.bytes, state.size)
+        finally:
+            lib.amontons_state_free(ctypes.byref(state))
+
+    def restore(self, state: Any) -> None:
+        """Puts back a saved state: bytes of `save`, or the path of a file (checkpoint.bin of a run, too). This simulation
+        must be of the same scene (time.until, title and pictures may differ), mesh and version; else InputError."""
+        if isinstance(state, (bytes, bytearray, memoryview)):
+            kept = (ctypes.c_char * len(state)).from_buffer_copy(state)
+            saved = c.SavedState(ctypes.addressof(kept), len(state))
+            call(lib.amontons_simulation_restore, self._handle, ctypes.byref(saved))
+        else:
+            saved = c.SavedState()
+            call(lib.amontons_state_read, str(state).encode(), ctypes.byref(saved))
+            try:
+                call(lib.amontons_simulation_restore, self._handle, ctypes.byref(saved))
+            finally:
+                lib.amontons_state_free(ctypes.byref(saved))
+        self._finished.value = False
+        lib.amontons_simulation_view(self._handle, ctypes.byref(self.step))
+
     def _look(self) -> c.BlockView:
         block = c.BlockView()
         call(lib.amontons_simulation_block, self._handle, ctypes.byref(block))

@@ -191,6 +191,28 @@ class Stepped(InFolder):
         gc.collect()
         self.assertAlmostEqual(pressure.mean(), 0.003, delta=0.001)
 
+    def test_states_are_put_back(self):
+        """As bytes and from a file, here and in another simulation; a run in a folder goes on as well."""
+        simulation, other = (amontons.Simulation(FIG1, SMALL) for _ in range(2))
+        for _ in range(100):
+            simulation.advance()
+        state = simulation.save(self.folder / "state")
+        self.assertEqual(state, (self.folder / "state").read_bytes())
+        for _ in range(60):
+            simulation.advance()
+        slip, mu = simulation.slip.copy(), simulation.step.mu
+        for one, given in ((simulation, state), (other, self.folder / "state")):
+            one.restore(given)
+            for _ in range(60):
+                one.advance()
+            self.assertEqual((one.step.mu, one.slip.tolist()), (mu, slip.tolist()))
+        with self.assertRaisesRegex(amontons.InputError, "checksum"):
+            other.restore(state[:-40] + bytes(40))
+        whole = amontons.run(FIG1, SMALL)
+        amontons.run(FIG1, {**SMALL, "time.until": {"U": 0.001}}, self.folder / "cut")
+        cut = amontons.run(FIG1, SMALL, self.folder / "cut", resume=True)
+        self.assertAlmostEqual(cut.history.U[-1], whole.history.U[-1], delta=1e-5)
+
     def test_steering(self):
         simulation = amontons.Simulation(FIG1, {**SMALL, "reduction.use": "never"})
         for step in simulation:
