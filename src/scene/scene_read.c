@@ -355,7 +355,8 @@ bool amontons_scene_read(const char *path, const char *const *overrides, int32_t
     if (strcmp(point, ".") != 0)
         FAIL(
             err, ERROR_INPUT,
-            "this process writes numbers with `%s` for a point: LC_NUMERIC of its locale must be C",
+            "this process writes numbers with `%s` for a point: LC_NUMERIC of its locale must be C "
+            "(uselocale sets it for one thread)",
             point);
     TRY(scene_read(path, overrides, override_count, made, err));
     *scene = made;

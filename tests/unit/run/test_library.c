@@ -95,7 +95,8 @@ static void test_leaves_the_process_alone(void **state)
     place_remove(place);
 }
 
-// Where numbers are written with a comma nothing could be read: it is said at once.
+// Where numbers are written with a comma nothing could be read: it is said at once. A thread may have
+// a locale of its own: then all works, and the process keeps its comma.
 static void test_refuses_a_comma(void **state)
 {
     (void)state;
@@ -108,11 +109,17 @@ static void test_refuses_a_comma(void **state)
     bool made = system(command) == 0 && setenv("LOCPATH", place, 1) == 0 &&
                 setlocale(LC_NUMERIC, "de_DE.UTF-8");
     bool read = made && amontons_scene_read("scene.yaml", NULL, 0, &scene, &err);
+    locale_t point = newlocale(LC_NUMERIC_MASK, "C", NULL), before = uselocale(point);
+    if (made) use_everything(place);
+    uselocale(before);
+    freelocale(point);
+    bool kept = strcmp(setlocale(LC_NUMERIC, NULL), "de_DE.UTF-8") == 0;
     setlocale(LC_NUMERIC, "C");
     unsetenv("LOCPATH");
     place_remove(place);
     if (!made) skip();   // Debian's package locales is not there
     assert_false(read);
+    assert_true(kept);
     assert_non_null(strstr(err.message, "LC_NUMERIC of its locale must be C"));
 }
 
