@@ -1,17 +1,27 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# As root: installs the packages that `cpack` made into a bare Debian 12 with what they depend on, uses them there as an
-# ordinary user (program, C program, Python script), and removes them again. What it prints is the transcript:
+# As root: makes the Debian packages of a build, installs them into a bare Debian 12 with what they depend on, uses them
+# there as an ordinary user (program, C program, Python script), and removes them again. What it prints is the transcript:
 # packaging/transcript.txt is one. # begins what root does there, $ what the user does.
 #
-#     cmake --build build && cpack --config build/CPackConfig.cmake -B build/packages
-#     packaging/try_packages.sh build/packages [MIRROR] >packaging/transcript.txt
+#     cmake --build build
+#     packaging/try_packages.sh build [MIRROR] >packaging/transcript.txt
 set -eu
-packages=$(realpath "$1")
+build=$(realpath "$1")
 mirror=${2-http://deb.debian.org/debian}
 root=$(mktemp -d /var/tmp/amontons-root-XXXXXX)
 trap 'umount "$root/dev/pts" "$root/proc" 2>/dev/null || true; rm -rf --one-file-system "$root"' EXIT
 chmod 755 "$root"
+
+echo 'In the checkout, after cmake --build build'
+printf '\n$ cpack --config build/CPackConfig.cmake -B build/packages\n'
+rm -rf "$build/packages"
+cpack --config "$build/CPackConfig.cmake" -B "$build/packages" | sed -n 's/^.*- package: .*\/\(.*\) generated.*/\1/p'
+if command -v lintian >/dev/null; then
+    printf '\n$ lintian build/packages/*.deb\n'
+    lintian --allow-root "$build"/packages/*.deb 2>/dev/null
+fi
+
 clean=(env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive
        ${http_proxy:+http_proxy="$http_proxy"})
 as_root() { printf '\n# %s\n' "$1"; "${clean[@]}" HOME=/root chroot "$root" bash -c "cd && $1"; }
@@ -23,10 +33,10 @@ mount -t proc proc "$root/proc"
 mount -t devpts devpts "$root/dev/pts"
 [[ ! -d /etc/apt/apt.conf.d ]] || cp -n /etc/apt/apt.conf.d/*proxy* "$root/etc/apt/apt.conf.d/" 2>/dev/null || true
 cp /etc/resolv.conf "$root/etc/"
-cp "$packages"/*.deb "$root/srv/"
+cp "$build"/packages/*.deb "$root/srv/"
 "${clean[@]}" chroot "$root" apt-get -q update >/dev/null
 
-echo 'A bare Debian 12 (debootstrap --variant=minbase), the packages of cpack in /srv'
+printf '\nIn a bare Debian 12 (debootstrap --variant=minbase), the packages in /srv\n'
 as_root 'cat /etc/debian_version; ls -sh /srv'
 as_root 'apt-get -qq -y install --no-install-recommends /srv/*.deb gcc libc6-dev make cmake pkg-config >log 2>&1;
   grep "Setting up.*amontons" log; grep -c "^Setting up" log'

@@ -37,10 +37,9 @@ exec PROGRAM "${words[@]}"
 
 
 def prepare(folder, small):
-    """What the reader has: a checkout, built, and an empty folder for results."""
+    """What the reader has: a checkout, built."""
     for name in ("docs", "meshes", "validation"):
         (folder / name).symlink_to(SOURCE / name)
-    (folder / "results").mkdir()
     text = SMALL if small else "#!/bin/bash\nexec PROGRAM \"$@\"\n"
     (folder / "amontons").write_text(text.replace("PROGRAM", f"'{BUILD}/bin/amontons'"))
     (folder / "amontons").chmod(0o755)
@@ -121,6 +120,8 @@ def main():
         os.environ.update(environment)
         sys.path.insert(0, environment["PYTHONPATH"])
         for page in options.pages:
+            shutil.rmtree(folder / "results", ignore_errors=True)
+            (folder / "results").mkdir()
             run_page(page.resolve(), folder, environment, options.small)
     finally:
         shutil.rmtree(folder)

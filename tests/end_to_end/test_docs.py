@@ -13,7 +13,7 @@ from pathlib import Path
 SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
 PROGRAM = Path(os.environ.get("AMONTONS_BIN", SOURCE / "build/bin")) / "amontons"
 DOCS = sorted((SOURCE / "docs").glob("*.md"))
-PAGES = [SOURCE / "README.md", SOURCE / "src/README.md", *DOCS, *sorted(SOURCE.glob("validation/**/*.md"))]
+PAGES = [SOURCE / "README.md", SOURCE / "CONTRIBUTING.md", SOURCE / "src/README.md", *DOCS, *sorted(SOURCE.glob("validation/**/*.md"))]
 FOLDERS = "src|tests|validation|render|docs|meshes"
 
 

@@ -71,6 +71,10 @@ class Text(unittest.TestCase):
     def test_changelog_knows_the_version(self):
         version = re.search(r"VERSION (\d+\.\d+\.\d+)", (SOURCE / "CMakeLists.txt").read_text())[1]
         self.assertIn(f"\n## {version}", (SOURCE / "CHANGELOG.md").read_text())
+        self.assertIn(f"\nversion: {version}\n", (SOURCE / "CITATION.cff").read_text())
+        self.assertIn(f'// "{version}"; static storage', (SOURCE / "src/amontons.h").read_text())
+        series = version.rpartition(".")[0]
+        self.assertIn(f"find_package(amontons {series} ", (SOURCE / "packaging/examples/CMakeLists.txt").read_text())
 
 
 class Program(unittest.TestCase):

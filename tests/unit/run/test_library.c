@@ -95,8 +95,8 @@ static void test_leaves_the_process_alone(void **state)
     place_remove(place);
 }
 
-// Where numbers are written with a comma nothing could be read: it is said at once. A thread may have
-// a locale of its own: then all works, and the process keeps its comma.
+// Where numbers are written with a comma nothing could be read: it is said at once. A thread may
+// have a locale of its own: then all works, and the process keeps its comma.
 static void test_refuses_a_comma(void **state)
 {
     (void)state;
