@@ -19,6 +19,10 @@ enum {
     BAR_MAX = 40,
 };
 
+// A time left is told from this part of the way after the first rapid event on, at the latest, and
+// not before so many s.
+static const double CYCLE_MAX = 0.25, SECONDS_LEAST = 0.2;
+
 static const double draw_interval = 0.1;   // s: the eye sees no more, and a terminal costs time
 
 static double seconds_between(const struct timespec *from, const struct timespec *to)
@@ -48,19 +52,42 @@ void progress_format_left(double seconds, char *text, size_t size)
         snprintf(text, size, "%ld:%02ld", whole / 60, whole % 60);
 }
 
-// Seconds left at the pace so far; NaN while too little is done to tell.
-static double seconds_left(double fraction, double elapsed)
+// Follows what a run costs: the clock counts from its first rapid event on, as loading up to that
+// takes next to nothing; and steps that were all alike so far.
+static void follow_pace(Progress *progress, const StepView *view, double elapsed)
 {
-    return fraction < 1e-3 || elapsed < 0.2 ? NAN : elapsed * (1 - fraction) / fraction;
+    Pace *pace = &progress->pace;
+    if (view->step_size > 0 && pace->step == 0) pace->step = view->step_size;
+    if (view->step_size > 0 && view->step_size != pace->step) pace->uneven = true;
+    if (pace->counts || view->events == 0) return;
+    pace->counts = true;
+    pace->elapsed = elapsed;
+    pace->fraction = view->fraction;
 }
 
-// "U 0.00123/0.006  mu 0.2034  dt 0.012  3 events  0:12 left"
-static void format_state(const StepView *view, double elapsed, char *text, size_t size)
+// Seconds left; NaN while that is not known. Slidings come at equal distances, each after as much
+// loading as the first one, or less: once so much of the way has been gone again, their cost is
+// known. Measured from the start it rose from 0:08 to 0:49 with the first sliding.
+static double seconds_left(const Progress *progress, double fraction, double elapsed)
 {
-    char left[32], end[32] = "";
-    progress_format_left(seconds_left(view->fraction, elapsed), left, sizeof left);
+    const Pace *pace = &progress->pace;
+    double gone = fraction - pace->fraction;
+    double cycle = pace->fraction < CYCLE_MAX ? pace->fraction : CYCLE_MAX;
+    bool known = pace->uneven ? pace->counts && gone >= cycle : gone >= 1e-3;
+    if (!known || elapsed < SECONDS_LEAST) return NAN;
+    return (elapsed - pace->elapsed) / gone * (1 - fraction);
+}
+
+// "U 0.00123/0.006  mu 0.2034  dt 0.012  3 events  0:12 left", the last where it is known.
+static void format_state(const Progress *progress, const StepView *view, double elapsed, char *text,
+                         size_t size)
+{
+    char left[40] = "", time[32], end[32] = "";
+    double seconds = seconds_left(progress, view->fraction, elapsed);
+    progress_format_left(seconds, time, sizeof time);
+    if (!isnan(seconds)) snprintf(left, sizeof left, "  %s left", time);
     if (view->fraction > 0) snprintf(end, sizeof end, "/%.4g", view->U / view->fraction);
-    snprintf(text, size, "U %.4g%s  mu %.4f  dt %.2g  %d event%s  %s left", view->U, end, view->mu,
+    snprintf(text, size, "U %.4g%s  mu %.4f  dt %.2g  %d event%s%s", view->U, end, view->mu,
              view->step_size, view->events, view->events == 1 ? "" : "s", left);
 }
 
@@ -122,15 +149,16 @@ void progress_step(const StepView *view, void *context)
     clock_gettime(CLOCK_MONOTONIC, &now);
     if (!progress->running) progress->started = now;
     double elapsed = seconds_between(&progress->started, &now);
+    follow_pace(progress, view, elapsed);
     if (progress->style == PROGRESS_BAR) {
         if (progress->running && seconds_between(&progress->drawn, &now) < draw_interval) return;
-        format_state(view, elapsed, state, sizeof state);
+        format_state(progress, view, elapsed, state, sizeof state);
         draw_bar(view, state);
         progress->drawn = now;
         progress->bar_stands = true;
     } else if ((int32_t)(10 * view->fraction) > progress->tenths) {
         progress->tenths = (int32_t)(10 * view->fraction);
-        format_state(view, elapsed, state, sizeof state);
+        format_state(progress, view, elapsed, state, sizeof state);
         fprintf(stderr, "%3d %%  %s\n", 10 * progress->tenths, state);
     }
     progress->running = true;

@@ -9,12 +9,21 @@
 
 typedef enum ProgressStyle { PROGRESS_QUIET, PROGRESS_LINES, PROGRESS_BAR } ProgressStyle;
 
+// What a run has cost since its first rapid event.
+typedef struct Pace {
+    bool counts;   // there was one
+    bool uneven;   // steps were not all alike
+    double step;   // the first one's, time
+    double elapsed, fraction;   // then: s since the first step, part of the way
+} Pace;
+
 typedef struct Progress {
     ProgressStyle style;
     struct timespec started;   // at the first step
     struct timespec drawn;   // the bar, last
     bool running;   // a step was seen
     bool bar_stands;   // the cursor is in the line of the bar
+    Pace pace;
     int32_t tenths;   // lines: tenths of the run already printed
 } Progress;
 

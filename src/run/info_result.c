@@ -7,6 +7,7 @@
 #include "io/json_reader.h"
 #include "io/result_file.h"
 #include "io/text_file.h"
+#include "run/result_folder.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -61,6 +62,9 @@ static bool write_run(const char *folder, FILE *out, Error *err)
     snprintf(path, sizeof path, "%s/run.json", folder);
     if (access(path, F_OK) != 0) {
         fprintf(out, "  no run.json: the run was killed, or is still under way\n");
+        snprintf(path, sizeof path, "%s/%s", folder, CHECKPOINT_FILE);
+        if (access(path, F_OK) == 0)
+            fprintf(out, "  %s: `run --resume` goes on\n", CHECKPOINT_FILE);
         return true;
     }
     TRY(text_file_read(path, REPORT_BYTES_MAX, &text, &size, err));

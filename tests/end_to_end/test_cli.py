@@ -394,6 +394,8 @@ class Run(InFolder):
             states = [d for d in draws if re.search(r"\d+ %  U [\d.e-]+", d)]
             self.assertTrue(states)
             self.assertLessEqual(len(states), 10 * elapsed + 1)
+            self.assertEqual([d for d in draws if d.endswith("...")][-1], "relaxing ...")
+            self.assertEqual([d for d in states if " 0 events" in d and "left" in d], [])   # nothing is known yet
             if columns >= 80:
                 self.assertRegex(states[0], r"^\[[#.]+\] +\d+ %  U .* mu .* dt .* event")
 

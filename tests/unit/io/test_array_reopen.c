@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A file that is gone on with, finished or left by a process that died, holds in the end what one
+// written at once holds; and what cannot be gone on with says so.
+#include "io/array_file.h"
+
+#include "base/memory.h"
+#include "near.h"
+#include "result_place.h"
+
+#include <sys/wait.h>
+
+enum { WIDTH = 7, ROWS = 30000 };   // many chunks of either series
+
+static double values[(int64_t)ROWS * WIDTH];
+
+static void fill_values(void)
+{
+    for (int64_t k = 0; k < (int64_t)ROWS * WIDTH; k++) values[k] = (double)(k * k % 1009) / 7;
+}
+
+static void add_series(ArrayFile *file, Error *err)
+{
+    const ArraySeries one = {
+        .name = "a/scalar", .type = ARRAY_FLOAT64, .width = 1, .unit = "1", .description = ""};
+    const ArraySeries wide = {
+        .name = "wide", .type = ARRAY_FLOAT32, .width = WIDTH, .unit = "1", .description = ""};
+    assert_true(array_file_add_series(file, &one, err));
+    assert_true(array_file_add_series(file, &wide, err));
+}
+
+static void append(ArrayFile *file, int64_t from, int64_t to, Error *err)
+{
+    assert_true(array_file_append(file, "a/scalar", values + from, to - from, err));
+    assert_true(array_file_append(file, "wide", values + from * WIDTH, to - from, err));
+}
+
+static void expect_rows(const char *path, int64_t count)
+{
+    Error err = {0};
+    double *read = NULL;
+    int64_t rows = 0;
+    int32_t width = 0;
+    ArrayFile *file = array_file_open(path, &err);
+    if (!file) fail_msg("%s", err.message);
+    assert_true(array_file_read(file, "a/scalar", &read, &rows, &width, &err));
+    assert_true(rows == count && width == 1);
+    assert_memory_equal(read, values, (size_t)rows * sizeof(double));
+    memory_free(read);
+    assert_true(array_file_read(file, "wide", &read, &rows, &width, &err));
+    assert_true(rows == count && width == WIDTH);
+    for (int64_t k = 0; k < rows * width; k++) assert_true(read[k] == (float)values[k]);
+    memory_free(read);
+    assert_false(array_file_has(file, "end"));
+    assert_true(array_file_close(file, &err));
+}
+
+static void go_on(const char *path, int64_t kept, int64_t to)
+{
+    Error err = {0};
+    ArrayFile *file = array_file_reopen(path, &err);
+    if (!file) fail_msg("%s", err.message);
+    assert_true(array_file_remove(file, "end", &err));
+    assert_true(array_file_remove(file, "answer", &err));
+    assert_true(array_file_remove(file, "nothing", &err));
+    assert_true(array_file_cut(file, "a/scalar", kept, &err));
+    assert_true(array_file_cut(file, "wide", kept, &err));
+    append(file, kept, to, &err);
+    assert_true(array_file_close(file, &err));
+}
+
+// With a table and a number of its end, which go.
+static void test_finished(void **state)
+{
+    (void)state;
+    Error err = {0};
+    char place[PLACE_SIZE], path[2 * PLACE_SIZE];
+    place_make(place);
+    fill_values();
+    snprintf(path, sizeof path, "%s", place_path(place, "file.h5"));
+    ArrayFile *file = array_file_create(path, &err);
+    const ArraySeries table = {
+        .name = "end", .type = ARRAY_FLOAT64, .width = 1, .unit = "1", .description = ""};
+    add_series(file, &err);
+    append(file, 0, 20000, &err);
+    assert_true(array_file_add_series(file, &table, &err));
+    assert_true(array_file_append(file, "end", values, 5, &err));
+    assert_true(array_file_set_number(file, "answer", 3, &err));
+    assert_true(array_file_close(file, &err));
+    // Within a chunk, at its end, and to nothing; also without anything being appended.
+    const int64_t kept[][2] = {{17001, ROWS}, {10240, 20000}, {20000, 20000}, {1, 1}, {0, 3000}};
+    for (size_t k = 0; k < sizeof kept / sizeof kept[0]; k++) {
+        go_on(path, kept[k][0], kept[k][1]);
+        expect_rows(path, kept[k][1]);
+        assert_false(place_has(place, "file.h5.part"));
+    }
+    place_remove(place);
+}
+
+// Left by a process that died after more than was flushed.
+static void test_killed(void **state)
+{
+    (void)state;
+    char place[PLACE_SIZE], path[2 * PLACE_SIZE];
+    int status = 0;
+    place_make(place);
+    fill_values();
+    snprintf(path, sizeof path, "%s", place_path(place, "file.h5"));
+    pid_t child = fork();
+    if (child == 0) {
+        Error err = {0};
+        ArrayFile *file = array_file_create(path, &err);
+        add_series(file, &err);
+        append(file, 0, 12345, &err);
+        if (!array_file_sync(file, &err)) _exit(1);
+        append(file, 12345, 25000, &err);
+        kill(getpid(), SIGKILL);
+    }
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFSIGNALED(status));
+    go_on(path, 12000, ROWS);
+    expect_rows(path, ROWS);
+    place_remove(place);
+}
+
+// Missing, no HDF5 file, fewer rows, no such series, being written.
+static void test_refused(void **state)
+{
+    (void)state;
+    Error err = {0};
+    char place[PLACE_SIZE], path[2 * PLACE_SIZE];
+    place_make(place);
+    snprintf(path, sizeof path, "%s", place_path(place, "file.h5"));
+    assert_null(array_file_reopen(path, &err));
+    assert_int_equal(err.code, ERROR_FILE);
+    err = (Error){0};
+    place_write(place, "file.h5", "no HDF5 file, but long enough to have a header of one");
+    assert_null(array_file_reopen(path, &err));
+    assert_non_null(strstr(err.message, "not a whole HDF5 file"));
+    assert_true(place_has(place, "file.h5.part"));
+    err = (Error){0};
+    ArrayFile *file = array_file_create(path, &err);
+    add_series(file, &err);
+    append(file, 0, 10, &err);
+    assert_null(array_file_reopen(path, &err));
+    assert_non_null(strstr(err.message, "another process is writing"));
+    err = (Error){0};
+    assert_true(array_file_close(file, &err));
+    file = array_file_reopen(path, &err);
+    assert_false(array_file_cut(file, "a/scalar", 11, &err));
+    assert_non_null(strstr(err.message, "has 10 rows, 11 are to be kept"));
+    err = (Error){0};
+    assert_false(array_file_cut(file, "b", 1, &err));
+    assert_int_equal(err.code, ERROR_FILE);
+    array_file_abandon(file);
+    place_remove(place);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_killed),
+                                       cmocka_unit_test(test_finished),
+                                       cmocka_unit_test(test_refused)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
