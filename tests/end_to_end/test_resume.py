@@ -130,6 +130,9 @@ class Resume(unittest.TestCase):
         subprocess.run(words, check=True, env=self.environment)
         self.assertEqual((self.folder / "sweep" / "sweep.csv").read_text(), table)
         self.assertEqual([json.loads((point / "run.json").read_text())["resumed"] for point in (first, second)], [1, 0])
+        (first / "run.json").unlink()
+        subprocess.run([*words, "--fresh"], check=True, env=self.environment)
+        self.assertEqual(json.loads((first / "run.json").read_text())["resumed"], 0)
 
 
 if __name__ == "__main__":

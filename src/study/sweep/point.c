@@ -114,12 +114,13 @@ static void checkpoint_path(const Sweep *sweep, int32_t point, char path[POINT_P
     strcat(path, "/checkpoint.bin");
 }
 
-// run.json, which alone makes a point finished, and what it could be gone on with from.
-void point_remove(const Sweep *sweep, int32_t point)
+// run.json, which alone makes a point finished; anew: and what it could be gone on with from.
+void point_remove(const Sweep *sweep, int32_t point, bool anew)
 {
     char path[POINT_PATH_SIZE + 16];
     report_path(sweep, point, path);
     unlink(path);   // the rest is the next run's to overwrite
+    if (!anew) return;
     checkpoint_path(sweep, point, path);
     unlink(path);
 }

@@ -58,7 +58,7 @@ bool point_hash(const Scene *scene, PointMesh *mesh, char hash[HASH_TEXT_SIZE], 
 char *point_report(const Sweep *sweep, int32_t point, Error *err);
 PointStatus point_status(const char *report);   // of a run.json, or NULL
 const char *point_status_name(PointStatus status);   // "pending"; static storage
-void point_remove(const Sweep *sweep, int32_t point);
+void point_remove(const Sweep *sweep, int32_t point, bool anew);
 bool point_run(const Sweep *sweep, int32_t point, Error *err);   // in this process
 // run.json for a point that left none: `failure` in a word or two, `message` in full.
 bool point_write_failure(const Sweep *sweep, int32_t point, const char *failure,

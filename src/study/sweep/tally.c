@@ -69,8 +69,8 @@ bool sweep_take_finished(Sweep *sweep, Error *err)
         if (point->reused) {
             report_point(sweep, k, report);
             check_records(sweep, k, report, err);
-        } else if (report) {
-            point_remove(sweep, k);
+        } else {
+            point_remove(sweep, k, sweep->options->fresh);
         }
         memory_free(report);
         TRY(error_is_clean(err));
