@@ -21,6 +21,14 @@ class Hostile(unittest.TestCase):
             self.assertEqual(ended.returncode, 0, ended.stdout + ended.stderr)
             self.assertGreater(len(Path(folder, "tries.csv").read_text().splitlines()), 40)
 
+    def test_some_faults(self):
+        """Calls to the file system that fail."""
+        with tempfile.TemporaryDirectory() as folder:
+            ended = subprocess.run([sys.executable, FOLDER / "faults.py", "--every", "120", "-j", "1", "-o", folder],
+                                   capture_output=True, text=True)
+            self.assertEqual(ended.returncode, 0, ended.stdout + ended.stderr)
+            self.assertGreater(len(Path(folder, "faults.csv").read_text().splitlines()), 5)
+
     def test_mesh_that_crashes_gmsh(self):
         """gmsh 4.8 does not look whether a node's number is one that it has room for."""
         mesh = cases.square().replace("\n8 5 9", "\n8 9223372036854775807 9")

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Preloaded into the program (LD_PRELOAD), lets one call to the file system fail: the variable
+// FILE_FAULT=write:12 the twelfth write of the process and its children, with ENOSPC (sync: EIO);
+// write:12+ that one and every later one, as on a full disk. FILE_FAULT=count:PATH: none fails, and
+// how many calls there were of each kind is appended to the file when a process ends.
+//
+// What is said on standard error never fails. What a program and its libraries call is seen, not
+// what the C library calls within itself: a stream's buffer is written out by fwrite, fflush or fclose.
+#include <dlfcn.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define KINDS(X)                                                                                   \
+    X(OPEN, "open")                                                                                \
+    X(WRITE, "write")                                                                              \
+    X(SYNC, "sync")                                                                                \
+    X(RENAME, "rename")                                                                            \
+    X(FOLDER, "mkdir") X(LENGTH, "truncate") X(CLOSE, "close") X(PROCESS, "process")
+
+enum {
+#define X(symbol, name) symbol,
+    KINDS(X) KIND_COUNT
+#undef X
+};
+
+static const char *const names[] = {
+#define X(symbol, name) name,
+    KINDS(X)
+#undef X
+};
+
+static atomic_int *counts;   // [KIND_COUNT] shared with children
+
+// Whether this call shall fail.
+static bool is_due(int kind)
+{
+    const char *wanted = getenv("FILE_FAULT");
+    size_t length = strlen(names[kind]);
+    if (!counts || !wanted) return false;
+    int count = atomic_fetch_add(&counts[kind], 1) + 1;
+    if (strncmp(wanted, names[kind], length) != 0 || wanted[length] != ':') return false;
+    int first = atoi(wanted + length + 1);
+    bool due = count == first || (count > first && wanted[strlen(wanted) - 1] == '+');
+    if (due) errno = kind == SYNC ? EIO : kind == PROCESS ? EAGAIN : ENOSPC;
+    return due;
+}
+
+#define REAL(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
+
+__attribute__((constructor)) static void begin(void)
+{
+    void *shared = mmap(NULL, 4096, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (shared != MAP_FAILED) counts = shared;
+}
+
+__attribute__((destructor)) static void end(void)
+{
+    const char *wanted = getenv("FILE_FAULT");
+    if (!counts || !wanted || strncmp(wanted, "count:", 6) != 0) return;
+    FILE *file = REAL(fopen)(wanted + 6, "w");
+    for (int k = 0; file && k < KIND_COUNT; k++) fprintf(file, "%s %d\n", names[k], counts[k]);
+    if (file) REAL(fclose)(file);
+}
+
+// --- open ---------------------------------------------------------------------------------------
+
+static int mode_of(int flags, va_list rest)
+{
+    return flags & (O_CREAT | O_TMPFILE) ? va_arg(rest, int) : 0;
+}
+
+int open(const char *path, int flags, ...)
+{
+    va_list rest;
+    va_start(rest, flags);
+    int mode = mode_of(flags, rest);
+    va_end(rest);
+    return is_due(OPEN) ? -1 : REAL(open)(path, flags, mode);
+}
+
+int open64(const char *path, int flags, ...)
+{
+    va_list rest;
+    va_start(rest, flags);
+    int mode = mode_of(flags, rest);
+    va_end(rest);
+    return is_due(OPEN) ? -1 : REAL(open64)(path, flags, mode);
+}
+
+int openat(int folder, const char *path, int flags, ...)
+{
+    va_list rest;
+    va_start(rest, flags);
+    int mode = mode_of(flags, rest);
+    va_end(rest);
+    return is_due(OPEN) ? -1 : REAL(openat)(folder, path, flags, mode);
+}
+
+FILE *fopen(const char *path, const char *mode)
+{
+    return is_due(OPEN) ? NULL : REAL(fopen)(path, mode);
+}
+
+FILE *fopen64(const char *path, const char *mode)
+{
+    return is_due(OPEN) ? NULL : REAL(fopen64)(path, mode);
+}
+
+int memfd_create(const char *name, unsigned int flags)
+{
+    return is_due(OPEN) ? -1 : REAL(memfd_create)(name, flags);
+}
+
+enum { STREAM_FAILED = 0x20 };   // what ferror() looks at in glibc
+
+// --- write --------------------------------------------------------------------------------------
+
+ssize_t write(int file, const void *bytes, size_t size)
+{
+    return is_due(WRITE) ? -1 : REAL(write)(file, bytes, size);
+}
+
+ssize_t pwrite(int file, const void *bytes, size_t size, off_t at)
+{
+    return is_due(WRITE) ? -1 : REAL(pwrite)(file, bytes, size, at);
+}
+
+ssize_t pwrite64(int file, const void *bytes, size_t size, off64_t at)
+{
+    return is_due(WRITE) ? -1 : REAL(pwrite64)(file, bytes, size, at);
+}
+
+size_t fwrite(const void *bytes, size_t size, size_t count, FILE *file)
+{
+    if (file == stderr || !is_due(WRITE)) return REAL(fwrite)(bytes, size, count, file);
+    file->_flags |= STREAM_FAILED;
+    return 0;
+}
+
+int fflush(FILE *file)
+{
+    if (!is_due(WRITE)) return REAL(fflush)(file);
+    if (file) file->_flags |= STREAM_FAILED;
+    return EOF;
+}
+
+// --- the rest -----------------------------------------------------------------------------------
+
+int fsync(int file)
+{
+    return is_due(SYNC) ? -1 : REAL(fsync)(file);
+}
+
+int fdatasync(int file)
+{
+    return is_due(SYNC) ? -1 : REAL(fdatasync)(file);
+}
+
+int rename(const char *from, const char *to)
+{
+    return is_due(RENAME) ? -1 : REAL(rename)(from, to);
+}
+
+int mkdir(const char *path, mode_t mode)
+{
+    return is_due(FOLDER) ? -1 : REAL(mkdir)(path, mode);
+}
+
+int ftruncate(int file, off_t length)
+{
+    return is_due(LENGTH) ? -1 : REAL(ftruncate)(file, length);
+}
+
+int ftruncate64(int file, off64_t length)
+{
+    return is_due(LENGTH) ? -1 : REAL(ftruncate64)(file, length);
+}
+
+// The descriptor is free afterwards, as Linux has it.
+int close(int file)
+{
+    bool due = is_due(CLOSE);
+    int cause = errno, status = REAL(close)(file);
+    if (due) errno = cause;
+    return due ? -1 : status;
+}
+
+int fclose(FILE *file)
+{
+    bool due = is_due(CLOSE);
+    int cause = errno, status = REAL(fclose)(file);
+    if (due) errno = cause;
+    return due ? EOF : status;
+}
+
+pid_t fork(void)
+{
+    return is_due(PROCESS) ? -1 : REAL(fork)();
+}
+
+int pipe(int ends[2])
+{
+    return is_due(PROCESS) ? -1 : REAL(pipe)(ends);
+}

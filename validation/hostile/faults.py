@@ -1,0 +1,180 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Every call to the file system fails once: each open, write, sync, rename, mkdir, truncate, close
+and fork of a run, a sweep and a render; and every write from the nth on, as on a full disk. Each
+must end with a sentence, or with the whole answer; what has its final name must be whole; and the
+next run must be right.
+
+    validation/hostile/faults.py [-o FOLDER] [--only WORD ...] [--every N] [-j N]
+
+tests/faults/file_faults.c makes them fail. (Allocations: tests/faults/test_run_memory.c.) Prints a
+table and leaves faults.md and faults.csv in FOLDER (default results/hostile). Exit status 1: some
+fault ended as none should.
+"""
+import argparse
+import csv
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import h5py
+
+import cases
+from cases import ROOT, SCENE, STUDY
+from tries import PROGRAM, SCRATCH, answer_of
+
+SHIM = Path(os.environ.get("AMONTONS_FAULTS", PROGRAM.parents[1] / "tests/file_faults.so")).resolve()
+OUTPUTS = ["--set", "output.figures=[force]", "--set", "output.fields={every_U: 4e-4}"]
+# What is done, and what must stand before.
+WORK = {
+    "run": ["run", "scene.yaml", "-o", "out", "--quiet", *OUTPUTS],
+    "sweep": ["sweep", "study.yaml", "-o", "points", "-j", "1", "--quiet"],
+    "render": ["render", "out", "--figure", "force"],
+    "info": ["info", "out"],
+}
+PATIENCE = 60
+
+
+class Stock:
+    """A folder with scene, study and a good result, and how often each work calls what."""
+    def __init__(self, folder):
+        self.scratch, self.good = folder, folder / "good"
+        cases.put(self.good, {"scene.yaml": SCENE, "study.yaml": STUDY, "block.geo": ROOT / "meshes/block.geo"})
+        assert call(WORK["run"], self.good).returncode == 0
+        self.answer = answer_of(self.good / "out")
+        self.counts, self.tables = {}, {}
+        for work, words in WORK.items():
+            folder = self.fresh(work)
+            assert call(words, folder, f"count:{folder}/counts").returncode == 0
+            self.counts[work] = {name: int(count) for name, count in
+                                 (line.split() for line in (folder / "counts").read_text().splitlines())}
+            if work == "sweep":
+                self.table = values_of(folder)
+
+    def fresh(self, name):
+        """A folder in which `name` is done: with the result where that is looked at."""
+        folder = self.scratch / name
+        leave_out = ("out",) if name.startswith(("run", "sweep")) else ()
+        shutil.copytree(self.good, folder, ignore=lambda _, names: [n for n in names if n in leave_out])
+        return folder
+
+
+def call(words, folder, fault=""):
+    """The program, with a cache of its own in the folder."""
+    env = os.environ | {"AMONTONS_CACHE": str(folder / "cache")}
+    env |= {"LD_PRELOAD": str(SHIM), "FILE_FAULT": fault} if fault else {}
+    return subprocess.run([PROGRAM, *words], cwd=folder, env=env, stdin=subprocess.DEVNULL, capture_output=True,
+                          text=True, timeout=PATIENCE)
+
+
+def values_of(folder):
+    """The table of a sweep without times."""
+    with open(folder / "points/sweep.csv", newline="") as file:
+        return [{key: cell for key, cell in row.items() if "time" not in key and "second" not in key}
+                for row in csv.DictReader(file)]
+
+
+def half_written(folder):
+    """Files under their final names that are not whole."""
+    for path in sorted(folder.rglob("*")):
+        if path.name == "history.h5":
+            try:
+                with h5py.File(path) as file:
+                    file["series/mu"][:]
+            except (OSError, KeyError) as fault:
+                yield f"{path.name}: {fault}"
+        elif path.suffix in (".vtu", ".vtp", ".pvd") and "</VTKFile>" not in path.read_text(errors="replace")[-40:]:
+            yield f"{path.name} is cut off"
+        elif path.suffix == ".png" and b"IEND" not in path.read_bytes()[-12:]:
+            yield f"{path.name} is cut off"
+        elif path.suffix == ".json" and not path.read_text().rstrip().endswith("}"):
+            yield f"{path.name} is cut off"
+
+
+def judge(work, folder, ended, stock):
+    """What is wrong with how it ended."""
+    if ended is None:
+        yield f"no end in {PATIENCE} s"
+        return
+    if not 0 <= ended.returncode <= 2:
+        yield f"crash, status {ended.returncode}"
+    if ended.returncode > 0 and not re.search(r"(?m)^amontons( \w+)?: (error|warning): .|failed", ended.stderr + ended.stdout):
+        yield "no sentence"
+    yield from half_written(folder)
+    if ended.returncode == 0:
+        if work == "run" and answer_of(folder / "out") != stock.answer:
+            yield "done, with another answer"
+        if work == "sweep" and values_of(folder) != stock.table:
+            yield "done, with another table"
+        if work in ("run", "render") and not (folder / "out/figures/force.png").exists():
+            yield "done, without the picture"
+    if work in ("run", "sweep"):
+        again = call(WORK[work] + (["--overwrite"] if work == "run" else ["--retry"]), folder)
+        if again.returncode != 0:
+            yield f"the next one: {again.stderr.strip()[-200:]}"
+        elif (answer_of(folder / "out") != stock.answer if work == "run" else values_of(folder) != stock.table):
+            yield "the next one has another answer"
+
+
+def fail_once(number, work, fault, stock):
+    """(work, fault, how it ended, what is wrong)."""
+    folder = stock.fresh(f"{work}{number}")
+    try:
+        ended = call(WORK[work], folder, fault)
+    except subprocess.TimeoutExpired:
+        ended = None
+    wrong = list(judge(work, folder, ended, stock))
+    shutil.rmtree(folder, ignore_errors=True)
+    word = "no end" if ended is None else {0: "done", 1: "failed", 2: "refused"}.get(ended.returncode, "crash")
+    return work, fault, word, wrong, (ended.stderr if ended else "").strip()
+
+
+def table(rows, stock):
+    """Markdown: a row for each kind of call in each work."""
+    lines = ["| work | calls | how many | whole answer | a sentence | wrong |", "|---|---|---|---|---|---|"]
+    kinds = dict.fromkeys((work, fault.split(":")[0] + " and all later" * fault.endswith("+")) for work, fault, *_ in rows)
+    for work, kind in kinds:
+        mine = [row for row in rows if row[0] == work and
+                row[1].split(":")[0] + " and all later" * row[1].endswith("+") == kind]
+        done = sum(word == "done" and not wrong for _, _, word, wrong, _ in mine)
+        said = sum(word in ("failed", "refused") and not wrong for _, _, word, wrong, _ in mine)
+        lines.append(f"| {work} | {kind} | {len(mine)} | {done} | {said} | {len(mine) - done - said} |")
+    return "\n".join(lines)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("-o", "--output", type=Path, default=ROOT / "results/hostile")
+    parser.add_argument("--only", nargs="*", help="works, of " + ", ".join(WORK))
+    parser.add_argument("--every", type=int, default=1, help="one fault of so many")
+    parser.add_argument("-j", type=int, default=os.cpu_count(), help="faults at a time")
+    options = parser.parse_args()
+    started = time.monotonic()
+    with tempfile.TemporaryDirectory(dir=SCRATCH) as scratch, ThreadPoolExecutor(options.j) as pool:
+        stock = Stock(Path(scratch))
+        faults = [(work, f"{kind}:{k + 1}{end}") for work, counts in stock.counts.items()
+                  for kind, count in counts.items() for end in ("", "+" if kind == "write" else None)
+                  if end is not None for k in range(count) if not options.only or work in options.only]
+        rows = list(pool.map(lambda pair: fail_once(pair[0], *pair[1], stock), enumerate(faults[::options.every])))
+    text = table(rows, stock)
+    for work, fault, word, wrong, said in rows:
+        if wrong:
+            print(f"{work}, {fault}: {word}; {'; '.join(wrong)}; {said[-200:]}")
+    options.output.mkdir(parents=True, exist_ok=True)
+    (options.output / "faults.md").write_text(text + "\n")
+    with open(options.output / "faults.csv", "w", newline="") as file:
+        csv.writer(file).writerows([["work", "fault", "ended", "wrong", "said"]] + [
+            [work, fault, word, "; ".join(wrong), " ".join(said.split())[:300]] for work, fault, word, wrong, said in rows])
+    wrong = sum(bool(row[3]) for row in rows)
+    print(f"{text}\n\n{len(rows)} faults in {time.monotonic() - started:.0f} s, {wrong} wrong")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
