@@ -4,6 +4,7 @@
 #include "io/array_disk.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -103,14 +104,32 @@ static herr_t disk_read(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_t a
     return 0;
 }
 
-// After a failure nothing more is written: the state of the last flush stays readable, unless the
-// disk failed in the middle of a flush.
+// Room for all that was handed out, before the first table of the last flush is overwritten: else
+// a disk that fills up in the middle of a flush would leave tables of which some are new and some
+// old. Where the file system cannot promise room, that may happen.
+static void reserve(ArrayDisk *disk)
+{
+    haddr_t from = disk->reserved > disk->kept ? disk->reserved : disk->kept;
+    if (disk->failure != 0 || from >= disk->end_of_space) return;
+    int cause =
+        posix_fallocate(disk->file->descriptor, (off_t)from, (off_t)(disk->end_of_space - from));
+    if (cause != 0 && cause != EINVAL && cause != EOPNOTSUPP) note_failure(disk, cause);
+    disk->reserved = disk->end_of_space;
+}
+
+void array_disk_keep(ArrayDisk *disk)
+{
+    disk->kept = disk->end_of_space;
+}
+
+// After a failure nothing more is written: the state of the last flush stays readable.
 static herr_t disk_write(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_t address,
                          size_t size, const void *buffer)
 {
     (void)type, (void)transfer;
     ArrayDisk *disk = (ArrayDisk *)base;
     const char *next = buffer;
+    if (address < disk->kept) reserve(disk);
     // HDF5 checks the length when it closes: keep it as if all had been written.
     if (address + size > disk->end_of_file) disk->end_of_file = address + size;
     while (size > 0 && disk->failure == 0) {

@@ -19,6 +19,8 @@ typedef struct ArrayDisk {
     int failure;   // errno of the first access that failed; 0: none
     haddr_t end_of_space;   // bytes handed out to HDF5
     haddr_t end_of_file;   // bytes the file has, or would have if nothing had failed
+    haddr_t kept;   // bytes that a reader needs of the last whole flush; written anew in a flush only
+    haddr_t reserved;   // bytes that the disk has promised room for; 0: not asked yet
 } ArrayDisk;
 
 // Makes `access` (a file access property list) use `disk`, which must stay where it is until the
@@ -29,6 +31,9 @@ bool array_disk_use(ArrayDisk *disk, const PartFile *file, hid_t access, hid_t *
 // Ends a call that wrote `what`; `status` is HDF5's, negative for a failure. ERROR_FILE with the
 // system's reason when the disk has failed, now or before.
 bool array_disk_check(const ArrayDisk *disk, herr_t status, const char *what, Error *err);
+
+// A flush has come to its end.
+void array_disk_keep(ArrayDisk *disk);
 
 // HDF5's message for the fault of its last call, the one nearest to the origin.
 const char *hdf5_cause(char cause[HDF5_CAUSE_SIZE]);

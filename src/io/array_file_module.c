@@ -52,6 +52,7 @@ static bool hdf5_flush(Hdf5File *file, Error *err)
         TRY(series_hand_over(&file->series[s], &file->disk, err));
     herr_t status = H5Fflush(file->id, H5F_SCOPE_LOCAL);
     TRY(array_disk_check(&file->disk, status, "what was appended", err));
+    array_disk_keep(&file->disk);
 cleanup:
     return error_is_clean(err);
 }

@@ -29,6 +29,22 @@ class Hostile(unittest.TestCase):
             self.assertEqual(ended.returncode, 0, ended.stdout + ended.stderr)
             self.assertGreater(len(Path(folder, "faults.csv").read_text().splitlines()), 5)
 
+    def test_full_disk(self):
+        """A disk of some pages, which the history fills: what it was at its last flush can be read."""
+        script = ('mount -t tmpfs -o size=$1k tmpfs disk || exit 77; "$2" run scene.yaml -o disk/out --quiet; '
+                  'echo "run $?"; "$2" info disk/out; echo "info $?"')
+        with tempfile.TemporaryDirectory() as folder:
+            cases.put(Path(folder), {"scene.yaml": cases.SCENE.replace("0.0008", "0.003"), "disk/x": "",
+                                     "block.geo": cases.ROOT / "meshes/block.geo"})
+            for kilobytes in ("44", "60", "76"):
+                ended = subprocess.run(["unshare", "-rm", "sh", "-c", script, "sh", kilobytes, tries.PROGRAM],
+                                       cwd=folder, capture_output=True, text=True)
+                if ended.returncode == 77 or "unshare" in ended.stderr:
+                    self.skipTest("no file system may be mounted here")
+                self.assertIn("run 1\n", ended.stdout)
+                self.assertIn("No space left on device", ended.stderr)
+                self.assertIn("info 0\n", ended.stdout, kilobytes + " kB: " + ended.stderr)
+
     def test_mesh_that_crashes_gmsh(self):
         """gmsh 4.8 does not look whether a node's number is one that it has room for."""
         mesh = cases.square().replace("\n8 5 9", "\n8 9223372036854775807 9")
