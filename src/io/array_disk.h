@@ -19,7 +19,7 @@ typedef struct ArrayDisk {
     int failure;   // errno of the first access that failed; 0: none
     haddr_t end_of_space;   // bytes handed out to HDF5
     haddr_t end_of_file;   // bytes the file has, or would have if nothing had failed
-    haddr_t kept;   // bytes that a reader needs of the last whole flush; written anew in a flush only
+    haddr_t kept;   // bytes that a reader needs of the last whole flush
     haddr_t reserved;   // bytes that the disk has promised room for; 0: not asked yet
 } ArrayDisk;
 

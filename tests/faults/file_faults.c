@@ -5,7 +5,8 @@
 // how many calls there were of each kind is appended to the file when a process ends.
 //
 // What is said on standard error never fails. What a program and its libraries call is seen, not
-// what the C library calls within itself: a stream's buffer is written out by fwrite, fflush or fclose.
+// what the C library calls within itself: a stream's buffer is written out by fwrite, fflush or
+// fclose.
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>

@@ -43,15 +43,15 @@ PATIENCE = 60
 
 class Stock:
     """A folder with scene, study and a good result, and how often each work calls what."""
-    def __init__(self, folder):
+    def __init__(self, folder, works):
         self.scratch, self.good = folder, folder / "good"
         cases.put(self.good, {"scene.yaml": SCENE, "study.yaml": STUDY, "block.geo": ROOT / "meshes/block.geo"})
         assert call(WORK["run"], self.good).returncode == 0
         self.answer = answer_of(self.good / "out")
         self.counts, self.tables = {}, {}
-        for work, words in WORK.items():
+        for work in works:
             folder = self.fresh(work)
-            assert call(words, folder, f"count:{folder}/counts").returncode == 0
+            assert call(WORK[work], folder, f"count:{folder}/counts").returncode == 0
             self.counts[work] = {name: int(count) for name, count in
                                  (line.split() for line in (folder / "counts").read_text().splitlines())}
             if work == "sweep":
@@ -157,10 +157,10 @@ def main():
     options = parser.parse_args()
     started = time.monotonic()
     with tempfile.TemporaryDirectory(dir=SCRATCH) as scratch, ThreadPoolExecutor(options.j) as pool:
-        stock = Stock(Path(scratch))
+        stock = Stock(Path(scratch), options.only or WORK)
         faults = [(work, f"{kind}:{k + 1}{end}") for work, counts in stock.counts.items()
-                  for kind, count in counts.items() for end in ("", "+" if kind == "write" else None)
-                  if end is not None for k in range(count) if not options.only or work in options.only]
+                  for kind, count in counts.items() for end in (("", "+") if kind == "write" else ("",))
+                  for k in range(count)]
         rows = list(pool.map(lambda pair: fail_once(pair[0], *pair[1], stock), enumerate(faults[::options.every])))
     text = table(rows, stock)
     for work, fault, word, wrong, said in rows:
