@@ -42,6 +42,7 @@ def as_sphinx_reads(app, page, source):
     text = source[0].replace("```math\n", "```{math}\n")
     text = re.sub(r"\[([^\]]+)\]\(([\w./]*\btables\.md)\)", r"{download}`\1 <\2>`", text)
     if page == root_doc:
+        app.env.note_dependency(str(SITE / "contents.txt"))
         text += "\n" + (SITE / "contents.txt").read_text()
     source[0] = text
 
