@@ -31,7 +31,8 @@ ContactResidual contact_residual(const ContactProblem *problem, const double *ve
         double pressing = reaction[n] / force_scale, shear = reaction[t] / force_scale;
         check_unilateral((velocity[n] - problem->bound[n]) / velocity_scale, pressing, &worst);
         double slip_rate = velocity[t];
-        double limit = friction_coefficient(problem->law, fabs(slip_rate)) * fmax(pressing, 0);
+        double limit = friction_coefficient(friction_at(problem->law, i), fabs(slip_rate)) *
+                       fmax(pressing, 0);
         worst.cone = fmax(worst.cone, fabs(shear) - limit);
         // Where it slips, friction is mu p against the slip; at rest any shear inside the cone will
         // do.

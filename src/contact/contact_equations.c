@@ -67,13 +67,14 @@ static Row row_of(const ContactEquations *equations, int32_t unknown)
     int32_t j = unknown - 2 * problem->interface->contact_count;
     if (j >= 0 && equations->at->rod_touches[j]) row.stiffness = rod_stiffness(problem, j);
     if (i < 0) return row;
+    const FrictionLaw *law = friction_at(problem->law, i);
     double speed = fabs(equations->at->velocity[unknown]);
     double mu;
     if (equations->piece) {
-        mu = friction_branch(problem->law, equations->piece[i], speed, &row.slope);
+        mu = friction_branch(law, equations->piece[i], speed, &row.slope);
     } else {
-        mu = friction_coefficient(problem->law, speed);
-        row.slope = friction_slope(problem->law, speed);
+        mu = friction_coefficient(law, speed);
+        row.slope = friction_slope(law, speed);
     }
     row.mu = status_direction(equations->at->status[i]) * mu;
     row.normal = interface_normal(i);

@@ -167,25 +167,23 @@ static double condition(const Trace *trace, int32_t node, int32_t kind, const do
                    ? r[x] / trace->scales.force
                    : (v[x] - one * problem->bound[x]) / trace->scales.velocity;
     }
+    const FrictionLaw *law = friction_at(problem->law, node);
     int32_t t = interface_tangent(node), n = interface_normal(node);
     uint8_t status = trace->system.at->status[node];
     if (status == CONTACT_OPEN)
         return kind == 0 ? (v[n] - one * problem->bound[n]) / trace->scales.velocity : INFINITY;
-    if (status == CONTACT_STICK) {
-        if (kind > 1) return INFINITY;
-        return (problem->law->mu_static * r[n] + (kind == 0 ? r[t] : -r[t])) / trace->scales.force;
-    }
+    if (status == CONTACT_STICK && kind > 1) return INFINITY;
+    if (status == CONTACT_STICK)
+        return (law->mu_static * r[n] + (kind == 0 ? r[t] : -r[t])) / trace->scales.force;
     double speed = status_direction(status) * v[t];
     if (kind == 0) return speed / trace->scales.velocity;
     if (kind == 1) return r[n] / trace->scales.force;
     // Above the lower end of its piece of the law, where there is one; below the upper.
     int32_t piece = trace->path->piece[node];
     bool lower = kind == 2 && piece > 0;
-    if (kind == 3 && piece == 0) return INFINITY;
-    double kink = friction_kink(problem->law, lower ? piece - 1 : piece);
+    double kink = kind == 3 && piece == 0 ? INFINITY : friction_kink(law, piece - lower);
     if (!isfinite(kink)) return INFINITY;
-    double beyond = (speed - one * kink) / trace->scales.velocity;
-    return lower ? beyond : -beyond;
+    return (lower ? 1 : -1) * (speed - one * kink) / trace->scales.velocity;
 }
 
 // The bound that the tangent reaches first; distance INFINITY: none.
@@ -246,6 +244,7 @@ static void exchange(Trace *trace, Bound bound)
     int32_t i = bound.node, contacts = interface->contact_count;
     bool rod = i >= contacts;
     int32_t t = rod ? interface_rod(interface, i - contacts) : interface_tangent(i);
+    const FrictionLaw *law = rod ? NULL : friction_at(trace->system.problem->law, i);
     uint8_t before = rod ? 0 : at->status[i];
     double direction = status_direction(before), velocity_sign = 0, normal = 0, tangent = 0;
     int32_t grown = t;   // the velocity that grows where velocity_sign is not 0
@@ -256,7 +255,7 @@ static void exchange(Trace *trace, Bound bound)
         *touches = !*touches;
     } else if (before == CONTACT_OPEN) {
         at->status[i] = at->velocity[t] < 0 ? CONTACT_SLIP_BACKWARD : CONTACT_SLIP_FORWARD;
-        path->piece[i] = (uint8_t)friction_piece(trace->system.problem->law, fabs(at->velocity[t]));
+        path->piece[i] = (uint8_t)friction_piece(law, fabs(at->velocity[t]));
         normal = 1;
     } else if (before == CONTACT_STICK) {
         at->status[i] = bound.kind == 0 ? CONTACT_SLIP_FORWARD : CONTACT_SLIP_BACKWARD;
@@ -264,7 +263,7 @@ static void exchange(Trace *trace, Bound bound)
         velocity_sign = status_direction(at->status[i]);
     } else if (bound.kind == 0) {
         at->status[i] = CONTACT_STICK;
-        normal = trace->system.problem->law->mu_static;
+        normal = law->mu_static;
         tangent = direction;
     } else if (bound.kind == 1) {
         at->status[i] = CONTACT_OPEN;
@@ -288,11 +287,12 @@ static void exchange(Trace *trace, Bound bound)
 static bool stays_near(const Trace *trace)
 {
     const ContactPath *path = trace->path;
-    const FrictionLaw *law = trace->system.problem->law;
     for (int32_t a = 0; a < trace->system.free_count; a++) {
         int32_t k = path->free[a], i = contact_slipping_node(&trace->system, k);
+        if (i < 0) continue;
+        const FrictionLaw *law = friction_at(trace->system.problem->law, i);
         double before = fabs(path->kept[a]), after = fabs(trace->system.at->velocity[k]);
-        if (i >= 0 && !friction_is_straight(law, path->piece[i], before, after)) return false;
+        if (!friction_is_straight(law, path->piece[i], before, after)) return false;
     }
     return true;
 }
@@ -444,7 +444,7 @@ bool contact_path_follow(ContactPath *path, const ContactProblem *problem,
     Trace trace = {
         .path = path,
         .system = {.problem = problem, .at = solution, .piece = path->piece, .free = path->free}};
-    if (!(problem->law->mu_static > 0)) return false;
+    if (!friction_everywhere(problem->law, problem->interface->contact_count)) return false;
     trace.scales = contact_scales(problem, NULL);
     return start_pressed(&trace) && trace_path(&trace);
 }

@@ -215,7 +215,8 @@ static uint8_t judge_contact(const Solve *solve, int32_t i, double *violation)
     *violation = -pressing / solve->scales.force;
     if (*violation > 0) return CONTACT_OPEN;
     if (status == CONTACT_STICK) {
-        *violation = (fabs(shear) - problem->law->mu_static * pressing) / solve->scales.force;
+        *violation = (fabs(shear) - friction_at(problem->law, i)->mu_static * pressing) /
+                     solve->scales.force;
         return shear < 0 ? CONTACT_SLIP_FORWARD : CONTACT_SLIP_BACKWARD;
     }
     *violation = -at->velocity[t] * status_direction(status) / solve->scales.velocity;
@@ -366,7 +367,7 @@ static bool starts_fast(Solve *solve)
     double *slip_rate = &solve->equations.at->velocity[interface_tangent(node)];
     double direction = status_direction(solve->equations.at->status[node]);
     if (*slip_rate * direction >= 0) return false;
-    *slip_rate = direction * friction_spent_speed(problem->law);
+    *slip_rate = direction * friction_spent_speed(friction_at(problem->law, node));
     problem->matrix->factored = 0;
     solve->least = INFINITY;
     solve->stalled = 0;

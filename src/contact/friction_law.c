@@ -91,6 +91,7 @@ bool friction_own_law(const FrictionSource *source, FrictionLaw *law, const char
                           "is no number here: v, and mu_static, mu_kinetic, critical_velocity "
                           "where friction gives them"};
     law->end = source->end;
+    law->factor = 1;
     switch (law->kind) {
     case FRICTION_TABLE:
         return read_table(source, law, key, err);
@@ -112,6 +113,40 @@ bool friction_own_law(const FrictionSource *source, FrictionLaw *law, const char
 FrictionLaw friction_constant(double mu)
 {
     return (FrictionLaw){.kind = FRICTION_COULOMB, .mu_static = mu};
+}
+
+FrictionLaw friction_scaled(const FrictionLaw *law, double factor)
+{
+    FrictionLaw scaled = *law;
+    scaled.mu_static *= factor;
+    scaled.mu_kinetic *= factor;
+    scaled.steepest *= factor;
+    scaled.factor *= factor;
+    return scaled;
+}
+
+FrictionLaw friction_spread(const FrictionLaw *each, int32_t count)
+{
+    FrictionLaw law = each[0];
+    double largest = 0, critical = INFINITY;
+    for (int32_t i = 0; i < count; i++) {
+        if (friction_drop(&each[i]) > friction_drop(&law)) law = each[i];
+        largest = fmax(largest, each[i].mu_static);
+        if (friction_drop(&each[i]) > 0) critical = fmin(critical, each[i].critical_velocity);
+    }
+    double drop = friction_drop(&law);
+    law.mu_static = largest;
+    law.mu_kinetic = friction_has_drop(&law) ? largest - drop : largest;
+    if (isfinite(critical)) law.critical_velocity = critical;
+    law.each = each;
+    return law;
+}
+
+bool friction_everywhere(const FrictionLaw *law, int32_t count)
+{
+    for (int32_t i = 0; i < count; i++)
+        if (!(friction_at(law, i)->mu_static > 0)) return false;
+    return true;
 }
 
 const char *friction_law_name(const FrictionLaw *law)
@@ -191,8 +226,8 @@ static double own_value(const FrictionLaw *law, double speed, double *slope)
 static double own_law(const FrictionLaw *law, double speed, double *slope)
 {
     double mu = own_value(law, fmin(speed, law->end), slope);
-    if (speed >= law->end) *slope = 0;
-    return mu;
+    *slope = speed < law->end ? law->factor * *slope : 0;
+    return law->factor * mu;
 }
 
 // Two functions that are not inlined: the built-in laws, asked some million times in a run, need no

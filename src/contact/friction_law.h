@@ -44,6 +44,10 @@ typedef struct FrictionLaw {
     double steepest;   // the largest -mu'(v), one over a velocity
     double spent;   // friction_spent_speed, velocity
     bool strengthens;   // at some speed a faster slip meets more friction
+    double factor;   // on what `own` says, 1
+    // Where laws differ along the contact: that of each node [contact_count], not owned; the rest of
+    // this struct then speaks of them all (friction_spread). NULL: this one holds everywhere.
+    const struct FrictionLaw *each;
     union {
         FrictionTable table;
         Formula formula;   // of v
@@ -53,6 +57,22 @@ typedef struct FrictionLaw {
 
 // mu at every speed; 0: no friction.
 FrictionLaw friction_constant(double mu);
+
+// That of contact node i.
+static inline const FrictionLaw *friction_at(const FrictionLaw *law, int32_t i)
+{
+    return law->each ? &law->each[i] : law;
+}
+
+// The law with `factor` >= 0 times the coefficient at every speed.
+FrictionLaw friction_scaled(const FrictionLaw *law, double factor);
+
+// What stands for the laws `each` [count] of the nodes together: the largest mu_S, the largest drop,
+// the least v_c; to be asked about a node through friction_at.
+FrictionLaw friction_spread(const FrictionLaw *each, int32_t count);
+
+// Each of the nodes has some friction at rest.
+bool friction_everywhere(const FrictionLaw *law, int32_t count);
 
 const char *friction_law_name(const FrictionLaw *law);   // "unknown" for a kind that there is not
 

@@ -53,7 +53,8 @@ bool contact_arrays_record(void *self, const Observation *seen, Error *err)
         arrays->slip[i] = displacement - arrays->origin[i];
         arrays->pressure[i] = state->reaction[n] / weight;
         arrays->shear[i] = -state->reaction[t] / weight;
-        arrays->status[i] = shown_status(arrays->law, state->status[i], state->slip_rate[t]);
+        arrays->status[i] =
+            shown_status(friction_at(arrays->law, i), state->status[i], state->slip_rate[t]);
     }
     arrays->started = true;
     return true;

@@ -183,9 +183,10 @@ static bool write_line(Fields *fields, const Observation *seen, const char *name
         columns[2][i] = state->displacement[dofs[n]];
         columns[3][i] = state->reaction[n] / interface->weight[i];
         columns[4][i] = -state->reaction[t] / interface->weight[i];
-        columns[5][i] = state->status[i] == CONTACT_OPEN
-                            ? 0
-                            : friction_contact_density(fields->law, fabs(slip_rate));
+        columns[5][i] =
+            state->status[i] == CONTACT_OPEN
+                ? 0
+                : friction_contact_density(friction_at(fields->law, i), fabs(slip_rate));
     }
     static const char *const names[LINE_ARRAYS] = {"slip_rate", "displacement_x", "gap", "pressure",
                                                    "shear",     "contact_density"};

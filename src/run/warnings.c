@@ -34,14 +34,17 @@ void warnings_add(RunWarnings *warnings, const char *format, ...)
 void warnings_of_resolution(const Certificate *certificate, double load, RunWarnings *warnings)
 {
     const Interface *interface = certificate->moving.interface;
-    double slope = friction_steepest(certificate->moving.law), length = 0;
-    if (!(slope > 0) || !certificate->damping) return;   // no damping: the scene was warned of
+    const FrictionLaw *law = certificate->moving.law;
+    double length = 0;
+    if (!(friction_drop(law) > 0) || !certificate->damping)
+        return;   // no damping: the scene was warned of
     const double *schur = interface_operator_schur(certificate->damping);
     int32_t unstable = 0;
     double worst = 0;
     for (int32_t i = 0; i < interface->contact_count; i++) length += interface->weight[i];
     for (int32_t i = 0; i < interface->contact_count; i++) {
         int64_t t = interface_tangent(i);
+        double slope = friction_steepest(friction_at(law, i));
         double ratio = slope * load / length * interface->weight[i] /
                        schur[t * interface->count + t];
         unstable += ratio > 1;

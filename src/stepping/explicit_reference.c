@@ -213,7 +213,7 @@ static double resolve_contact(ExplicitReference *scheme, int32_t i, State *state
         double strength = bound - v[1];   // (dt/m) r_n
         bool slipped = status_slips(state->status[i]) &&
                        status_direction(state->status[i]) * v[0] > 0;
-        double speed = slip_speed(scheme->def.law, fabs(v[0]), strength, slipped);
+        double speed = slip_speed(friction_at(scheme->def.law, i), fabs(v[0]), strength, slipped);
         double slip_rate = copysign(speed, v[0]);
         state->status[i] = speed == 0      ? CONTACT_STICK
                            : slip_rate > 0 ? CONTACT_SLIP_FORWARD

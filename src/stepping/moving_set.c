@@ -29,11 +29,12 @@ static MovingUnknown *add_unknown(MovingSet *set, int32_t unknown)
 static void add_slipping(MovingSet *set, const State *state, int32_t i)
 {
     int32_t t = interface_tangent(i), n = interface_normal(i);
+    const FrictionLaw *law = friction_at(set->law, i);
     double speed = fabs(state->slip_rate[t]);
     MovingUnknown *moving = add_unknown(set, t);
     moving->normal = n;
-    moving->friction = status_direction(state->status[i]) * friction_coefficient(set->law, speed);
-    double slope = friction_slope(set->law, speed);
+    moving->friction = status_direction(state->status[i]) * friction_coefficient(law, speed);
+    double slope = friction_slope(law, speed);
     *(slope > 0 ? &moving->damper : &moving->weakening) = fabs(slope) * state->reaction[n];
     set->weakens = set->weakens || moving->weakening > 0;
 }

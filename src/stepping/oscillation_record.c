@@ -45,14 +45,14 @@ static double weakening_of(const OscillationRecord *record, const State *state, 
     if (state->status[k] == CONTACT_STICK) return -1;
     if (state->status[k] == CONTACT_OPEN) return 0;
     double speed = fabs(state->slip_rate[interface_tangent(k)]);
-    double slope = friction_slope(record->law, speed);
+    double slope = friction_slope(friction_at(record->law, k), speed);
     return slope < 0 ? -slope * state->reaction[interface_normal(k)] : 0;   // 0: it strengthens
 }
 
 static bool is_fast(const OscillationRecord *record, const State *state)
 {
-    double limit = SMALL_RATE * record->law->critical_velocity;
     for (int32_t i = 0; i < record->interface->contact_count; i++) {
+        double limit = SMALL_RATE * friction_at(record->law, i)->critical_velocity;
         if (fabs(state->slip_rate[interface_tangent(i)]) > limit) return true;
     }
     return false;

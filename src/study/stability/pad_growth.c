@@ -195,9 +195,11 @@ static double fall_of_mu(PadWork *work)
     const FrictionLaw *law = &path->model->law;
     const double *schur = interface_operator_schur(work->stiffness);
     int64_t size = interface->count;
-    double kinetic = law->mu_static - friction_drop(law), fall = 0, load = 0;
+    double fall = 0, load = 0;
     for (int32_t a = 0; a < work->count; a++) {
         int32_t i = work->nodes[a];
+        const FrictionLaw *own = friction_at(law, i);
+        double kinetic = own->mu_static - friction_drop(own);
         work->values[a] = fabs(path->runaway.reaction[interface_tangent(i)]) -
                           kinetic * path->runaway.reaction[interface_normal(i)];
         for (int32_t b = 0; b < work->count; b++)

@@ -155,8 +155,9 @@ static double mu_at_V(const StabilityPath *path, const State *state, double mu)
         double pressure = state->reaction[interface_normal(i)];
         if (!status_slips(state->status[i])) continue;
         double rate = speed * fabs(state->slip_rate[interface_tangent(i)]);
-        lost += pressure * (law->mu_static - friction_coefficient(law, rate));
-        pressed += pressure;
+        const FrictionLaw *own = friction_at(law, i);
+        lost += pressure * (own->mu_static - friction_coefficient(own, rate));
+        pressed += pressure * (friction_drop(own) / friction_drop(law));
     }
     return pressed > 0 ? mu - (mu - start) * lost / (pressed * friction_drop(law)) : mu;
 }
