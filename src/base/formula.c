@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { NAME_SIZE = 96, DEPTH_MAX = 50 };
+enum { NAME_SIZE = 96, DEPTH_MAX = 50, MANY = -1 };
 
 // symbol, name in a formula, arguments
 #define FUNCTIONS(X)                                                                               \
@@ -20,7 +20,8 @@ enum { NAME_SIZE = 96, DEPTH_MAX = 50 };
     X(STEP_TANH, "tanh", 1)                                                                        \
     X(STEP_ABS, "abs", 1)                                                                          \
     X(STEP_MIN, "min", 2)                                                                          \
-    X(STEP_MAX, "max", 2)
+    X(STEP_MAX, "max", 2)                                                                          \
+    X(STEP_POINTS, "points", MANY)
 
 typedef enum Operation {
 #define X(symbol, name, arguments) symbol,
@@ -101,15 +102,22 @@ static void close_bracket(Reading *reading)
 
 static void read_function(Reading *reading, int32_t function)
 {
+    int32_t wanted = functions[function].arguments, count = 1;
     read_sum(reading);
-    if (functions[function].arguments == 2 && error_is_clean(reading->err)) {
-        if (take(reading, ','))
+    while (count != wanted && error_is_clean(reading->err)) {
+        if (take(reading, ',')) {
             read_sum(reading);
-        else
+            count++;
+        } else if (wanted == MANY) {
+            break;
+        } else {
             refuse(reading, "a comma");
+        }
     }
+    if (wanted == MANY && (count < 5 || count % 2 == 0) && error_is_clean(reading->err))
+        refuse(reading, "x and two points or more, each of two numbers,");
     close_bracket(reading);
-    add(reading, (Operation)function, 0);
+    add(reading, (Operation)function, count);
 }
 
 // The variable, a number that has a name, or a function with its bracket.
@@ -236,6 +244,21 @@ static Dual power(Dual a, Dual b)
     return (Dual){value, by_base + chain(value * log(a.value), b.slope)};
 }
 
+// The line through the points [x, y, ...] [count] next to x. NaN where they do not ascend.
+static Dual along_points(Dual x, const Dual *point, int32_t count)
+{
+    for (int32_t k = 2; k < count; k += 2)
+        if (!(point[k].value > point[k - 2].value)) return (Dual){NAN, NAN};
+    if (x.value <= point[0].value) return (Dual){point[1].value, 0};
+    for (int32_t k = 2; k < count; k += 2) {
+        if (x.value > point[k].value) continue;
+        double width = point[k].value - point[k - 2].value;
+        double slope = (point[k + 1].value - point[k - 1].value) / width;
+        return (Dual){point[k - 1].value + slope * (x.value - point[k - 2].value), slope * x.slope};
+    }
+    return (Dual){point[count - 1].value, 0};
+}
+
 // b: of a function of one argument not used.
 static Dual apply(Operation operation, Dual a, Dual b)
 {
@@ -270,6 +293,7 @@ static Dual apply(Operation operation, Dual a, Dual b)
                       chain(1 / b.value, a.slope) - chain(a.value / (b.value * b.value), b.slope)};
     case STEP_POWER:
         return power(a, b);
+    case STEP_POINTS:
     case STEP_NUMBER:
     case STEP_VARIABLE:
         break;
@@ -295,6 +319,10 @@ double formula_at(const Formula *formula, double x, double *slope)
             stack[++top] = (Dual){formula->step[k].number, 0};
         } else if (operation == STEP_VARIABLE) {
             stack[++top] = (Dual){x, 1};
+        } else if (operation == STEP_POINTS) {
+            int32_t count = (int32_t)formula->step[k].number;
+            top -= count - 1;
+            stack[top] = along_points(stack[top], &stack[top + 1], count - 1);
         } else {
             Dual last = stack[top];
             if (takes_two(operation)) top--;

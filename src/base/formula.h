@@ -7,6 +7,7 @@
 //     power = - power | unit [^ power]
 //     unit = number | name | function(sum) | function(sum, sum) | (sum)
 //     function = sqrt, exp, log, tanh, abs; of two: min, max
+//     points(x, x_1, y_1, x_2, y_2, ...): lines through points of ascending x, level beyond
 #ifndef AMONTONS_BASE_FORMULA_H
 #define AMONTONS_BASE_FORMULA_H
 
@@ -28,7 +29,7 @@ typedef struct FormulaNames {
 
 typedef struct FormulaStep {
     int32_t operation;
-    double number;   // of a step that is a number
+    double number;   // of a step that is a number; of points, how many it takes off the stack
 } FormulaStep;
 
 // As a list of steps on a stack: nothing is owned, and copies are as good.

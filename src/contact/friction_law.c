@@ -24,7 +24,9 @@ FrictionUse friction_use(const FrictionLaw *law, const char *key)
                  {"formula", {NO, NO, NO, NO, MUST, NO}},
                  {"file", {NO, NO, NO, NO, NO, MUST}},
                  {"parameters", {NO, NO, NO, NO, NO, MAY}},
-                 {"velocity_max", {NO, NO, NO, NO, MAY, MAY}}};
+                 {"velocity_max", {NO, NO, NO, NO, MAY, MAY}},
+                 {"along", {MAY, MAY, MAY, MAY, MAY, MAY}},
+                 {"contacts", {MAY, MAY, MAY, MAY, MAY, MAY}}};
     for (size_t k = 0; k < sizeof table / sizeof table[0]; k++)
         if (strcmp(table[k].key, key) == 0) return (FrictionUse)table[k].use[law->kind];
     return FRICTION_UNUSED;
@@ -149,9 +151,9 @@ bool friction_everywhere(const FrictionLaw *law, int32_t count)
     return true;
 }
 
-const char *friction_law_name(const FrictionLaw *law)
+const char *friction_kind_name(FrictionKind kind)
 {
-    switch (law->kind) {
+    switch (kind) {
 #define X(symbol, name)                                                                            \
     case symbol:                                                                                   \
         return name;
@@ -159,6 +161,11 @@ const char *friction_law_name(const FrictionLaw *law)
 #undef X
     }
     return "unknown";
+}
+
+const char *friction_law_name(const FrictionLaw *law)
+{
+    return friction_kind_name(law->kind);
 }
 
 bool friction_is_own(const FrictionLaw *law)

@@ -45,8 +45,8 @@ typedef struct FrictionLaw {
     double spent;   // friction_spent_speed, velocity
     bool strengthens;   // at some speed a faster slip meets more friction
     double factor;   // on what `own` says, 1
-    // Where laws differ along the contact: that of each node [contact_count], not owned; the rest of
-    // this struct then speaks of them all (friction_spread). NULL: this one holds everywhere.
+    // Where laws differ along the contact: that of each node [contact_count], not owned; the rest
+    // of this struct then speaks of them all (friction_spread). NULL: this one holds everywhere.
     const struct FrictionLaw *each;
     union {
         FrictionTable table;
@@ -67,13 +67,14 @@ static inline const FrictionLaw *friction_at(const FrictionLaw *law, int32_t i)
 // The law with `factor` >= 0 times the coefficient at every speed.
 FrictionLaw friction_scaled(const FrictionLaw *law, double factor);
 
-// What stands for the laws `each` [count] of the nodes together: the largest mu_S, the largest drop,
-// the least v_c; to be asked about a node through friction_at.
+// What stands for the laws `each` [count] of the nodes together: the largest mu_S, the largest
+// drop, the least v_c; to be asked about a node through friction_at.
 FrictionLaw friction_spread(const FrictionLaw *each, int32_t count);
 
 // Each of the nodes has some friction at rest.
 bool friction_everywhere(const FrictionLaw *law, int32_t count);
 
+const char *friction_kind_name(FrictionKind kind);   // "unknown" for one that there is not
 const char *friction_law_name(const FrictionLaw *law);   // "unknown" for a kind that there is not
 
 // A table, a formula or a plug-in.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "model/model.h"
 
+#include "base/memory.h"
+
 void model_destroy(Model *model)
 {
     bulk_operator_destroy(&model->system);
@@ -8,6 +10,7 @@ void model_destroy(Model *model)
     interface_destroy(&model->interface);
     bulk_destroy(&model->bulk);
     mesh_destroy(&model->mesh);
+    memory_free(model->node_laws);
     *model = (Model){0};
 }
 

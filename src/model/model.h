@@ -17,6 +17,7 @@ typedef struct Model {
     const Scene *scene;   // not owned; outlives the model
     Material material;
     FrictionLaw law;
+    FrictionLaw *node_laws;   // [contact_count] where they differ (model/contact_laws); owned
     Mesh mesh;   // empty: the shape came from the cache, and no fields are asked for; owned, like
         // all that follows
     Bulk bulk;   // assembled; empty where the shape came from the cache

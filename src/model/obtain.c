@@ -10,6 +10,7 @@
 #include "bulk/reduction_block.h"
 #include "model/assemble.h"
 #include "model/basis_cache.h"
+#include "model/contact_laws.h"
 #include "model/shape_cache.h"
 
 #include <math.h>
@@ -289,6 +290,7 @@ bool model_obtain(const Scene *scene, const StageNotice *notice, Model *model, E
         TRY(adopt_shape(model, &shape, err));
     else
         TRY(make_operator(model, key, err));
+    TRY(model_lay_laws(model, err));
     set_scales(model);
 cleanup:
     shape_destroy(&shape);

@@ -10,6 +10,7 @@
 #include "base/memory.h"
 #include "bulk/element.h"
 #include "contact/contact_check.h"
+#include "model/contact_laws.h"
 #include "run/result_folder.h"
 
 #include <math.h>
@@ -41,6 +42,7 @@ static void static_solution_destroy(StaticSolution *solution)
     memory_free(solution->contact_displacement);
     memory_free(solution->contact_reaction);
     memory_free(solution->status);
+    memory_free(solution->node_laws);
     memory_free(solution->rod_touches);
     *solution = (StaticSolution){0};
 }
@@ -146,7 +148,11 @@ static bool static_solve(Model *model, StaticSolution *solution, Error *err)
     const Scene *scene = model->scene;
     RodKind kind = scene->rod.kind == ROD_BONDED ? ROD_IS_BONDED : ROD_PUSHES;
     TRY(model_build_rod(model, kind, &solution->rod, err));
-    solution->law = friction_constant(scene->friction.mu_static);
+    TRY(model_lay_laws(model, err));
+    TRY((solution->node_laws = NEW_ARRAY(FrictionLaw, interface->contact_count, err)));
+    for (int32_t i = 0; i < interface->contact_count; i++)
+        solution->node_laws[i] = friction_constant(friction_at(&model->law, i)->mu_static);
+    solution->law = friction_spread(solution->node_laws, interface->contact_count);
     memcpy(solution->load, bulk->load, (size_t)bulk->dof_count * sizeof(double));
     TRY(model_hold_supports(model, err));
     TRY(bulk_operator_create(bulk, model->mesh.position, interface->dofs, interface->count, &system,

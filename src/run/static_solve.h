@@ -25,7 +25,8 @@ typedef struct StaticSolution {
     uint8_t *rod_touches;   // [rod_count]
     double *work;   // [dof_count]
     Rod rod;
-    FrictionLaw law;   // Coulomb's with mu_static
+    FrictionLaw *node_laws;   // [contact_count] Coulomb's with mu_static; owned
+    FrictionLaw law;   // of them all
     int64_t iterations;
 } StaticSolution;
 

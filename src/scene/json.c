@@ -60,6 +60,24 @@ static void write_numbers(const SceneNumbers *numbers, JsonWriter *json, const c
     json_end(json);
 }
 
+static void write_contact_laws(const SceneContactLaws *laws, JsonWriter *json, const char *name)
+{
+    json_begin_list(json, name);
+    for (int32_t i = 0; i < laws->count; i++) {
+        const SceneContactLaw *item = &laws->item[i];
+        json_begin_object(json, NULL);
+        json_text(json, "group", item->group);
+        if (item->has_law) json_text(json, "law", friction_kind_name(item->kind));
+        if (item->has_static) json_number(json, "mu_static", item->mu_static);
+        if (item->has_kinetic) json_number(json, "mu_kinetic", item->mu_kinetic);
+        if (item->has_critical) json_number(json, "critical_velocity", item->critical_velocity);
+        if (*item->formula) json_text(json, "formula", item->formula);
+        if (*item->along) json_text(json, "along", item->along);
+        json_end(json);
+    }
+    json_end(json);
+}
+
 static void write_names(const SceneNames *names, JsonWriter *json, const char *name)
 {
     json_begin_list(json, name);
@@ -108,6 +126,9 @@ static void write_value(const SceneKey *key, const Scene *scene, JsonWriter *jso
         return;
     case KEY_SUPPORTS:
         write_supports(scene, json, name);
+        return;
+    case KEY_CONTACT_LAWS:
+        write_contact_laws(field, json, name);
         return;
     case KEY_FIELDS:
         json_text(json, name, "none");

@@ -96,9 +96,10 @@ static const SceneKey keys[] = {
      .choices = interpolation_choices},
     {"friction.formula", KEY_TEXT, offsetof(Scene, own_friction.formula), "1", RANGE_ANY, NULL,
      .may_lack = true,
-     .sentence = "Law `formula`: mu of the slip rate v >= 0, with + - * / ^, brackets, sqrt, exp, "
-                 "log, tanh, abs, min, max, and mu_static, mu_kinetic, critical_velocity where "
-                 "they are given."},
+     .sentence =
+         "Law `formula`: mu of the slip rate v >= 0, with + - * / ^, brackets, sqrt, exp, "
+         "log, tanh, abs, min, max, points, and mu_static, mu_kinetic, critical_velocity where "
+         "they are given."},
     {"friction.file", KEY_TEXT, offsetof(Scene, own_friction.file), "1", RANGE_ANY, NULL,
      .may_lack = true,
      .sentence = "Law `plugin`: a shared object with the functions of amontons_friction.h, "
@@ -110,6 +111,15 @@ static const SceneKey keys[] = {
      .sentence =
          "Laws `formula` and `plugin`: slip rate beyond which mu stays, and up to which it is "
          "looked at beforehand; if not given, that of sound, sqrt(E/rho)."},
+    {"friction.along", KEY_TEXT, offsetof(Scene, own_friction.along), "1", RANGE_ANY, NULL,
+     .may_lack = true,
+     .sentence = "Factor on mu along the contact: a formula of x, as in `points(x, 0.4, 1, 0.45, "
+                 "0.3, 0.55, 0.3, 0.6, 1)`, a middle that is lubricated."},
+    {"friction.contacts", KEY_CONTACT_LAWS, offsetof(Scene, contact_laws), "1", RANGE_ANY, NULL,
+     .may_lack = true,
+     .sentence =
+         "Friction of single contact curves, a list of {group: NAME, ...} with those of law, "
+         "mu_static, mu_kinetic, critical_velocity, formula and along that differ there."},
     {"contact.radius", KEY_NUMBER, offsetof(Scene, contact.radius), "length", RANGE_NOT_NEGATIVE,
      "0",
      .sentence = "The substrate falls away from the middle of the block as x^2 / (2 radius); 0: it "
@@ -340,6 +350,7 @@ void scene_key_allowed(const SceneKey *key, char *words, int32_t size)
         [KEY_PARAMETERS] = "a map of at most 32 parameters, each a number or a word",
         [KEY_TRACTIONS] = "a list of at most 32 maps {group: NAME, x: STRESS, z: STRESS}",
         [KEY_SUPPORTS] = "a list of at most 32 maps {group: NAME, direction: x, z or both}",
+        [KEY_CONTACT_LAWS] = "a list of at most 16 maps {group: NAME, mu_static: NUMBER, ...}",
         [KEY_FIELDS] = "none, or a map of every_U, every_t, at_events",
     };
     const char *text = key->type == KEY_NUMBER ? ranges[key->range].words : by_type[key->type];

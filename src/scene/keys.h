@@ -22,6 +22,7 @@ typedef enum SceneKeyType {
     KEY_PARAMETERS,   // mesh.set: keys of any name, each a number or a word
     KEY_TRACTIONS,   // load.tractions: a list of {group, x, z}
     KEY_SUPPORTS,   // load.supports: a list of {group, direction}
+    KEY_CONTACT_LAWS,   // friction.contacts: a list of {group, and keys of friction that differ}
     KEY_FIELDS,   // output.fields: none, or a map of the keys below it
 } SceneKeyType;
 

@@ -5,23 +5,27 @@
 
 #include <math.h>
 
+double scene_fastest_slip(const Scene *scene)
+{
+    double given = scene->own_friction.velocity_max;
+    return given > 0 ? given : sqrt(scene->material.young / scene->material.density);
+}
+
 bool scene_own_law(Scene *scene, const char **key, Error *err)
 {
     *key = "law";
     if (!friction_is_own(&scene->friction)) return true;
     const SceneNumbers *velocity = &scene->own_friction.velocity, *mu = &scene->own_friction.mu;
-    double fastest = scene->own_friction.velocity_max;
-    FrictionSource source = {
-        .velocity = velocity->value,
-        .velocity_count = velocity->count,
-        .mu = mu->value,
-        .mu_count = mu->count,
-        .straight = scene->own_friction.interpolation == INTERPOLATION_LINEAR,
-        .formula = scene->own_friction.formula,
-        .file = scene->own_friction.file,
-        .parameters = scene->own_friction.parameters.value,
-        .parameter_count = scene->own_friction.parameters.count,
-        .end = fastest > 0 ? fastest : sqrt(scene->material.young / scene->material.density)};
+    FrictionSource source = {.velocity = velocity->value,
+                             .velocity_count = velocity->count,
+                             .mu = mu->value,
+                             .mu_count = mu->count,
+                             .straight = scene->own_friction.interpolation == INTERPOLATION_LINEAR,
+                             .formula = scene->own_friction.formula,
+                             .file = scene->own_friction.file,
+                             .parameters = scene->own_friction.parameters.value,
+                             .parameter_count = scene->own_friction.parameters.count,
+                             .end = scene_fastest_slip(scene)};
     return friction_own_law(&source, &scene->friction, key, err) &&
            friction_look(&scene->friction, err);
 }

@@ -10,4 +10,7 @@
 // one to work with).
 bool scene_own_law(Scene *scene, const char **key, Error *err);
 
+// The slip rate up to which a formula or plug-in is asked: friction.velocity_max, or that of sound.
+double scene_fastest_slip(const Scene *scene);
+
 #endif

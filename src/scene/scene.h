@@ -49,6 +49,7 @@ typedef struct Scene {
     } material;
     FrictionLaw friction;   // made of what follows, where it is one's own
     SceneOwnFriction own_friction;
+    SceneContactLaws contact_laws;   // friction.contacts
     struct {
         double radius;   // of the substrate's curvature; 0: flat
     } contact;

@@ -12,6 +12,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "scene/check.h"
+#include "scene/contact_laws.h"
 #include "scene/keys.h"
 #include "scene/own_law.h"
 #include "scene/value.h"
@@ -289,6 +290,7 @@ static bool finish_reading(Reader *reader, const char *path, Scene *scene, Error
     done = scene_own_law(scene, &word, err);
     snprintf(key, sizeof key, "friction.%s", word);
     TRY(scene_blame(scene, key, done, err));
+    TRY(scene_contact_laws(&reader->sources[scene_key_index("friction.contacts")], scene, err));
 cleanup:
     return error_is_clean(err);
 }

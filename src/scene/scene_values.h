@@ -3,9 +3,15 @@
 #ifndef AMONTONS_SCENE_SCENE_VALUES_H
 #define AMONTONS_SCENE_SCENE_VALUES_H
 
+#include "contact/friction_law.h"
 #include "io/mesh_file.h"
 
-enum { SCENE_TEXT_SIZE = 512, SCENE_LIST_MAX = 32, SCENE_NUMBERS_MAX = 64 };
+enum {
+    SCENE_TEXT_SIZE = 512,
+    SCENE_LIST_MAX = 32,
+    SCENE_NUMBERS_MAX = 64,
+    SCENE_CONTACT_LAWS_MAX = 16
+};
 
 typedef struct SceneNames {
     int32_t count;
@@ -37,6 +43,21 @@ typedef struct SceneOwnFriction {
     char formula[SCENE_TEXT_SIZE];
     char file[SCENE_TEXT_SIZE];   // of a plug-in, resolved against the scene file's folder
     double velocity_max;   // 0: the speed of sound
+    char along[SCENE_TEXT_SIZE];   // factor on mu, a formula of x; empty: 1
 } SceneOwnFriction;
+
+// What differs on one contact curve: an item of friction.contacts (scene/contact_laws).
+typedef struct SceneContactLaw {
+    char group[GROUP_NAME_SIZE];
+    bool has_law, has_static, has_kinetic, has_critical;   // what the item gives
+    FrictionKind kind;   // this, like the numbers, the item's or else the scene's
+    double mu_static, mu_kinetic, critical_velocity;
+    char formula[SCENE_TEXT_SIZE], along[SCENE_TEXT_SIZE];   // empty: not given
+} SceneContactLaw;
+
+typedef struct SceneContactLaws {
+    int32_t count;
+    SceneContactLaw item[SCENE_CONTACT_LAWS_MAX];
+} SceneContactLaws;
 
 #endif

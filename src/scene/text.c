@@ -94,6 +94,28 @@ static void add_numbers(Line *line, const SceneNumbers *numbers)
     add(line, "]");
 }
 
+static void add_contact_laws(Line *line, const SceneContactLaws *laws)
+{
+    add(line, "[");
+    for (int32_t i = 0; i < laws->count; i++) {
+        const SceneContactLaw *item = &laws->item[i];
+        const double numbers[] = {item->mu_static, item->mu_kinetic, item->critical_velocity};
+        const bool given[] = {item->has_static, item->has_kinetic, item->has_critical};
+        static const char *const words[] = {"mu_static", "mu_kinetic", "critical_velocity"};
+        add(line, "%s{group: %s", i ? ", " : "", item->group);
+        if (item->has_law) add(line, ", law: %s", friction_kind_name(item->kind));
+        for (int32_t k = 0; k < 3; k++) {
+            if (!given[k]) continue;
+            add(line, ", %s: ", words[k]);
+            add_number(line, numbers[k]);
+        }
+        if (*item->formula) add(line, ", formula: \"%s\"", item->formula);
+        if (*item->along) add(line, ", along: \"%s\"", item->along);
+        add(line, "}");
+    }
+    add(line, "]");
+}
+
 static void add_names(Line *line, const SceneNames *names)
 {
     add(line, "[");
@@ -137,6 +159,9 @@ void scene_key_value(const SceneKey *key, const Scene *scene, char *words, int32
         return;
     case KEY_SUPPORTS:
         add_supports(&line, scene);
+        return;
+    case KEY_CONTACT_LAWS:
+        add_contact_laws(&line, field);
         return;
     case KEY_FIELDS:
         add(&line, "%s", scene->output.fields ? "as below" : "none");

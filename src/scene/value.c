@@ -379,10 +379,11 @@ static bool set_fields(const SceneKey *key, const SceneValue *value, Scene *scen
 
 void scene_value_clear(const SceneKey *key, Scene *scene)
 {
-    size_t size = key->type == KEY_NUMBER    ? sizeof(double)
-                  : key->type == KEY_NUMBERS ? sizeof(SceneNumbers)
-                  : key->type == KEY_CHOICE  ? sizeof(int32_t)
-                                             : SCENE_TEXT_SIZE;
+    size_t size = key->type == KEY_NUMBER         ? sizeof(double)
+                  : key->type == KEY_NUMBERS      ? sizeof(SceneNumbers)
+                  : key->type == KEY_CONTACT_LAWS ? sizeof(SceneContactLaws)
+                  : key->type == KEY_CHOICE       ? sizeof(int32_t)
+                                                  : SCENE_TEXT_SIZE;
     memset(field_of(key, scene), 0, size);
 }
 
@@ -408,6 +409,9 @@ bool scene_value_set(const SceneKey *key, const SceneValue *value, Scene *scene,
     case KEY_TRACTIONS:
     case KEY_SUPPORTS:
         return set_list(key, value, scene, err);
+    case KEY_CONTACT_LAWS:   // read when all that they may leave out is (scene/contact_laws)
+        if (yaml_kind(value->document, value->node) != YAML_LIST) report_wrong(key, value, err);
+        return error_is_clean(err);
     case KEY_FIELDS:
         return set_fields(key, value, scene, err);
     }

@@ -39,6 +39,10 @@ static bool check_scene(const Scene *scene, Error *err)
              "weakening friction.law (this one is `%s`) with friction.mu_static above "
              "friction.mu_kinetic",
              path, friction_law_name(&scene->friction));
+    if (scene->contact_laws.count > 0 || *scene->own_friction.along)
+        FAIL(err, ERROR_INPUT,
+             "%s: friction.contacts, friction.along: the 1D model has one law along its line",
+             path);
     if (friction_strengthens(&scene->friction))
         FAIL(
             err, ERROR_INPUT,

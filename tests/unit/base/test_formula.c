@@ -36,6 +36,8 @@ static void test_values(void **state)
                  {"--3", 3},
                  {"sqrt(mesh.set.length) + 1e-3", 2.001},
                  {".5e1", 5},
+                 {"points(0.5, 0, 1, 1, 3)", 2},
+                 {"points(-1, 0, 1, 1, 3) + points(5, 0, 1, 1, 3, 2, 7)", 8},
                  {"exp(1) * log(2)", 2.718281828459045 * 0.6931471805599453},
                  {"tanh (0.5)", 0.46211715726000979},
                  {"abs(-3) + min(2, 1) * max(2, 1)", 5},
@@ -63,6 +65,8 @@ static void test_refusals(void **state)
                  {"sqrt(-1)", "not finite"},
                  {"sqrt", "`sqrt` is no number"},
                  {"exp(1, 2)", "`, 2)`: expected a closing bracket"},
+                 {"points(1, 2, 3)", "`)`: expected x and two points"},
+                 {"points(1, 0, 1, 0, 1)", "not finite"},
                  {"min(1)", "`)`: expected a comma"},
                  {"3 $ 4", "`$ 4`: expected an operator"},
                  {"0x10", "`0x10`: expected a decimal number"},
@@ -95,6 +99,7 @@ static void test_derivatives(void **state)
                                         "abs(v - 0.5) + abs(v)",
                                         "min(v, 0.4)",
                                         "max(v ^ 2, v)",
+                                        "points(v ^ 2, 0, 1, 0.4, 3, 2, 0.5)",
                                         "-v ^ 3"};
     FormulaNames names = {look_up, NULL, "v", "is unknown"};
     for (size_t k = 0; k < sizeof texts / sizeof texts[0]; k++) {

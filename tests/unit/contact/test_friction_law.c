@@ -125,6 +125,33 @@ static void test_contact_density(void **state)
     assert_near("nothing weakens", friction_contact_density(&level, 1), 1, 0);
 }
 
+// A law times a factor, at every speed; and what stands for several laws together.
+static void test_scaled_and_spread(void **state)
+{
+    (void)state;
+    FrictionLaw each[4];
+    for (int k = 0; k < 3; k++) {
+        FrictionLaw law = law_of(KINDS[k]);
+        each[k] = friction_scaled(&law, 0.5 + k);
+        for (double v = 0; v < 0.2; v += 0.013) {
+            double mu = (0.5 + k) * friction_coefficient(&law, v);
+            assert_near("mu", friction_coefficient(&each[k], v), mu, 1e-15);
+            assert_near("slope", friction_slope(&each[k], v), (0.5 + k) * friction_slope(&law, v),
+                        1e-13);
+        }
+    }
+    each[3] = friction_constant(0);
+    each[0].critical_velocity = 0.01;
+    FrictionLaw all = friction_spread(each, 4);
+    assert_near("mu_S", all.mu_static, 1.5, 1e-15);   // Coulomb, 2.5 times 0.6
+    assert_near("drop", friction_drop(&all), 0.6, 1e-15);   // exponential, 1.5 times 0.4
+    assert_near("v_c", all.critical_velocity, 0.01, 0);
+    for (int32_t i = 0; i < 4; i++) assert_ptr_equal(friction_at(&all, i), &each[i]);
+    assert_ptr_equal(friction_at(&each[1], 3), &each[1]);
+    assert_false(friction_everywhere(&all, 4));
+    assert_true(friction_everywhere(&all, 3));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -134,6 +161,7 @@ int main(void)
         cmocka_unit_test(test_branches),
         cmocka_unit_test(test_drop),
         cmocka_unit_test(test_names),
+        cmocka_unit_test(test_scaled_and_spread),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

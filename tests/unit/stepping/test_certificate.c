@@ -42,7 +42,7 @@ static double least_eigenvalue(const Fixture *fixture, const double *schur, bool
         if (!contact && seen->rod_touches[k - 2 * interface->contact_count]) continue;
         if (status == CONTACT_STICK || (status != CONTACT_OPEN && !tangent)) continue;
         double speed = fabs(seen->slip_rate[k]);
-        const FrictionLaw *law = &fixture->built.rig.law;
+        const FrictionLaw *law = friction_at(&fixture->built.rig.law, i);
         if (status != CONTACT_OPEN && friction_is_own(law)) {
             w[count] = -friction_slope(law, speed) * seen->reaction[k + 1];
             *weakening = *weakening || w[count] > 0;
@@ -120,6 +120,26 @@ static void test_strengthening(void **state)
     check_random_states(&def, 3.4e-4 / 0.28);
 }
 
+// Every node with a law of its own: weakening at half or twice the rate, not at all, strengthening.
+static void test_laws_by_node(void **state)
+{
+    (void)state;
+    enum { NODES_MAX = 16 };
+    FrictionLaw each[NODES_MAX];
+    RigDef def = rig_def();
+    def.rod_width = 0.5;
+    const double velocity[] = {0, 1.7e-4, 3.4e-4, 6e-4}, mu[] = {0.38, 0.24, 0.1, 0.2};
+    FrictionLaw table = own_table(4, velocity, mu, true), constant = friction_constant(0.4);
+    for (int32_t i = 0; i < NODES_MAX; i++) {
+        each[i] = i % 4 == 0   ? friction_scaled(&def.law, 0.5)
+                  : i % 4 == 1 ? friction_scaled(&def.law, 2)
+                  : i % 4 == 2 ? constant
+                               : friction_scaled(&table, 1.5);
+    }
+    def.law = friction_spread(each, NODES_MAX);
+    check_random_states(&def, 3.4e-4 / 0.28);
+}
+
 // One slipping node: lost exactly where (mu_S - mu_K) p w / v_c reaches S_C,tt.
 static void test_one_node(void **state)
 {
@@ -168,9 +188,8 @@ static void test_no_viscosity(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_random_states),
-        cmocka_unit_test(test_strengthening),
-        cmocka_unit_test(test_one_node),
+        cmocka_unit_test(test_random_states), cmocka_unit_test(test_strengthening),
+        cmocka_unit_test(test_laws_by_node),  cmocka_unit_test(test_one_node),
         cmocka_unit_test(test_no_viscosity),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The friction law of each contact node, where they differ. Called by model/obtain and
+// run/static_solve when the interface is known.
+#ifndef AMONTONS_MODEL_CONTACT_LAWS_H
+#define AMONTONS_MODEL_CONTACT_LAWS_H
+
+#include "model/model.h"
+
+// Sets model->law by friction.contacts and friction.along; without them it stays the scene's.
+// ERROR_INPUT: a group that is no contact curve, a factor that is not finite or negative, with x.
+bool model_lay_laws(Model *model, Error *err);
+
+#endif
