@@ -43,4 +43,5 @@ right.step(np.arange(1, RUNS + 1) / RUNS, np.sort(mu), where="pre", label="mu_M"
 right.step(np.arange(1, RUNS + 1) / RUNS, np.sort(hold), where="pre", color="tab:red", label="mu_hold")
 right.axvline(0.05, color="gray", linestyle=":", linewidth=1)
 right.set(xlabel="part of the runs with less", xlim=(0, 1))
+Path("results").mkdir(exist_ok=True)
 figure.savefig("results/branches.png", dpi=150)

@@ -22,4 +22,5 @@ for pressure in (0.002, 0.003, 0.006):
 axes.axhline(0, color="black", linewidth=0.8)
 axes.set(xlabel="front l", ylabel="growth rate, real part", ylim=(-0.5, 2.5), xlim=(0, 1))
 axes.legend()
+Path("results").mkdir(exist_ok=True)
 figure.savefig("results/critical.png", dpi=150)

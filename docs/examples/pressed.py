@@ -26,4 +26,5 @@ for push in (0, 0.0005, 0.001):   # how far the rod stands inside the undeformed
     print(f"rod at {push}: F_T/F_N {answer.rod_force / answer.normal_force:.4f}, {answer.slipping} nodes slip")
 axes.set(xlabel="x", ylabel="contact pressure / P", ylim=(0, 2))
 axes.legend()
+Path("results").mkdir(exist_ok=True)
 figure.savefig("results/pressed.png", dpi=150)

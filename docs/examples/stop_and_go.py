@@ -39,4 +39,5 @@ for hold in (0, 100):
     print(f"rod stands for {hold}: largest F_T/F_N after the start {mu[t > 400].max():.4f}")
 axes.set(xlabel="time t", ylabel="F_T / F_N")
 axes.legend()
+Path("results").mkdir(exist_ok=True)
 figure.savefig("results/stop_and_go.png", dpi=150)
