@@ -6,12 +6,11 @@
 
 const char *const ANSWER_NAMES[ANSWER_KINDS] = {"mu_M", "mu_hold"};
 
-// Chosen on 47 cases that promise.py does not have: with 1.5 in place of TWO_LEVELS and no CELL 28
-// of 32 bars hold at 3 % and 12 of 15 at 1 %, with these 31 and 14.
-static const double TWO_LEVELS = 2;
-static const double CELL = 0.25;   // of a cell over the length in contact: how well l_c is met
-static const double BRANCH_WIDTH = 0.005;   // of mu: the next branch is twice as far and more
+// Chosen on the 80 cases before those of promise.py.
+static const double SCATTER = 0.08;   // of mu, over the nodes in contact: between meshes, usually
+enum { SCATTER_LEVELS = 4 };   // so many levels more would it be worth to know that
 static const double STEPS = 0.002;   // of mu: what tolerances of steps and reduction leave
+static const double BRANCH_WIDTH = 0.005;   // of mu: the next branch is twice as far and more
 
 // NaN: a run has no such answer.
 static double mean_of(const Level *level, AnswerKind kind)
@@ -72,16 +71,46 @@ static double difference(const Levels *levels, int32_t level, AnswerKind kind)
     return fabs(value_of(&levels->list[level], kind) - value_of(&levels->list[level - 1], kind));
 }
 
-// fmax passes over what is not known.
+// Of a normal variable's mean, 95 %, by degrees of freedom from SCATTER_LEVELS on.
+static double student(int32_t freedoms)
+{
+    static const double table[] = {12.71, 4.30, 3.18, 2.78, 2.57, 2.45, 2.36,
+                                   2.31,  2.26, 2.23, 2.20, 2.18, 2.16};
+    int32_t last = (int32_t)(sizeof table / sizeof *table);
+    return table[(freedoms < last ? freedoms : last) - 1];
+}
+
+// value = a + b h by least squares, h: cell size over that of the last level, weights 1/h^2.
+typedef struct Line {
+    double slope;   // b
+    double square;   // weighted sum of squared residuals
+} Line;
+
+static Line fit_line(const Levels *levels, AnswerKind kind)
+{
+    double S = 0, Sh = 0, Sv = 0, Shh = 0, Shv = 0, Svv = 0;
+    double origin = value_of(&levels->list[levels->count - 1], kind);   // against cancellation
+    for (int32_t l = 0; l < levels->count; l++) {
+        const Level *level = &levels->list[l];
+        double h = (double)levels->list[levels->count - 1].contact_nodes / level->contact_nodes;
+        double v = value_of(level, kind) - origin, w = 1 / (h * h);
+        S += w, Sh += w * h, Sv += w * v;
+        Shh += w * h * h, Shv += w * h * v, Svv += w * v * v;
+    }
+    double slope = (S * Shv - Sh * Sv) / (S * Shh - Sh * Sh);
+    return (Line){slope, fmax(Svv - Sv * Sv / S - slope * (Shv - Sh * Sv / S), 0)};
+}
+
+// NaN: one level, or two of one size.
 static double mesh_part(const Levels *levels, AnswerKind kind)
 {
-    int32_t last = levels->count - 1;
-    double now = difference(levels, last, kind), before = difference(levels, last - 1, kind);
-    if (isnan(now)) return NAN;
-    if (isnan(before)) now *= TWO_LEVELS;
-    const Level *level = &levels->list[last];
-    double least = fmax(STEPS, CELL / (level->contact_nodes - 1));
-    return fmax(fmax(now, before / 2), least * value_of(level, kind));
+    int32_t last = levels->count - 1, freedoms = levels->count - 2 + SCATTER_LEVELS;
+    if (last < 1 || levels->list[last].contact_nodes == levels->list[0].contact_nodes) return NAN;
+    Line line = fit_line(levels, kind);
+    double value = value_of(&levels->list[last], kind);
+    double usual = SCATTER / levels->list[last].contact_nodes * value;
+    double scatter = sqrt((line.square + SCATTER_LEVELS * usual * usual) / freedoms);
+    return fmax(hypot(line.slope, student(freedoms) * scatter), STEPS * value);
 }
 
 static double known(double part)
@@ -142,8 +171,10 @@ double levels_order(const Levels *levels)
 {
     int32_t last = levels->count - 1;
     if (last < 2) return NAN;
-    return log2(difference(levels, last - 1, levels->asked) /
-                difference(levels, last, levels->asked));
+    double ratio = (double)levels->list[last].contact_nodes / levels->list[last - 1].contact_nodes;
+    return log(difference(levels, last - 1, levels->asked) /
+               difference(levels, last, levels->asked)) /
+           log(ratio);
 }
 
 // The runs of a level by the branch that their answer lies on, into `sorted` [LEVEL_RUNS_MAX].

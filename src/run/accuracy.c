@@ -21,16 +21,20 @@ enum {
     PAD_NODES_MIN = 5,   // of it on each piece of the contact
     PEAKS_MIN = 8,   // that count in a run, before its answer can be known
     RUNS_FIRST = 2,   // on every level, at either end of the window
+    LEVELS_LEAST = 3,   // two agree by chance
     COARSER_MAX = 3,   // halvings of the scene's mesh that are tried
 };
 static const double DROPS_SHARE = 0.2;   // of the bar wanted, for the drops of each run
 static const double LONGER = 4;   // than the scene's end, for a run whose answer is not known
-static const double GROWTH = 5;   // of a level's time, before two levels are known
+static const double STEP = 1.4142135623730951;   // of cell size from level to level
+static const double STEP_SPLIT = 2;   // where cells can only be halved: no .geo with `refine`
+static const double GROWTH = 2.5;   // of a level's time, before two levels are known
 
 typedef struct Accuracy {
     const Scene *scene;
     const RunOptions *options;
     Levels levels;
+    double step;   // of cell size from level to level
     double started;   // wall clock, s
     bool out_of_time;
 } Accuracy;
@@ -201,6 +205,21 @@ cleanup:
     return error_is_clean(err);
 }
 
+// A mesh that can only be split refuses the first step (ERROR_INPUT), and is halved from then on.
+static bool add_level(Accuracy *accuracy, double refine, Error *err)
+{
+    begin_level(accuracy, refine * accuracy->step);
+    if (!add_runs(accuracy, RUNS_FIRST, err) && err->code == ERROR_INPUT &&
+        accuracy->step < STEP_SPLIT) {
+        *err = (Error){0};
+        accuracy->step = STEP_SPLIT;
+        accuracy->levels.count--;
+        begin_level(accuracy, refine * accuracy->step);
+        add_runs(accuracy, RUNS_FIRST, err);
+    }
+    return error_is_clean(err);
+}
+
 // --- what next ----------------------------------------------------------------------------------
 
 static const ErrorBar *asked(const Accuracy *accuracy)
@@ -211,7 +230,8 @@ static const ErrorBar *asked(const Accuracy *accuracy)
 static bool is_met(const Accuracy *accuracy)
 {
     const ErrorBar *answer = asked(accuracy);
-    return !isnan(answer->parts.mesh) && answer->bar <= accuracy->levels.wanted * answer->value;
+    return accuracy->levels.count >= LEVELS_LEAST && !isnan(answer->parts.mesh) &&
+           answer->bar <= accuracy->levels.wanted * answer->value;
 }
 
 // Wall time that the next level will take, from the last ones, s.
@@ -220,7 +240,7 @@ static double next_seconds(const Accuracy *accuracy)
     int32_t last = accuracy->levels.count - 1;
     const Level *level = &accuracy->levels.list[last];
     double growth = last > 0 ? level[0].seconds / level[-1].seconds : GROWTH;
-    return level->seconds * fmax(growth, 2) * RUNS_FIRST / level->run_count;
+    return level->seconds * fmax(growth, 1.5) * RUNS_FIRST / level->run_count;
 }
 
 static void show_level(const Accuracy *accuracy)
@@ -253,11 +273,11 @@ static bool go_on(Accuracy *accuracy, bool *ended, Error *err)
     const ErrorBar *answer = asked(accuracy);
     Level *level = last_level(accuracy);
     double between = hypot(answer->parts.branches, answer->parts.drops);
-    bool known = !isnan(answer->parts.mesh);
+    bool enough = accuracy->levels.count >= LEVELS_LEAST;
     if (isnan(answer->value)) return *ended = end_here(accuracy, "no load drop in any run");
     accuracy->levels.met = is_met(accuracy);
     if (accuracy->levels.met) return *ended = end_here(accuracy, "the error bar is met");
-    if (known && between > answer->parts.mesh && level->run_count + 2 <= LEVEL_RUNS_MAX - 1) {
+    if (enough && between > answer->parts.mesh && level->run_count + 2 <= LEVEL_RUNS_MAX - 1) {
         if (level->seconds / level->run_count * 2 > seconds_left(accuracy))
             return *ended = end_here(accuracy, "no time for more");
         TRY(add_runs(accuracy, 2, err));
@@ -267,8 +287,7 @@ static bool go_on(Accuracy *accuracy, bool *ended, Error *err)
         return *ended = end_here(accuracy, "the finest mesh that is tried");
     if (next_seconds(accuracy) > seconds_left(accuracy))
         return *ended = end_here(accuracy, "no time for more");
-    begin_level(accuracy, 2 * level->refine);
-    TRY(add_runs(accuracy, RUNS_FIRST, err));
+    TRY(add_level(accuracy, level->refine, err));
     if (accuracy->out_of_time && last_level(accuracy)->run_count < RUNS_FIRST)
         accuracy->levels.count--;
     if (accuracy->out_of_time) *ended = end_here(accuracy, "no time for more");
@@ -356,6 +375,7 @@ bool amontons_run(const Scene *scene, const RunOptions *options, RunSummary *sum
     accuracy->options = options;
     accuracy->started = clock_seconds();
     accuracy->levels.wanted = scene->accuracy.mu;
+    accuracy->step = STEP;
     if (options->resume)
         FAIL(err, ERROR_INPUT,
              "an error bar (--to, accuracy.mu) is found from several runs, which do not go on from "

@@ -4,9 +4,9 @@
 
 #include "near.h"
 
-static void begin(Levels *levels, double refine)
+static void begin(Levels *levels, double refine, int32_t contact_nodes)
 {
-    levels->list[levels->count++] = (Level){.refine = refine, .contact_nodes = 1001};
+    levels->list[levels->count++] = (Level){.refine = refine, .contact_nodes = contact_nodes};
 }
 
 static void add(Levels *levels, double mu_M, double mu_hold, double error)
@@ -20,7 +20,7 @@ static void test_one_level(void **state)
 {
     (void)state;
     Levels levels = {0};
-    begin(&levels, 0.5);
+    begin(&levels, 0.5, 21);
     add(&levels, 0.29, 0.2, 0.003);
     add(&levels, 0.31, 0.2, 0.004);
     const ErrorBar *mu_M = levels_answer(&levels, ANSWER_MU_M);
@@ -37,39 +37,52 @@ static void test_two_levels(void **state)
 {
     (void)state;
     Levels levels = {0};
-    begin(&levels, 1);
+    begin(&levels, 1, 20);
     add(&levels, 0.29, 0.2, NAN);
     add(&levels, 0.31, 0.2, NAN);
-    begin(&levels, 2);
+    begin(&levels, 2, 40);
     add(&levels, 0.30, 0.2, NAN);
     add(&levels, 0.34, 0.2, NAN);
     const ErrorBar *mu_M = levels_answer(&levels, ANSWER_MU_M);
     assert_near("mean", mu_M->value, 0.32, 1e-15);
-    assert_near("mesh", mu_M->parts.mesh, 2 * 0.02, 1e-15);
+    // A line through two values scatters nowhere: from h = 2 to 1 it goes 0.02, and as far from there
+    // to 0. The usual scatter, 0.08 of a cell, is all that is known: Student's 2.78 of it.
+    assert_near("mesh", mu_M->parts.mesh, hypot(0.02, 2.78 * 0.08 / 40 * 0.32), 1e-15);
     assert_near("branches", mu_M->parts.branches, 2 * sqrt((2e-4 + 8e-4) / 2) / sqrt(2), 1e-15);
     assert_near("drops", mu_M->parts.drops, 0, 0);
     const ErrorBar *hold = levels_answer(&levels, ANSWER_MU_HOLD);   // both meshes agree
-    assert_near("least", hold->parts.mesh, 0.002 * 0.2, 1e-15);
-    levels.list[1].contact_nodes = 21;   // a quarter of a cell is more than steps leave
+    assert_near("scatter", hold->parts.mesh, 2.78 * 0.08 / 40 * 0.2, 1e-15);
+    levels.list[0].contact_nodes = 1000;
+    levels.list[1].contact_nodes = 2000;   // steps leave more than cells
     levels_estimate(&levels);
-    assert_near("cell", levels_answer(&levels, ANSWER_MU_HOLD)->parts.mesh, 0.2 / 80, 1e-15);
+    assert_near("least", levels_answer(&levels, ANSWER_MU_HOLD)->parts.mesh, 0.002 * 0.2, 1e-15);
     Answers answers = {.mu_max = 1};
     levels_answer_for(&levels, &answers);
     assert_true(answers.mu_M.value == mu_M->value && answers.mu_M.error == mu_M->bar);
     assert_true(answers.mu_hold_parts.mesh == hold->parts.mesh && answers.mu_max == 1);
+    levels.list[0].contact_nodes = 2000;   // no finer than the first: nothing is known
+    levels_estimate(&levels);
+    assert_true(isnan(levels_answer(&levels, ANSWER_MU_HOLD)->parts.mesh));
 }
 
-// Differences 0.08, 0.02: order 2, and half of the one before is the larger.
+// Cells of 3, 2 and 1: weights 1/9, 1/4, 1. Slope and residuals by numpy.linalg.lstsq. Differences of
+// 0.08 and 0.02, the second between cells of 2 and 1: order 2.
 static void test_three_levels(void **state)
 {
     (void)state;
     Levels levels = {0};
     double values[] = {0.2, 0.28, 0.30};
+    int32_t nodes[] = {20, 30, 60};
     for (int32_t k = 0; k < 3; k++) {
-        begin(&levels, ldexp(1, k));
+        begin(&levels, 1 + k, nodes[k]);
         add(&levels, values[k], 0.1, NAN);
     }
-    assert_near("mesh", levels_answer(&levels, ANSWER_MU_M)->parts.mesh, 0.04, 1e-15);
+    double square = 0.0069230769 * 0.0069230769 + 0.0092307692 * 0.0092307692 +
+                    0.0023076923 * 0.0023076923;
+    double usual = 0.08 / 60 * 0.3;
+    double scatter = sqrt((square + 4 * usual * usual) / 5);
+    assert_near("mesh", levels_answer(&levels, ANSWER_MU_M)->parts.mesh,
+                hypot(0.0407692308, 2.57 * scatter), 1e-9);
     assert_true(isnan(levels_answer(&levels, ANSWER_MU_M)->parts.branches));   // no two runs
     assert_near("order", levels_order(&levels), 2, 1e-12);
 }
@@ -79,7 +92,7 @@ static void test_without_mu_M(void **state)
 {
     (void)state;
     Levels levels = {0};
-    begin(&levels, 1);
+    begin(&levels, 1, 21);
     add(&levels, 0.3, 0.2, NAN);
     assert_true(levels.asked == ANSWER_MU_M);
     add(&levels, NAN, 0.22, NAN);
