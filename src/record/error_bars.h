@@ -39,6 +39,7 @@ typedef struct ErrorBar {
 typedef struct Level {
     double refine;   // mesh.set.refine
     int32_t contact_nodes;
+    int32_t pads;   // pieces of the contact, at least 1
     int32_t run_count;
     LevelRun runs[LEVEL_RUNS_MAX];
     ErrorBar answer[ANSWER_KINDS];

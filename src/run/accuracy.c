@@ -148,6 +148,7 @@ static bool run_member(Accuracy *accuracy, double pressure, bool *coarse, Error 
     TRY(scene);
     TRY(amontons_simulation_create(scene, &options, &simulation, err));
     level->contact_nodes = simulation->model.interface.contact_count;
+    level->pads = simulation->model.interface.pad_count;
     if (coarse && (*coarse = !contact_is_resolved(&simulation->model.interface))) goto cleanup;
     TRY(step_until_known(accuracy, simulation, err));
     Answers answers = answers_of(&simulation->drops);
