@@ -76,10 +76,10 @@ static double difference(const Levels *levels, int32_t level, AnswerKind kind)
 // Of a normal variable's mean, 95 %, by degrees of freedom from SCATTER_LEVELS on.
 static double student(int32_t freedoms)
 {
-    static const double table[] = {12.71, 4.30, 3.18, 2.78, 2.57, 2.45, 2.36,
-                                   2.31,  2.26, 2.23, 2.20, 2.18, 2.16};
-    int32_t last = (int32_t)(sizeof table / sizeof *table);
-    return table[(freedoms < last ? freedoms : last) - 1];
+    static const double by_freedoms[] = {12.71, 4.30, 3.18, 2.78, 2.57, 2.45, 2.36,
+                                         2.31,  2.26, 2.23, 2.20, 2.18, 2.16};
+    int32_t last = (int32_t)(sizeof by_freedoms / sizeof *by_freedoms);
+    return by_freedoms[(freedoms < last ? freedoms : last) - 1];
 }
 
 // value = a + b h by least squares, h: cell size over that of the last level, weights 1/h^2.

@@ -199,13 +199,15 @@ NOT_A_CHOICE = {
     "record/front_path.c": {"AT_NODE": "rounding of coordinates"},
     "record/answers.h": {"ERROR_BAR": "95 % of normal deviates"},
     "record/error_bars.c": {
-        "SCATTER": "of error bars: 90 cases (there)", "SCATTER_PADS": "the same", "SCATTER_LEVELS": "the same",
+        "SCATTER": "of error bars: 90 cases (there)", "SCATTER_PADS": "the same", "by_freedoms": "Student's, 95 %", "SCATTER_LEVELS": "the same",
         "BRANCH_WIDTH": "of branches: the next is twice as far",
         "STEPS": "of error bars: what this table's tolerances move"},
     "record/error_bars.h": {"LEVELS_MAX": SIZE, "LEVEL_RUNS_MAX": SIZE},
     "record/history.c": {"FLUSH_EVERY": "seconds of a run that a kill may cost"},
     "record/observation.h": {"RECORDERS_MAX": SIZE},
     "model/basis_cache.c": {"WAIT_MAX": "seconds for another run's basis", "COUNTS": "stored"},
+    "model/assemble.c": {"NODE_BYTES": "memory"},
+    "contact/contact_matrix.c": {"SWEEPS_KEPT": SIZE},
     "model/shape_cache.c": {"NAME_NUMBERS": "stored", "BASIS_NUMBERS": "stored", "COUNTS": "stored"},
     "model/model.c": {
         "standard_middle": "the rod's default place", "standard_width": "the rod's default"},

@@ -45,8 +45,8 @@ static void test_two_levels(void **state)
     add(&levels, 0.34, 0.2, NAN);
     const ErrorBar *mu_M = levels_answer(&levels, ANSWER_MU_M);
     assert_near("mean", mu_M->value, 0.32, 1e-15);
-    // A line through two values scatters nowhere: from h = 2 to 1 it goes 0.02, and as far from there
-    // to 0. The usual scatter, 0.12 of a cell, is all that is known: Student's 2.78 of it.
+    // A line through two values has no scatter: from h = 2 to 1 it goes 0.02, and as far from
+    // there to 0. The usual scatter, 0.12 of a cell, is all that is known: Student's 2.78 of it.
     assert_near("mesh", mu_M->parts.mesh, hypot(0.02, 2.78 * 0.12 / 40 * 0.32), 1e-15);
     assert_near("branches", mu_M->parts.branches, 2 * sqrt((2e-4 + 8e-4) / 2) / sqrt(2), 1e-15);
     assert_near("drops", mu_M->parts.drops, 0, 0);
@@ -70,8 +70,8 @@ static void test_two_levels(void **state)
     assert_true(isnan(levels_answer(&levels, ANSWER_MU_HOLD)->parts.mesh));
 }
 
-// Cells of 3, 2 and 1: weights 1/9, 1/4, 1. Slope and residuals by numpy.linalg.lstsq. Differences of
-// 0.08 and 0.02, the second between cells of 2 and 1: order 2.
+// Cells of 3, 2 and 1: weights 1/9, 1/4, 1. Slope and residuals by numpy.linalg.lstsq. Differences
+// of 0.08 and 0.02, the second between cells of 2 and 1: order 2.
 static void test_three_levels(void **state)
 {
     (void)state;
