@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "run/checkpoint.h"
 
+#include "base/apart.h"
 #include "base/clock.h"
 #include "run/warnings.h"
 
@@ -78,4 +79,35 @@ bool checkpoint_read(const char *folder, SavedState *state, Error *err)
     TRY(amontons_state_read(path, state, err));
 cleanup:
     return error_is_clean(err);
+}
+
+// In a process of its own, which ends without writing: its chunks are looked up by cutting it.
+static bool try_history(void *folder, FILE *reply, Error *err)
+{
+    (void)reply;
+    ArrayFile *file = result_file_reopen(folder, err);
+    return file && result_file_cut(file, 1, err);
+}
+
+// HDF5 crashes on some files whose writer was killed in the middle of a flush.
+bool checkpoint_try_history(const char *folder, Error *err)
+{
+    char path[PATH_SIZE], name[AMONTONS_PATH_SIZE];
+    ApartReply reply = {0};
+    snprintf(name, sizeof name, "%s", folder);
+    snprintf(path, sizeof path, "%s/history.h5", folder);
+    ApartWork work = {.path = path,
+                      .reader = "HDF5",
+                      .seconds = 600,
+                      .advice = "say --overwrite to begin anew",
+                      .read = try_history,
+                      .context = name};
+    if (!apart_is_wanted()) return true;
+    bool whole = apart_read(&work, &reply, err);
+    apart_destroy(&reply);
+    if (whole) return true;
+    err->code = ERROR_INPUT;
+    error_context(err, "the history was cut off while it was written, and cannot be gone on with "
+                       "(--overwrite begins anew)");
+    return false;
 }

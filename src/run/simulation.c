@@ -144,6 +144,7 @@ static bool go_on(Simulation *simulation, const SavedState *state, Error *err)
              "time.until is at t = %g, and this result goes to t = %g already: give a later end "
              "(--extend U=...)",
              simulation->t_end, time);
+    if (simulation->scene.output.history) TRY(checkpoint_try_history(simulation->folder.path, err));
     TRY(result_folder_take_up(&simulation->folder, err));
     simulation->goes_on = true;
     TRY(explicit_loop_prepare(simulation, err));
