@@ -46,8 +46,8 @@ static void test_two_levels(void **state)
     const ErrorBar *mu_M = levels_answer(&levels, ANSWER_MU_M);
     assert_near("mean", mu_M->value, 0.32, 1e-15);
     // A line through two values has no scatter: from h = 2 to 1 it goes 0.02, and as far from
-    // there to 0. The usual scatter, 0.12 of a cell, is all that is known: Student's 2.78 of it.
-    assert_near("mesh", mu_M->parts.mesh, hypot(0.02, 2.78 * 0.12 / 40 * 0.32), 1e-15);
+    // there to 0, of which half counts. The usual scatter, 0.12 of a cell, is all that is known: Student's 2.78 of it.
+    assert_near("mesh", mu_M->parts.mesh, hypot(0.01, 2.78 * 0.12 / 40 * 0.32), 1e-15);
     assert_near("branches", mu_M->parts.branches, 2 * sqrt((2e-4 + 8e-4) / 2) / sqrt(2), 1e-15);
     assert_near("drops", mu_M->parts.drops, 0, 0);
     const ErrorBar *hold = levels_answer(&levels, ANSWER_MU_HOLD);   // both meshes agree
@@ -87,7 +87,7 @@ static void test_three_levels(void **state)
     double usual = 0.12 / 60 * 0.3;
     double scatter = sqrt((square + 4 * usual * usual) / 5);
     assert_near("mesh", levels_answer(&levels, ANSWER_MU_M)->parts.mesh,
-                hypot(0.0407692308, 2.57 * scatter), 1e-9);
+                hypot(0.0407692308 / 2, 2.57 * scatter), 1e-9);
     assert_true(isnan(levels_answer(&levels, ANSWER_MU_M)->parts.branches));   // no two runs
     assert_near("order", levels_order(&levels), 2, 1e-12);
 }
