@@ -6,12 +6,12 @@
 //
 //   drops      twice the standard error that the finite number of load drops leaves
 //   branches   twice the standard error of the mean over runs, their spread taken from all levels
-//   mesh       a straight line in the cell size is fitted to the levels' values, by least squares
-//              (Eca and Hoekstra, J. Comput. Phys. 262, 2014). Added are half of what the line still
-//              has to go from the finest level to none, between orders 1 and 2, and Student's 95 %
-//              of the scatter about it. Values scatter from mesh to mesh, as slip stops at nodes;
-//              the scatter is taken to fall with the cell size. Few levels may agree by chance, so a usual scatter counts as some
-//              levels more. At least what steps and reduction leave.
+//   mesh       a straight line in the cell size is fitted to the levels' values by least squares
+//              (Eca and Hoekstra, J. Comput. Phys. 262, 2014). Added are half of what it still has
+//              to go from the finest level to none, between orders 1 and 2, and Student's 95 % of
+//              the scatter about it. Values scatter from mesh to mesh, as slip stops at nodes; the
+//              scatter is taken to fall with the cell size. Few levels may agree by chance, so a
+//              usual scatter counts as some levels more. At least what steps and reduction leave.
 //
 // How often bars hold, and by how much, is measured by validation/benchmark/promise.py.
 #ifndef AMONTONS_RECORD_ERROR_BARS_H

@@ -46,7 +46,8 @@ static void test_two_levels(void **state)
     const ErrorBar *mu_M = levels_answer(&levels, ANSWER_MU_M);
     assert_near("mean", mu_M->value, 0.32, 1e-15);
     // A line through two values has no scatter: from h = 2 to 1 it goes 0.02, and as far from
-    // there to 0, of which half counts. The usual scatter, 0.12 of a cell, is all that is known: Student's 2.78 of it.
+    // there to 0, of which half counts. The usual scatter, 0.12 of a cell, is all that is known:
+    // Student's 2.78 of it.
     assert_near("mesh", mu_M->parts.mesh, hypot(0.01, 2.78 * 0.12 / 40 * 0.32), 1e-15);
     assert_near("branches", mu_M->parts.branches, 2 * sqrt((2e-4 + 8e-4) / 2) / sqrt(2), 1e-15);
     assert_near("drops", mu_M->parts.drops, 0, 0);
