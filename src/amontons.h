@@ -59,6 +59,7 @@ typedef struct StepView {
     double fraction;   // of the way to `time.until`, 0 to 1
     bool certified;   // the slip set cannot grow on its own: large steps are allowed
     int32_t events, slidings;   // seen so far: rapid ones; those that crossed the interface
+    int32_t mesh, run;   // of those behind an error bar, from 1; 0: the scene itself
     ContactView contact;
 } StepView;
 

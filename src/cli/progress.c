@@ -78,6 +78,17 @@ static double seconds_left(const Progress *progress, double fraction, double ela
     return (elapsed - pace->elapsed) / gone * (1 - fraction);
 }
 
+// "mesh 2, run 1  U 0.00123  mu 0.2034  3 events": a run behind an error bar ends once its answer
+// is known, so nobody can tell how much of the way is gone.
+static void draw_member(const StepView *view)
+{
+    char line[WIDTH_MAX];
+    snprintf(line, sizeof line, "mesh %d, run %d  U %.4g  mu %.4f  %d event%s", view->mesh,
+             view->run, view->U, view->mu, view->events, view->events == 1 ? "" : "s");
+    fprintf(stderr, "\r%.*s\033[K", terminal_width() - 1, line);
+    fflush(stderr);
+}
+
 // "U 0.00123/0.006  mu 0.2034  dt 0.012  3 events  0:12 left", the last where it is known.
 static void format_state(const Progress *progress, const StepView *view, double elapsed, char *text,
                          size_t size)
@@ -147,6 +158,15 @@ void progress_step(const StepView *view, void *context)
     stop_in_order();
     if (progress->style == PROGRESS_QUIET) return;
     clock_gettime(CLOCK_MONOTONIC, &now);
+    if (view->mesh > 0) {
+        if (progress->style != PROGRESS_BAR ||
+            seconds_between(&progress->drawn, &now) < draw_interval)
+            return;
+        draw_member(view);
+        progress->drawn = now;
+        progress->bar_stands = true;
+        return;
+    }
     if (!progress->running) progress->started = now;
     double elapsed = seconds_between(&progress->started, &now);
     follow_pace(progress, view, elapsed);

@@ -134,13 +134,23 @@ static bool contact_is_resolved(const Interface *interface)
     return interface->contact_count >= CONTACT_NODES_MIN;
 }
 
+// A StepCallback: says which run of which mesh it is.
+static void show_member(const StepView *view, void *context)
+{
+    Accuracy *accuracy = context;
+    StepView named = *view;
+    named.mesh = accuracy->levels.count;
+    named.run = last_level(accuracy)->run_count + 1;
+    accuracy->options->on_step(&named, accuracy->options->context);
+}
+
 // One run of the last level. *coarse (NULL: not asked): the mesh has too few contact nodes, nothing
 // was stepped.
 static bool run_member(Accuracy *accuracy, double pressure, bool *coarse, Error *err)
 {
     Level *level = last_level(accuracy);
-    RunOptions options = {.on_step = accuracy->options->on_step,
-                          .context = accuracy->options->context,
+    RunOptions options = {.on_step = accuracy->options->on_step ? show_member : NULL,
+                          .context = accuracy,
                           .stop = accuracy->options->stop};
     Simulation *simulation = NULL;
     double started = clock_seconds();
