@@ -399,12 +399,19 @@ class Run(InFolder):
             if columns >= 80:
                 self.assertRegex(states[0], r"^\[[#.]+\] +\d+ %  U .* mu .* dt .* event")
 
-    def run_on_terminal(self, columns):
+    def test_progress_of_an_error_bar(self):
+        """Runs behind it are named, with no time left, which nobody knows: each ends once its answer is known."""
+        shown = self.run_on_terminal(80, "--to", "50%", "--within", "0.001s")
+        members = re.findall(r"mesh 1, run [12]  U [^\r]*", shown)
+        self.assertTrue(members)
+        self.assertEqual([line for line in members if "left" in line], [])
+
+    def run_on_terminal(self, columns, *words):
         ours, theirs = pty.openpty()
         fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
         cells = ["--set", "mesh.set.nx=20", "mesh.set.nz=10"]   # enough for no warning after the bar
-        run = subprocess.Popen([PROGRAM, "run", FIG1, *cells, *PLAIN, "--overwrite", "-o",
-                                self.folder / "bar"], stdout=subprocess.DEVNULL, stderr=theirs)
+        run = subprocess.Popen([PROGRAM, "run", FIG1, *words, *cells, *PLAIN, "--overwrite",
+                                "-o", self.folder / "bar"], stdout=subprocess.DEVNULL, stderr=theirs)
         os.close(theirs)
         shown = b""
         while True:
