@@ -5,6 +5,8 @@
 
 double clock_seconds(void);   // monotonic, from an arbitrary origin: only differences count
 
-double clock_processor_seconds(void);   // user and system, all threads, since the process began
+// User and system, all threads, since the process began; with children that have ended, as some read
+// a mesh.
+double clock_processor_seconds(void);
 
 #endif

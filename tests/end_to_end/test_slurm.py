@@ -82,9 +82,9 @@ class Sweep(unittest.TestCase):
         return [tuple(line.split()) for line in lines if line]
 
     def at_work(self):
-        """The processes of this sweep's elements, by their index."""
+        """The processes of this sweep's elements, by their index; not their children, which read a mesh."""
         found = {}
-        for process in Path("/proc").glob("[0-9]*"):
+        for process in sorted(Path("/proc").glob("[0-9]*"), key=lambda path: int(path.name), reverse=True):
             try:
                 words = (process / "cmdline").read_text().split("\0")
                 variables = dict(line.split("=", 1) for line in (process / "environ").read_text().split("\0") if "=" in line)

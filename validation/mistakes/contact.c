@@ -35,26 +35,35 @@ static const double GLUE = 1e3;
 
 // --- friction -----------------------------------------------------------------------------------
 
-// The law that a smoothing solver sees; mu_static 0 tells it that nothing sticks.
+// The laws that a smoothing solver sees, one of each node; mu_static 0 tells it that nothing sticks.
 static struct {
-    FrictionLaw seen;
+    FrictionLaw all, *each;
+    int32_t count;
     const FrictionLaw *real;
 } smooth;
 
+// What stands behind a law that a smoothing solver sees; NULL: it is none.
+static const FrictionLaw *behind(const FrictionLaw *law)
+{
+    bool seen = smooth.each && law >= smooth.each && law < smooth.each + smooth.count;
+    return seen ? friction_at(smooth.real, (int32_t)(law - smooth.each)) : NULL;
+}
+
 double __wrap_friction_coefficient(const FrictionLaw *law, double speed)
 {
-    if (law == &smooth.seen)
-        return __real_friction_coefficient(smooth.real, speed) * tanh(speed / SMOOTH);
+    const FrictionLaw *real = behind(law);
+    if (real) return __real_friction_coefficient(real, speed) * tanh(speed / SMOOTH);
     bool half = mistake_made() == MISTAKE_HALF_SLIP_RATE;
     return __real_friction_coefficient(law, half ? speed / 2 : speed);
 }
 
 double __wrap_friction_slope(const FrictionLaw *law, double speed)
 {
-    if (law == &smooth.seen) {
+    const FrictionLaw *real = behind(law);
+    if (real) {
         double rise = tanh(speed / SMOOTH);
-        return __real_friction_slope(smooth.real, speed) * rise +
-               __real_friction_coefficient(smooth.real, speed) * (1 - rise * rise) / SMOOTH;
+        return __real_friction_slope(real, speed) * rise +
+               __real_friction_coefficient(real, speed) * (1 - rise * rise) / SMOOTH;
     }
     bool half = mistake_made() == MISTAKE_HALF_SLIP_RATE;
     return half ? __real_friction_slope(law, speed / 2) / 2 : __real_friction_slope(law, speed);
@@ -64,11 +73,25 @@ static bool solve_smoothed(ContactSolver *solver, const ContactProblem *problem,
                            ContactSolution *solution)
 {
     ContactProblem smoothed = *problem;
+    Error err = {0};
+    int32_t count = problem->interface->contact_count;
+    FrictionLaw *each = NEW_ARRAY(FrictionLaw, count, &err);
+    if (!each) return false;
+    for (int32_t i = 0; i < count; i++) {
+        each[i] = *friction_at(problem->law, i);
+        each[i].mu_static = 0;
+    }
+    smooth.all = *problem->law;
+    smooth.all.mu_static = 0;
+    smooth.all.each = each;
+    smooth.each = each;
+    smooth.count = count;
     smooth.real = problem->law;
-    smooth.seen = *problem->law;
-    smooth.seen.mu_static = 0;
-    smoothed.law = &smooth.seen;
-    return __real_contact_solve(solver, &smoothed, solution);
+    smoothed.law = &smooth.all;
+    bool solved = __real_contact_solve(solver, &smoothed, solution);
+    smooth.each = NULL;
+    memory_free(each);
+    return solved;
 }
 
 // --- contact ------------------------------------------------------------------------------------
