@@ -5,8 +5,8 @@
 
 double clock_seconds(void);   // monotonic, from an arbitrary origin: only differences count
 
-// User and system, all threads, since the process began; with children that have ended, as some read
-// a mesh.
+// User and system, all threads, since the process began; with children that have ended, as the one
+// that read a mesh.
 double clock_processor_seconds(void);
 
 #endif

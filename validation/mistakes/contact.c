@@ -35,7 +35,8 @@ static const double GLUE = 1e3;
 
 // --- friction -----------------------------------------------------------------------------------
 
-// The laws that a smoothing solver sees, one of each node; mu_static 0 tells it that nothing sticks.
+// The laws that a smoothing solver sees, one of each node; mu_static 0 tells it that nothing
+// sticks.
 static struct {
     FrictionLaw all, *each;
     int32_t count;
