@@ -78,6 +78,13 @@ static double seconds_left(const Progress *progress, double fraction, double ela
     return (elapsed - pace->elapsed) / gone * (1 - fraction);
 }
 
+// In place of the one that stands there; its end is cut off in a narrow window.
+static void draw_line(const char *line)
+{
+    fprintf(stderr, "\r%.*s\033[K", terminal_width() - 1, line);
+    fflush(stderr);
+}
+
 // "mesh 2, run 1  U 0.00123  mu 0.2034  3 events": a run behind an error bar ends once its answer
 // is known, so nobody can tell how much of the way is gone.
 static void draw_member(const StepView *view)
@@ -85,8 +92,7 @@ static void draw_member(const StepView *view)
     char line[WIDTH_MAX];
     snprintf(line, sizeof line, "mesh %d, run %d  U %.4g  mu %.4f  %d event%s", view->mesh,
              view->run, view->U, view->mu, view->events, view->events == 1 ? "" : "s");
-    fprintf(stderr, "\r%.*s\033[K", terminal_width() - 1, line);
-    fflush(stderr);
+    draw_line(line);
 }
 
 // "U 0.00123/0.006  mu 0.2034  dt 0.012  3 events  0:12 left", the last where it is known.
@@ -119,8 +125,7 @@ static void draw_bar(const StepView *view, const char *state)
         marks[bar + 1] = ']';
     }
     snprintf(line, sizeof line, "%s %3d %%  %s", marks, percent, state);
-    fprintf(stderr, "\r%.*s\033[K", width, line);
-    fflush(stderr);
+    draw_line(line);
 }
 
 // A bar on a terminal, a line each tenth of the way elsewhere, nothing with --quiet. All goes to
