@@ -110,7 +110,9 @@ class Study:
     def control(self, group, mistake, broken, compute):
         """compute(study), whose rows pass, on the program with one function of it replaced."""
         study = Study(quick=True, folder=self.new_folder(mistake), mistake=mistake)
-        study.folder.mkdir()
+        (study.folder / "cache").mkdir(parents=True)
+        for mesh in (self.folder / "cache").glob("*.mesh"):   # gmsh's, whatever is mistaken
+            shutil.copy(mesh, study.folder / "cache")
         refused = ""
         try:
             compute(study)

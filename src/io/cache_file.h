@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Named arrays of doubles in one flat file, quick to read (megabytes in a few milliseconds), with a
 // header that says what it is and a checksum over all of it: what fails them is not used. Called by
-// model/shape_cache and model/basis_cache.
+// io/mesh_cache, model/shape_cache and model/basis_cache.
 //
 //     "amontons-cache 1\n" key 0...  { name count 0 values }*  "end" -1 0  checksum
 //

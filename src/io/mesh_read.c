@@ -10,6 +10,7 @@
 #include "io/geo_commands.h"
 #include "io/geo_parameters.h"
 #include "io/mesh_apart.h"
+#include "io/mesh_cache.h"
 
 #include <errno.h>
 #include <math.h>
@@ -157,10 +158,25 @@ static bool read_raw(const MeshRawRequest *request, MeshRaw *raw, Error *err)
     return read && read(request, raw, err);
 }
 
+// By gmsh, and kept for the next time.
+static bool read_anew(const MeshRawRequest *request, double version, const char *key,
+                      MeshFile *mesh, Error *err)
+{
+    MeshRaw raw = {0};
+    TRY(read_raw(request, &raw, err));
+    raw.version = version;
+    TRY(mesh_raw_convert(&raw, request->path, mesh, err));
+    mesh_cache_store(key, mesh);
+cleanup:
+    mesh_raw_destroy(&raw);
+    return error_is_clean(err);
+}
+
 bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t parameter_count,
                     MeshFile *mesh, Error *err)
 {
-    MeshRaw raw = {0};
+    char key[HASH_TEXT_SIZE];
+    bool found = false;
     MeshRawRequest request = {.path = path, .generate = text_ends_with(path, ".geo")};
     Parameters given = {.count = parameter_count};
     double version = 0;
@@ -184,11 +200,10 @@ bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t p
             path, given.list[0].name);
     request.parameters = given.list;
     request.parameter_count = given.count;
-    TRY(read_raw(&request, &raw, err));
-    raw.version = version;
-    TRY(mesh_raw_convert(&raw, path, mesh, err));
+    TRY(mesh_cache_key(path, parameters, parameter_count, key, err));
+    TRY(mesh_cache_load(key, mesh, &found, err));
+    if (!found) TRY(read_anew(&request, version, key, mesh, err));
 cleanup:
     memory_free(given.list);
-    mesh_raw_destroy(&raw);
     return error_is_clean(err);
 }

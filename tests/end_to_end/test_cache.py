@@ -76,7 +76,7 @@ class SameBits(Cached):
         none, uncached = self.run_scene(*PLAIN, cache="")
         self.assertFalse(self.cache.exists())
         first, made = self.run_scene(*PLAIN)
-        self.assertEqual(self.endings(), [".basis", ".modes", ".shape"])
+        self.assertEqual(self.endings(), [".basis", ".mesh", ".modes", ".shape"])
         second, read = self.run_scene(*PLAIN)
         self.assertEqual([run["model"]["from_cache"] for run in (uncached, made, read)],
                          [False, False, True])
@@ -115,6 +115,10 @@ class SameBits(Cached):
         self.assertIn("amontons_gmsh", done.stderr)
         self.run_scene(*PLAIN)
         self.assertTrue(self.model(*PLAIN, modules=bare)["from_cache"])
+        whole, read = (self.run_scene(*PLAIN, "reduction.use=never", modules=modules)
+                       for modules in (MODULES, bare))   # the mesh is known, too
+        self.assertGreater(read[1]["timing_s"]["mesh"], 0)
+        self.assert_same_history(whole[0], read[0])
 
     def test_one_shape_for_many_scenes(self):
         self.run_scene(*PLAIN)
@@ -122,15 +126,15 @@ class SameBits(Cached):
                         "friction.law=exponential-weakening", "start.friction=off",
                         "rod.kind=bonded", "material.density=120"):
             self.assertTrue(self.model(*PLAIN, setting)["from_cache"], setting)
-        self.assertEqual(len(self.files()), 3)
+        self.assertEqual(len(self.files()), 4)
         self.assertFalse(self.model(*PLAIN, "mesh.set.nz=12")["from_cache"])
         self.assertFalse(self.model(*PLAIN, "reduction.tolerance=1e-3")["from_cache"])
-        self.assertEqual(len(self.files()), 9)
+        self.assertEqual(len(self.files()), 11)   # the tolerance asks for no new mesh
 
     def test_what_has_no_shape(self):
         for setting in ("reduction.cache=false", "reduction.use=never"):
             self.assertFalse(self.model(*PLAIN, setting)["from_cache"], setting)
-            self.assertEqual(self.files(), [], setting)
+            self.assertEqual(self.endings(), [".mesh"], setting)
 
     def test_what_another_run_left_does_not_decide(self):
         """Where reducing does not pay `auto` does not take a basis that `always` has made."""
@@ -226,7 +230,7 @@ class OneBasis(Cached):
             self.assertFalse(made["model"]["from_cache"])
             self.assert_same_history(folder, alone)   # to the last bit, whoever made the basis
             peaks[length] = [peak["mu"] for peak in report["results"]["peaks"]]
-        self.assertEqual(self.endings(), [".basis", ".modes"] + 3 * [".shape"])
+        self.assertEqual(self.endings(), [".basis"] + 3 * [".mesh"] + [".modes"] + 3 * [".shape"])
         self.assertGreater(peaks[0.25][0], 1.02 * peaks[4][0])   # they are not the same block
 
     def test_against_the_full_mesh(self):
@@ -328,7 +332,7 @@ class NotTrusted(Cached):
         note = json.loads((folder / "run.json").read_text())["model"]["cache_note"]
         self.assertIn("is not kept for the next run", note)
         self.assertIn("File too large", note)
-        self.assertEqual(self.files(), [])
+        self.assertEqual(self.endings(), [".mesh"])   # some kilobytes: there was room
 
     def test_side_by_side(self):
         """Four first runs at once: all go well, one builds the basis and the others read it, one
@@ -338,7 +342,7 @@ class NotTrusted(Cached):
                                   "--quiet", "--set", *SHORT, *PLAIN], env=environment)
                 for k in range(4)]
         self.assertEqual([run.wait(60) for run in runs], [0] * 4)
-        self.assertEqual(self.endings(), [".basis", ".modes", ".shape"])
+        self.assertEqual(self.endings(), [".basis", ".mesh", ".modes", ".shape"])
         self.assertTrue(self.model(*PLAIN)["from_cache"])
         reports = [json.loads((self.folder / f"side-{k}" / "run.json").read_text())
                    for k in range(4)]
