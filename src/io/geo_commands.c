@@ -12,9 +12,16 @@
 #include <limits.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-enum { SCRIPT_BYTES_MAX = 1 << 28 };
+// FILES_MAX: files that include the next one twice each would be read 2^depth times.
+enum { SCRIPT_BYTES_MAX = 1 << 28, FILES_MAX = 1000 };
+
+// A script and what it includes, on the way through.
+typedef struct Scripts {
+    int32_t depth, files;   // now open, read so far
+} Scripts;
 
 // System: SystemCall and NonBlockingSystemCall too. FileName: options that name a log to write.
 static const char *const COMMANDS[] = {"System", "Onelab",   "Solver",    "Merge",   "Save",
@@ -47,27 +54,43 @@ static const char *find_command(const char *text)
     return find_print(text);
 }
 
-static bool refuse_script(const char *path, int32_t depth, Error *err);
+static bool refuse_script(const char *path, Scripts *scripts, Error *err);
 
-// `quoted` begins with a quote; the name is relative to the file that includes it. What cannot be
-// opened here cannot be by gmsh.
-static bool refuse_included(const char *path, const char *quoted, int32_t depth, Error *err)
+// `other` comes along with the script `path`. What cannot be opened here cannot be by gmsh; a pipe
+// or terminal would never end.
+static bool refuse_found(const char *path, const char *other, Scripts *scripts, Error *err)
+{
+    struct stat status;
+    if (access(other, R_OK) != 0 || stat(other, &status) != 0) return true;
+    if (!S_ISREG(status.st_mode))
+        FAIL(err, ERROR_INPUT, "%s: includes %s, which is no file", path, other);
+    TRY(refuse_script(other, scripts, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// `quoted` begins with a quote; the name is relative to the file that includes it.
+static bool refuse_included(const char *path, const char *quoted, Scripts *scripts, Error *err)
 {
     char other[GEO_PATH_SIZE];
     geo_included_path(path, quoted + 1, (int)strcspn(quoted + 1, "\"'\n"), other);
-    return access(other, R_OK) != 0 || refuse_script(other, depth + 1, err);
+    return refuse_found(path, other, scripts, err);
 }
 
-static bool refuse_script(const char *path, int32_t depth, Error *err)
+static bool refuse_script(const char *path, Scripts *scripts, Error *err)
 {
     static const char *const how =
         "give --trust, or set AMONTONS_TRUST=yes, if you know where it comes from";
     char *text = NULL;
     int32_t size = 0;
+    scripts->files++;
+    scripts->depth++;
     TRY(text_file_read(path, SCRIPT_BYTES_MAX, &text, &size, err));
-    if (depth > GEO_INCLUDE_DEPTH_MAX)
+    if (scripts->depth > GEO_INCLUDE_DEPTH_MAX + 1)
         FAIL(err, ERROR_INPUT, "%s: files include each other more than %d deep", path,
              GEO_INCLUDE_DEPTH_MAX);
+    if (scripts->files > FILES_MAX)
+        FAIL(err, ERROR_INPUT, "%s: more than %d files are included", path, FILES_MAX);
     if (strlen(text) != (size_t)size) FAIL(err, ERROR_INPUT, "%s: is no text", path);
     const char *found = find_command(text);
     if (found)
@@ -82,9 +105,10 @@ static bool refuse_script(const char *path, int32_t depth, Error *err)
         if (*name != '"' && *name != '\'')
             FAIL(err, ERROR_INPUT, "%s:%d: includes a file whose name is not written out; %s", path,
                  line, how);
-        TRY(refuse_included(path, name, depth, err));
+        TRY(refuse_included(path, name, scripts, err));
     }
 cleanup:
+    scripts->depth--;
     memory_free(text);
     return error_is_clean(err);
 }
@@ -93,10 +117,11 @@ cleanup:
 bool geo_commands_refuse(const char *path, bool is_script, Error *err)
 {
     char options[PATH_MAX];
-    if (is_script) TRY(refuse_script(path, 0, err));
+    Scripts scripts = {0};
+    if (is_script) TRY(refuse_script(path, &scripts, err));
     int length = snprintf(options, sizeof options, "%s.opt", path);
     if (length < (int)sizeof options && access(options, F_OK) == 0)
-        TRY(refuse_script(options, 0, err));
+        TRY(refuse_found(path, options, &scripts, err));
 cleanup:
     return error_is_clean(err);
 }

@@ -164,7 +164,8 @@ bool json_find_number(const char *text, const char *path, double *value)
     return true;
 }
 
-// What stands for the escape behind a backslash; *used: its characters.
+// What stands for the escape behind a backslash; *used: its characters. After \u only hexadecimal
+// digits belong to it: the quote that ends a text may stand where the fourth should.
 static char unescape(const char *at, int32_t *used)
 {
     static const char from[] = "nrtbf", to[] = "\n\r\t\b\f";
@@ -172,10 +173,11 @@ static char unescape(const char *at, int32_t *used)
     *used = 1;
     if (*at && known) return to[known - from];
     if (*at != 'u') return *at;
-    char digits[5] = {0};
-    strncpy(digits, at + 1, 4);
-    long code = strtol(digits, NULL, 16);
-    *used = 1 + (int32_t)strlen(digits);
+    long code = 0;
+    for (; *used <= 4 && isxdigit((unsigned char)at[*used]); ++*used) {
+        char digit[2] = {at[*used]};
+        code = 16 * code + strtol(digit, NULL, 16);
+    }
     return code > 0 && code < 0x80 ? (char)code : '?';
 }
 

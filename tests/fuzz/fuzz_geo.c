@@ -1,15 +1,34 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is looked for in a .geo before gmsh sees it.
+// What is looked for in a .geo before gmsh sees it. It lies in a folder of its own: what it includes
+// must not be another open file of the fuzzer.
 #include "io/geo_commands.h"
 #include "io/geo_parameters.h"
 #include "tests/fuzz/fuzz.h"
+
+#include <stdio.h>
+
+static char place[] = "/dev/shm/amontons_fuzz_XXXXXX", path[80];
+
+static void remove_folder(void)
+{
+    unlink(path);
+    rmdir(place);
+}
+
+static void write_script(const uint8_t *data, size_t size)
+{
+    if (!*path && (!mkdtemp(place) || atexit(remove_folder) != 0)) abort();
+    snprintf(path, sizeof path, "%s/a", place);
+    FILE *file = fopen(path, "wb");
+    if (!file || fwrite(data, 1, size, file) != size || fclose(file) != 0) abort();
+}
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     int64_t before = memory_counters().live;
     Error err = {0};
     GeoParameters known = {0};
-    const char *path = fuzz_file(data, size);
+    write_script(data, size);
     if (geo_commands_refuse(path, true, &err)) geo_parameters_read(path, &known, &err);
     geo_parameters_destroy(&known);
     fuzz_check_freed(before);

@@ -71,6 +71,18 @@ static void test_texts(void **state)
     assert_string_equal(few, "don");
 }
 
+// The quote that ends the text is no digit of the escape.
+static void test_short_escape(void **state)
+{
+    (void)state;
+    char text[80];
+    const char *short_of_digits = "{\"a\": \"x\\u4\", \"b\": \"no part of a\"}";
+    assert_true(json_find_text(short_of_digits, "a", text, sizeof text));
+    assert_string_equal(text, "x\x04");
+    assert_true(json_find_text("{\"a\": \"\\u&0\"}", "a", text, sizeof text));
+    assert_string_equal(text, "?&0");
+}
+
 // An index stands for every item: a list may be shorter at another time.
 static void test_may_hold(void **state)
 {
@@ -146,8 +158,9 @@ static void test_damage(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_numbers), cmocka_unit_test(test_absent),
-        cmocka_unit_test(test_texts),   cmocka_unit_test(test_may_hold),
-        cmocka_unit_test(test_keys),    cmocka_unit_test(test_damage)};
+        cmocka_unit_test(test_numbers),  cmocka_unit_test(test_absent),
+        cmocka_unit_test(test_texts),    cmocka_unit_test(test_short_escape),
+        cmocka_unit_test(test_may_hold), cmocka_unit_test(test_keys),
+        cmocka_unit_test(test_damage)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
