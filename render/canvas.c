@@ -1,197 +1,103 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// One vertex layout and one program for all three kinds of paint; vertices gather in a batch that
-// is drawn when the paint, the clip or a texture changes.
+// A Cairo surface: an image for PNG, else PDF or SVG into memory, in points, scaled so that all
+// three are drawn in the same pixels. Same picture, same bytes: no date is stored.
 #include "render/canvas.h"
 
 #include "base/memory.h"
+#include "io/part_file.h"
+#include "render/png_encode.h"
 
-#include <GL/gl.h>
-#include <GL/glext.h>
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
 
 #include <math.h>
-#include <stddef.h>
+#include <string.h>
 
-enum { SAMPLES_WANTED = 8, BATCH_VERTICES = 3 * 4096, HEAT_VERTICES = 6 };
+enum { POINTS_AN_INCH = 72 };
 
 struct Canvas {
-    int32_t width, height;   // pixels
-    GLuint drawn[2], resolved[2];   // frame buffer and its colour: with samples, and without
-    GLuint program, layout, buffer;   // shaders, vertex array, vertex buffer
-    GLuint glyphs, map, heat;   // textures
-    Vertex *batch;   // [BATCH_VERTICES] not yet drawn; owned
-    int64_t batched;   // of these, filled
-    PaintKind kind;   // of the batch
+    CanvasDef def;
+    cairo_surface_t *surface;   // owned
+    cairo_t *cairo;   // owned
+    uint32_t map[MAP_SIZE], below;   // as Cairo stores pixels: alpha, red, green, blue
+    char *bytes;   // [room] of the PDF or SVG; owned
+    int64_t size, room;
     Error failure;   // the first one
 };
 
-static const char VERTEX_SOURCE[] =
-    "#version 330 core\n"
-    "uniform vec2 size;\n"
-    "layout(location = 0) in vec2 position;\n"
-    "layout(location = 1) in vec2 texel;\n"
-    "layout(location = 2) in vec4 color;\n"
-    "out vec2 at;\n"
-    "out vec4 tint;\n"
-    "void main() {\n"
-    "    at = texel;\n"
-    "    tint = color;\n"
-    // Rows are read back from the bottom: y downwards in both makes the first row the top one.
-    "    gl_Position = vec4(2.0 * position / size - 1.0, 0.0, 1.0);\n"
-    "}\n";
-
-static const char FRAGMENT_SOURCE[] =
-    "#version 330 core\n"
-    "uniform int kind;\n"
-    "uniform vec4 below;\n"
-    "uniform sampler2D glyphs;\n"
-    "uniform sampler2D map;\n"
-    "uniform sampler2D heat;\n"
-    "in vec2 at;\n"
-    "in vec4 tint;\n"
-    "out vec4 color;\n"
-    "void main() {\n"
-    "    if (kind == 0) {\n"
-    "        color = tint;\n"
-    "    } else if (kind == 1) {\n"
-    "        color = vec4(tint.rgb, tint.a * texelFetch(glyphs, ivec2(floor(at)), 0).r);\n"
-    "    } else {\n"
-    "        float value = texture(heat, at).r;\n"
-    "        if (value < -1.5) discard;\n"
-    "        float last = float(textureSize(map, 0).x - 1);\n"
-    "        float place = (clamp(value, 0.0, 1.0) * last + 0.5) / (last + 1.0);\n"
-    "        color = value < 0.0 ? below : vec4(texture(map, vec2(place, 0.5)).rgb, 1.0);\n"
-    "    }\n"
-    "}\n";
-
-// --- what OpenGL needs before the first triangle -------------------------------------------------
-// Compiles one stage into `program`; what the compiler says goes into the error.
-static bool shader_compile(GLuint program, GLenum stage, const char *source, Error *err)
+const char *canvas_ending(CanvasFormat format)
 {
-    GLint done = GL_FALSE;
-    GLchar said[500] = "";
-    GLuint shader = glCreateShader(stage);
-    glShaderSource(shader, 1, &source, NULL);
-    glCompileShader(shader);
-    glGetShaderiv(shader, GL_COMPILE_STATUS, &done);
-    if (!done) {
-        glGetShaderInfoLog(shader, sizeof said, NULL, said);
-        FAIL(err, ERROR_LIBRARY, "OpenGL does not compile a shader: %s", said);
+    static const char *const ending[CANVAS_FORMATS] = {"png", "pdf", "svg"};
+    return ending[format];
+}
+
+// --- begin ---------------------------------------------------------------------------------------
+
+// What there is of the file goes on in memory. false: there is none left.
+static bool bytes_add(void *self, const uint8_t *bytes, size_t length)
+{
+    Canvas *canvas = self;
+    int64_t size = canvas->size + (int64_t)length;
+    if (size > canvas->room) {
+        char *longer = memory_resize(canvas->bytes, canvas->room, 2 * size, 1, &canvas->failure);
+        if (!longer) return false;
+        canvas->bytes = longer;
+        canvas->room = 2 * size;
     }
-    glAttachShader(program, shader);
-cleanup:
-    glDeleteShader(shader);   // lives on in the program
-    return error_is_clean(err);
+    memcpy(canvas->bytes + canvas->size, bytes, length);
+    canvas->size = size;
+    return true;
 }
 
-// Texture units are fixed: 0 the glyph sheet, 1 the colour map, 2 the heat texture.
-static bool program_create(Canvas *canvas, Error *err)
+static cairo_status_t bytes_of_cairo(void *self, const unsigned char *bytes, unsigned int length)
 {
-    GLint done = GL_FALSE;
-    GLuint program = canvas->program = glCreateProgram();
-    TRY(shader_compile(program, GL_VERTEX_SHADER, VERTEX_SOURCE, err));
-    TRY(shader_compile(program, GL_FRAGMENT_SHADER, FRAGMENT_SOURCE, err));
-    glLinkProgram(program);
-    glGetProgramiv(program, GL_LINK_STATUS, &done);
-    if (!done) FAIL(err, ERROR_LIBRARY, "OpenGL does not link the shaders");
-    glUseProgram(program);
-    glUniform2f(glGetUniformLocation(program, "size"), (GLfloat)canvas->width,
-                (GLfloat)canvas->height);
-    glUniform1i(glGetUniformLocation(program, "glyphs"), 0);
-    glUniform1i(glGetUniformLocation(program, "map"), 1);
-    glUniform1i(glGetUniformLocation(program, "heat"), 2);
-cleanup:
-    return error_is_clean(err);
+    return bytes_add(self, bytes, length) ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_NO_MEMORY;
 }
 
-// Tells OpenGL where in a Vertex the shader's input number `place` lies.
-static void attribute_set(GLuint place, GLint numbers, size_t offset)
+static cairo_surface_t *surface_create(Canvas *canvas)
 {
-    glEnableVertexAttribArray(place);
-    glVertexAttribPointer(place, numbers, GL_FLOAT, GL_FALSE, sizeof(Vertex), (const void *)offset);
+    const CanvasDef *def = &canvas->def;
+    double points = POINTS_AN_INCH / def->dpi;
+    cairo_surface_t *surface = NULL;
+    switch (def->format) {
+    case CANVAS_PDF:
+        surface = cairo_pdf_surface_create_for_stream(bytes_of_cairo, canvas, def->width * points,
+                                                      def->height * points);
+        break;
+    case CANVAS_SVG:
+        surface = cairo_svg_surface_create_for_stream(bytes_of_cairo, canvas, def->width * points,
+                                                      def->height * points);
+        cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PT);
+        break;
+    case CANVAS_PNG:
+    case CANVAS_FORMATS:
+        return cairo_image_surface_create(CAIRO_FORMAT_RGB24, def->width, def->height);
+    }
+    cairo_surface_set_device_scale(surface, points, points);
+    return surface;
 }
 
-//     location 0: x, y in pixels   1: u, v of a texture   2: red, green, blue, alpha
-static void layout_create(Canvas *canvas)
+Canvas *canvas_create(const CanvasDef *def, Error *err)
 {
-    glGenVertexArrays(1, &canvas->layout);
-    glBindVertexArray(canvas->layout);
-    glGenBuffers(1, &canvas->buffer);
-    glBindBuffer(GL_ARRAY_BUFFER, canvas->buffer);
-    attribute_set(0, 2, offsetof(Vertex, x));
-    attribute_set(1, 2, offsetof(Vertex, u));
-    attribute_set(2, 4, offsetof(Vertex, color));
-}
-
-// An empty texture on its own unit, where it stays bound for the canvas's life.
-static GLuint texture_create(GLenum unit, GLint filter)
-{
-    GLuint texture = 0;
-    glGenTextures(1, &texture);
-    glActiveTexture(unit);
-    glBindTexture(GL_TEXTURE_2D, texture);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    return texture;
-}
-
-// A frame buffer object (pair[0]) with one colour buffer (pair[1]).
-static bool target_create(const Canvas *canvas, GLint samples, GLuint pair[2], Error *err)
-{
-    glGenFramebuffers(1, &pair[0]);
-    glBindFramebuffer(GL_FRAMEBUFFER, pair[0]);
-    glGenRenderbuffers(1, &pair[1]);
-    glBindRenderbuffer(GL_RENDERBUFFER, pair[1]);
-    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_RGBA8, canvas->width,
-                                     canvas->height);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, pair[1]);
-    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-        FAIL(err, ERROR_LIBRARY, "OpenGL gives no buffer of %d by %d pixels", canvas->width,
-             canvas->height);
-cleanup:
-    return error_is_clean(err);
-}
-
-// Drawing goes into a buffer with several samples a pixel, which canvas_read averages into a plain
-// one: that is all the antialiasing there is. Glyphs bring their own, from FreeType.
-static bool targets_create(Canvas *canvas, Error *err)
-{
-    GLint samples = 0;
-    glGetIntegerv(GL_MAX_SAMPLES, &samples);
-    if (samples > SAMPLES_WANTED) samples = SAMPLES_WANTED;
-    TRY(target_create(canvas, 0, canvas->resolved, err));
-    TRY(target_create(canvas, samples, canvas->drawn, err));
-    glViewport(0, 0, canvas->width, canvas->height);
-    glClearColor(1, 1, 1, 1);
-    glClear(GL_COLOR_BUFFER_BIT);
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-cleanup:
-    return error_is_clean(err);
-}
-
-// The context must be current. Rows are packed without padding, both ways: pixels go to libpng as
-// they are read.
-Canvas *canvas_create(int32_t width, int32_t height, Error *err)
-{
+    static const Color paper = {1, 1, 1, 1};
     Canvas *canvas = NULL;
-    if (width < CANVAS_SIZE_MIN || width > CANVAS_SIZE_MAX || height < CANVAS_SIZE_MIN ||
-        height > CANVAS_SIZE_MAX)
-        FAIL(err, ERROR_INPUT, "a picture of %d by %d pixels: each must be from %d to %d", width,
-             height, CANVAS_SIZE_MIN, CANVAS_SIZE_MAX);
+    if (def->width < CANVAS_SIZE_MIN || def->width > CANVAS_SIZE_MAX ||
+        def->height < CANVAS_SIZE_MIN || def->height > CANVAS_SIZE_MAX)
+        FAIL(err, ERROR_INPUT, "a picture of %d by %d pixels: each must be from %d to %d",
+             def->width, def->height, CANVAS_SIZE_MIN, CANVAS_SIZE_MAX);
     TRY(canvas = NEW_ARRAY(Canvas, 1, err));
-    canvas->width = width;
-    canvas->height = height;
-    TRY(canvas->batch = NEW_ARRAY(Vertex, BATCH_VERTICES, err));
-    TRY(targets_create(canvas, err));
-    TRY(program_create(canvas, err));
-    layout_create(canvas);
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    canvas->glyphs = texture_create(GL_TEXTURE0, GL_NEAREST);
-    canvas->map = texture_create(GL_TEXTURE1, GL_LINEAR);
-    canvas->heat = texture_create(GL_TEXTURE2, GL_NEAREST);
+    canvas->def = *def;
+    TRY(canvas->bytes = NEW_ARRAY(char, 1, err));
+    canvas->room = 1;
+    canvas->surface = surface_create(canvas);
+    canvas->cairo = cairo_create(canvas->surface);
+    cairo_status_t status = cairo_status(canvas->cairo);
+    if (status)
+        FAIL(err, status == CAIRO_STATUS_NO_MEMORY ? ERROR_MEMORY : ERROR_LIBRARY,
+             "Cairo gives no page of %d by %d pixels: %s", def->width, def->height,
+             cairo_status_to_string(status));
+    canvas_ink(canvas, paper);
+    cairo_paint(canvas->cairo);
     return canvas;
 cleanup:
     canvas_destroy(canvas);
@@ -201,28 +107,20 @@ cleanup:
 void canvas_destroy(Canvas *canvas)
 {
     if (!canvas) return;
-    glDeleteTextures(1, &canvas->glyphs);   // names that are 0 are passed over
-    glDeleteTextures(1, &canvas->map);
-    glDeleteTextures(1, &canvas->heat);
-    glDeleteBuffers(1, &canvas->buffer);
-    glDeleteVertexArrays(1, &canvas->layout);
-    glDeleteProgram(canvas->program);
-    glDeleteFramebuffers(1, &canvas->drawn[0]);
-    glDeleteRenderbuffers(1, &canvas->drawn[1]);
-    glDeleteFramebuffers(1, &canvas->resolved[0]);
-    glDeleteRenderbuffers(1, &canvas->resolved[1]);
-    memory_free(canvas->batch);
+    cairo_destroy(canvas->cairo);   // NULL is fine, here and below
+    cairo_surface_destroy(canvas->surface);
+    memory_free(canvas->bytes);
     memory_free(canvas);
 }
 
 int32_t canvas_width(const Canvas *canvas)
 {
-    return canvas->width;
+    return canvas->def.width;
 }
 
 int32_t canvas_height(const Canvas *canvas)
 {
-    return canvas->height;
+    return canvas->def.height;
 }
 
 Error *canvas_failure(Canvas *canvas)
@@ -231,114 +129,156 @@ Error *canvas_failure(Canvas *canvas)
 }
 
 // --- drawing -------------------------------------------------------------------------------------
-// Hands what has gathered to OpenGL. Whoever changes a texture or the clip calls it first.
-static void batch_draw(Canvas *canvas)
+
+cairo_t *canvas_ink(Canvas *canvas, Color color)
 {
-    if (canvas->batched == 0) return;
-    glUniform1i(glGetUniformLocation(canvas->program, "kind"), (GLint)canvas->kind);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)((size_t)canvas->batched * sizeof(Vertex)),
-                 canvas->batch, GL_STREAM_DRAW);
-    glDrawArrays(GL_TRIANGLES, 0, (GLsizei)canvas->batched);
-    canvas->batched = 0;
+    if (canvas->def.dark) color = color_on_dark(color);
+    cairo_set_source_rgba(canvas->cairo, (double)color.red, (double)color.green, (double)color.blue,
+                          (double)color.alpha);
+    return canvas->cairo;
 }
 
-// Vertices are copied into the batch; three at a time, so that no triangle is torn in two.
-void canvas_triangles(Canvas *canvas, PaintKind kind, const Vertex *vertices, int64_t count)
-{
-    if (kind != canvas->kind) batch_draw(canvas);
-    canvas->kind = kind;
-    for (int64_t k = 0; k + 2 < count; k += 3) {
-        if (canvas->batched + 3 > BATCH_VERTICES) batch_draw(canvas);
-        for (int64_t corner = 0; corner < 3; ++corner)
-            canvas->batch[canvas->batched++] = vertices[k + corner];
-    }
-}
-
-// Whole pixels; NULL: all of the canvas. What has gathered is drawn under the old clip.
+// Whole pixels.
 void canvas_clip(Canvas *canvas, const Box *box)
 {
-    batch_draw(canvas);
-    if (!box) {
-        glDisable(GL_SCISSOR_TEST);
-        return;
-    }
-    GLint left = (GLint)lround(box->left), top = (GLint)lround(box->top);
-    GLint right = (GLint)lround(box->right), bottom = (GLint)lround(box->bottom);
-    glEnable(GL_SCISSOR_TEST);
-    glScissor(left, top, right > left ? right - left : 0, bottom > top ? bottom - top : 0);
+    cairo_reset_clip(canvas->cairo);
+    if (!box) return;
+    double left = round(box->left), top = round(box->top);
+    cairo_rectangle(canvas->cairo, left, top, fmax(round(box->right) - left, 0),
+                    fmax(round(box->bottom) - top, 0));
+    cairo_clip(canvas->cairo);
 }
 
-void canvas_set_glyphs(Canvas *canvas, const uint8_t *sheet)
+static uint32_t opaque_pixel(uint8_t red, uint8_t green, uint8_t blue)
 {
-    batch_draw(canvas);
-    glActiveTexture(GL_TEXTURE0);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, GLYPH_SHEET_SIZE, GLYPH_SHEET_SIZE, 0, GL_RED,
-                 GL_UNSIGNED_BYTE, sheet);
+    return 0xff000000u | (uint32_t)red << 16 | (uint32_t)green << 8 | blue;
 }
 
-// MAP_SIZE colours from low to high; `below` for values under 0, see the fragment shader.
 void canvas_set_map(Canvas *canvas, const uint8_t *colors, Color below)
 {
-    batch_draw(canvas);
-    glActiveTexture(GL_TEXTURE1);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, MAP_SIZE, 1, 0, GL_RGB, GL_UNSIGNED_BYTE, colors);
-    glUniform4f(glGetUniformLocation(canvas->program, "below"), below.red, below.green, below.blue,
-                below.alpha);
+    for (int32_t k = 0; k < MAP_SIZE; ++k) {
+        const uint8_t *color = colors + 3 * (canvas->def.dark ? MAP_SIZE - 1 - k : k);
+        canvas->map[k] = opaque_pixel(color[0], color[1], color[2]);
+    }
+    if (canvas->def.dark) below = color_on_dark(below);
+    canvas->below = opaque_pixel((uint8_t)lroundf(255 * below.red),
+                                 (uint8_t)lroundf(255 * below.green),
+                                 (uint8_t)lroundf(255 * below.blue));
 }
 
-// One texel a value, not interpolated: a pixel shows a number that was computed, never a mixture.
-// Faults are kept and reported by canvas_read.
+static uint32_t heat_pixel(const Canvas *canvas, float value)
+{
+    if (!(value >= -1.5f)) return 0;   // transparent
+    if (value < 0) return canvas->below;
+    return canvas->map[lroundf(fminf(value, 1) * (MAP_SIZE - 1))];
+}
+
+// One pixel of an image a value, not interpolated: what is seen is a number that was computed,
+// never a mixture.
 void canvas_heat(Canvas *canvas, const Box *box, const float *values, int32_t columns, int32_t rows)
 {
-    Error *err = &canvas->failure;
-    GLint limit = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
-    if (columns > limit || rows > limit) {
-        error_set(err, ERROR_LIBRARY, __FILE__, __LINE__,
-                  "a map of %d by %d values: OpenGL takes %d a side", columns, rows, limit);
-        return;
+    cairo_surface_t *image = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, columns, rows);
+    if (cairo_surface_status(image)) {
+        error_set(&canvas->failure, ERROR_LIBRARY, __FILE__, __LINE__,
+                  "a map of %d by %d values: %s", columns, rows,
+                  cairo_status_to_string(cairo_surface_status(image)));
+    } else {
+        uint8_t *line = cairo_image_surface_get_data(image);
+        for (int32_t row = 0; row < rows; ++row) {
+            for (int32_t k = 0; k < columns; ++k)
+                ((uint32_t *)(void *)line)[k] = heat_pixel(canvas, *values++);
+            line += cairo_image_surface_get_stride(image);
+        }
+        cairo_surface_mark_dirty(image);
+        canvas_image(canvas, box, image);
     }
-    batch_draw(canvas);
-    glActiveTexture(GL_TEXTURE2);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_R32F, columns, rows, 0, GL_RED, GL_FLOAT, values);
-    Vertex corner[4] = {0};
-    for (int32_t k = 0; k < 4; ++k) {
-        corner[k].u = (float)(k & 1);
-        corner[k].v = (float)(k >> 1);
-        corner[k].x = (float)(k & 1 ? box->right : box->left);
-        corner[k].y = (float)(k >> 1 ? box->bottom : box->top);
-    }
-    Vertex vertices[HEAT_VERTICES] = {corner[0], corner[1], corner[2],
-                                      corner[2], corner[1], corner[3]};
-    canvas_triangles(canvas, PAINT_HEAT, vertices, HEAT_VERTICES);
-    batch_draw(canvas);
+    cairo_surface_destroy(image);
 }
 
-// Samples are resolved into a plain frame buffer first: they cannot be read themselves. pixels:
-// [height * width * 3], top row first, the caller's.
-bool canvas_read(Canvas *canvas, uint8_t **pixels, Error *err)
+// Exact pixels: no filter, and no edge that mixes with the paper.
+void canvas_image(Canvas *canvas, const Box *box, cairo_surface_t *image)
 {
-    *pixels = NULL;
-    batch_draw(canvas);
+    cairo_t *cairo = canvas->cairo;
+    double width = box->right - box->left, height = box->bottom - box->top;
+    cairo_save(cairo);
+    cairo_rectangle(cairo, box->left, box->top, width, height);
+    cairo_translate(cairo, box->left, box->top);
+    cairo_scale(cairo, width / cairo_image_surface_get_width(image),
+                height / cairo_image_surface_get_height(image));
+    cairo_set_source_surface(cairo, image, 0, 0);
+    cairo_pattern_set_filter(cairo_get_source(cairo), CAIRO_FILTER_NEAREST);
+    cairo_pattern_set_extend(cairo_get_source(cairo), CAIRO_EXTEND_PAD);
+    cairo_fill(cairo);
+    cairo_restore(cairo);
+}
+
+// --- end -----------------------------------------------------------------------------------------
+
+// What the drawing code left, or Cairo.
+static bool canvas_check(Canvas *canvas, Error *err)
+{
+    cairo_status_t status = cairo_status(canvas->cairo);
     if (!error_is_clean(&canvas->failure)) {
         *err = canvas->failure;
-        goto cleanup;
+        return false;
     }
-    TRY(*pixels = NEW_ARRAY(uint8_t, (int64_t)canvas->width * canvas->height * 3, err));
-    glDisable(GL_SCISSOR_TEST);
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, canvas->drawn[0]);
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, canvas->resolved[0]);
-    glBlitFramebuffer(0, 0, canvas->width, canvas->height, 0, 0, canvas->width, canvas->height,
-                      GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, canvas->resolved[0]);
-    glReadPixels(0, 0, canvas->width, canvas->height, GL_RGB, GL_UNSIGNED_BYTE, *pixels);
-    glBindFramebuffer(GL_FRAMEBUFFER, canvas->drawn[0]);
-    GLenum fault = glGetError();
-    if (fault != GL_NO_ERROR) FAIL(err, ERROR_LIBRARY, "OpenGL reports fault 0x%x", fault);
+    if (status)
+        FAIL(err, status == CAIRO_STATUS_NO_MEMORY ? ERROR_MEMORY : ERROR_LIBRARY,
+             "Cairo cannot draw: %s", cairo_status_to_string(status));
 cleanup:
-    if (!error_is_clean(err)) {
-        memory_free(*pixels);
-        *pixels = NULL;
+    return error_is_clean(err);
+}
+
+bool canvas_read(Canvas *canvas, uint8_t **pixels, Error *err)
+{
+    int64_t width = canvas->def.width, height = canvas->def.height;
+    *pixels = NULL;
+    TRY(canvas_check(canvas, err));
+    TRY(*pixels = memory_bytes(3 * width * height, err));
+    cairo_surface_flush(canvas->surface);
+    const uint8_t *line = cairo_image_surface_get_data(canvas->surface);
+    uint8_t *to = *pixels;
+    for (int64_t row = 0; row < height; ++row) {
+        const uint32_t *pixel = (const uint32_t *)(const void *)line;
+        for (int64_t k = 0; k < width; ++k, to += 3) {
+            to[0] = (uint8_t)(pixel[k] >> 16);
+            to[1] = (uint8_t)(pixel[k] >> 8);
+            to[2] = (uint8_t)pixel[k];
+        }
+        line += cairo_image_surface_get_stride(canvas->surface);
     }
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool encode_png(Canvas *canvas, const char *title, Error *err)
+{
+    PngPicture picture = {.width = canvas->def.width,
+                          .height = canvas->def.height,
+                          .stride = cairo_image_surface_get_stride(canvas->surface),
+                          .pixels = cairo_image_surface_get_data(canvas->surface),
+                          .pixels_per_metre = canvas->def.dpi / 0.0254,
+                          .title = title};
+    return png_encode(&picture, bytes_add, canvas, err);
+}
+
+bool canvas_write(Canvas *canvas, const char *path, const char *title, Error *err)
+{
+    PartFile file = {0};
+    if (canvas->def.format == CANVAS_PDF) {
+        cairo_pdf_surface_set_metadata(canvas->surface, CAIRO_PDF_METADATA_TITLE, title);
+        cairo_pdf_surface_set_metadata(canvas->surface, CAIRO_PDF_METADATA_CREATOR,
+                                       "amontons " AMONTONS_VERSION);
+        cairo_pdf_surface_set_metadata(canvas->surface, CAIRO_PDF_METADATA_CREATE_DATE, "");
+    }
+    cairo_surface_flush(canvas->surface);
+    if (canvas->def.format == CANVAS_PNG) encode_png(canvas, title, &canvas->failure);
+    cairo_surface_finish(canvas->surface);   // the last of the bytes
+    TRY(canvas_check(canvas, err));
+    TRY(part_file_create(&file, path, err));
+    TRY(part_file_write(&file, canvas->bytes, canvas->size, err));
+    TRY(part_file_commit(&file, err));
+cleanup:
+    part_file_discard(&file);
     return error_is_clean(err);
 }

@@ -3,7 +3,6 @@
 #include "render/map_page.h"
 
 #include "base/memory.h"
-#include "render/colormap.h"
 #include "render/pad_marks.h"
 
 #include <math.h>
@@ -66,7 +65,7 @@ void map_page_layout(const Page *page, const ResultView *view, double U_low, dou
     int32_t column = (int32_t)fmax(1, round(COLUMN_WIDTH * point));   // pixels
     int32_t columns = (int32_t)(axes->box.right - axes->box.left) / column;
     axes->box.right = axes->box.left + columns * column;
-    colormap_fill(colors);
+    color_map_fill(colors);
     canvas_set_map(page->canvas, colors, map->bar.neutral_color);
     map->grid = (PixelGrid){.U_low = U_low,
                             .U_high = U_high,

@@ -3,16 +3,11 @@
 // names, the strip the rod pushes. Drawn to scale from the arrays handed in.
 #include "render/render.h"
 
-#include "base/memory.h"
 #include "render/axes.h"
-#include "render/context.h"
-#include "render/png_file.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-enum { WIDTH_DEFAULT = 1720 };   // pixels: 20 a millimetre of a journal's column
 
 static const double MARGIN = 0.09;   // of the mesh's larger extent, kept around it for names
 static const double EDGE_WIDTH = 0.22;   // points: edges of elements
@@ -71,15 +66,14 @@ static double head_points(const RenderMesh *mesh)
     return 4 + HEAD_HEIGHT * ((mesh->title && mesh->title[0]) + (mesh->note && mesh->note[0]));
 }
 
-// To scale, but no more than SIDE_MAX times as high as wide.
-static int32_t picture_height(const RenderMesh *mesh, int32_t width)
+// The picture's height over its width: to scale, but no more than SIDE_MAX.
+static double picture_shape(const RenderMesh *mesh)
 {
     Axes axes = {0};
     choose_ranges(mesh, &axes);
-    double point = width / COLUMN_WIDTH_POINTS;
-    double frame = (COLUMN_WIDTH_POINTS - LEFT - RIGHT) * frame_shape(&axes);
-    double height = (frame + head_points(mesh) + axes_bottom_margin(&axes)) * point;
-    return (int32_t)lround(fmin(height, SIDE_MAX * width));
+    double width = page_width(&mesh->style);
+    double frame = (width - LEFT - RIGHT) * frame_shape(&axes);
+    return fmin((frame + head_points(mesh) + axes_bottom_margin(&axes)) / width, SIDE_MAX);
 }
 
 // The largest frame of the block's shape that fits, in the middle.
@@ -120,28 +114,6 @@ static int32_t element_outline(const MeshPage *map, int32_t e, Point *outline)
     return count;
 }
 
-static Vertex vertex_at(Point place)
-{
-    return (Vertex){.x = (float)place.x, .y = (float)place.y, .color = FILL};
-}
-
-// A fan from the mean of the outline.
-static void element_fill(const MeshPage *map, const Point *outline, int32_t count)
-{
-    Vertex fan[3 * 2 * 4];
-    Point middle = {0, 0};
-    for (int32_t k = 0; k < count; ++k) {
-        middle.x += outline[k].x / count;
-        middle.y += outline[k].y / count;
-    }
-    for (int32_t k = 0; k < count; ++k) {
-        fan[3 * k] = vertex_at(middle);
-        fan[3 * k + 1] = vertex_at(outline[k]);
-        fan[3 * k + 2] = vertex_at(outline[(k + 1) % count]);
-    }
-    canvas_triangles(map->page->canvas, PAINT_COLOR, fan, 3 * (int64_t)count);
-}
-
 // Fine meshes get thinner edges: a tenth of the typical element at most.
 static double edge_width(const MeshPage *map)
 {
@@ -156,7 +128,7 @@ static void draw_elements(const MeshPage *map)
     Canvas *canvas = map->page->canvas;
     Stroke stroke = {.color = EDGE, .width = edge_width(map)};
     for (int32_t e = 0; e < map->mesh->element_count; ++e)
-        element_fill(map, outline, element_outline(map, e, outline));
+        shape_polygon(canvas, FILL, outline, element_outline(map, e, outline));
     for (int32_t e = 0; e < map->mesh->element_count; ++e) {
         int32_t count = element_outline(map, e, outline);
         for (int32_t k = 0; k < count; ++k)
@@ -273,13 +245,11 @@ static void draw_head(const MeshPage *map)
     }
 }
 
-// --- the module's second entry ------------------------------------------------------------------
+// --- the module's third entry -------------------------------------------------------------------
 
-static bool draw_page(const RenderMesh *mesh, Page *page, uint8_t **pixels, Error *err)
+static void draw_page(const RenderMesh *mesh, const Page *page)
 {
     MeshPage map = {.mesh = mesh, .page = page};
-    page->text = text_create(page->canvas, err);
-    TRY(page->text);
     place_frame(&map);
     canvas_clip(page->canvas, &map.axes.box);
     draw_elements(&map);
@@ -288,35 +258,19 @@ static bool draw_page(const RenderMesh *mesh, Page *page, uint8_t **pixels, Erro
     canvas_clip(page->canvas, NULL);
     draw_head(&map);
     axes_draw(page, &map.axes);
-    TRY(canvas_read(page->canvas, pixels, err));
-cleanup:
-    return error_is_clean(err);
 }
 
 __attribute__((visibility("default"))) bool amontons_render_mesh(const RenderMesh *mesh,
                                                                  const char *path, Error *err)
 {
-    RenderContext *context = NULL;
     Page page = {0};
-    uint8_t *pixels = NULL;
-    int32_t width = mesh->width > 0 ? mesh->width : WIDTH_DEFAULT;
-    page.point = width / COLUMN_WIDTH_POINTS;
-    context = context_create(err);
-    TRY(context);
-    page.canvas = canvas_create(width, picture_height(mesh, width), err);
-    TRY(page.canvas);
-    TRY(draw_page(mesh, &page, &pixels, err));
-    PngPicture picture = {.width = width,
-                          .height = canvas_height(page.canvas),
-                          .pixels = pixels,
-                          .pixels_per_metre = width / (1e-3 * COLUMN_WIDTH_MM),
-                          .title = mesh->title ? mesh->title : "mesh"};
-    TRY(png_file_write(path, &picture, err));
+    PictureStyle style = mesh->style;
+    TRY(page_style_of_name(path, &style, err));
+    TRY(page_begin(&page, &style, picture_shape(mesh), 0, err));
+    draw_page(mesh, &page);
+    TRY(page_finish(&page, path, mesh->title ? mesh->title : "mesh", err));
 cleanup:
     error_context(err, "picture %s", path);
-    text_destroy(page.text);
-    canvas_destroy(page.canvas);
-    context_destroy(context);
-    memory_free(pixels);
+    page_destroy(&page);
     return error_is_clean(err);
 }

@@ -1,21 +1,34 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What every drawing routine is handed, and the few sizes all figures share. Sizes are in printer's
-// points at the width of one journal column: a figure is drawn for that print, whatever its pixels.
+// The page that every drawing routine is handed, from its beginning to its file, and the few sizes
+// all figures share. Sizes are in printer's points: a figure is drawn for print, whatever its
+// pixels.
 #ifndef AMONTONS_RENDER_PAGE_H
 #define AMONTONS_RENDER_PAGE_H
 
+#include "amontons_pictures.h"
 #include "render/shapes.h"
 #include "render/text.h"
 
 typedef struct Page {
-    Canvas *canvas;   // not owned
-    Text *text;   // not owned
+    Canvas *canvas;   // owned
+    Text *text;   // owned
     double point;   // pixels in a printed point
     double foot;   // pixels kept free below the figure, a whole number
 } Page;
 
-static const double COLUMN_WIDTH_MM = 86;   // of a journal's column
-static const double COLUMN_WIDTH_POINTS = 86 * 72 / 25.4;
+// Points in the width of a page of this style.
+double page_width(const PictureStyle *style);
+
+// An empty page, `height` times as high as wide and `foot` points more. ERROR_INPUT: a format there
+// is none of, or a size beyond what canvas allows.
+bool page_begin(Page *page, const PictureStyle *style, double height, double foot, Error *err);
+
+// Writes the picture into the file `path`, with `title` stored in it.
+bool page_finish(Page *page, const char *path, const char *title, Error *err);
+void page_destroy(Page *page);   // zeroed is fine
+
+// The style with the format that the file's name ends in; ERROR_INPUT: in none.
+bool page_style_of_name(const char *path, PictureStyle *style, Error *err);
 
 static const double LABEL_SIZE = 7.5;   // points: names of axes
 static const double NUMBER_SIZE = 6.8;   // points: numbers at ticks

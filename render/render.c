@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The module's entry: which figures, one context for all, a fresh canvas and a file for each.
+// The module's entry: which figures, a fresh page and a file for each.
 #include "render/render.h"
 
-#include "base/memory.h"
 #include "io/folder.h"
-#include "render/context.h"
 #include "render/figures.h"
 #include "render/foot.h"
-#include "render/png_file.h"
 
 #include <errno.h>
 #include <limits.h>
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 
-enum { NAMES_SIZE = 200, WIDTH_DEFAULT = 1720 };   // pixels: 20 a millimetre of a journal's column
+enum { NAMES_SIZE = 200 };
 
 typedef enum FigureId {
 #define X(symbol, name, title) symbol,
@@ -72,50 +68,24 @@ cleanup:
     return false;
 }
 
-// pixels: as canvas_read gives them.
-static bool figure_save(const RenderRequest *request, const Figure *figure, const Canvas *canvas,
-                        const uint8_t *pixels, Error *err)
-{
-    char path[PATH_MAX];
-    PngPicture picture = {.width = canvas_width(canvas),
-                          .height = canvas_height(canvas),
-                          .pixels = pixels,
-                          .pixels_per_metre = canvas_width(canvas) / (1e-3 * COLUMN_WIDTH_MM),
-                          .title = figure->title};
-    int length = snprintf(path, sizeof path, "%s/figures/%s.png", request->folder, figure->name);
-    if (length < 0 || length >= (int)sizeof path)
-        FAIL(err, ERROR_INPUT, "the result folder's path is too long");
-    TRY(png_file_write(path, &picture, err));
-cleanup:
-    return error_is_clean(err);
-}
-
 // One picture from nothing to its file. Whatever fails, all that was made for it is freed.
-static bool figure_make(const RenderRequest *request, const Figure *figure, ResultView *view,
-                        Error *err)
+static bool figure_make(const char *folder, const PictureStyle *style, const Figure *figure,
+                        ResultView *view, Error *err)
 {
     Page page = {0};
-    uint8_t *pixels = NULL;
-    int32_t width = request->width > 0 ? request->width : WIDTH_DEFAULT;
-    int32_t height = request->height > 0 ? request->height
-                                         : (int32_t)lround(width * figure->height_over_width);
+    char path[PATH_MAX];
     Foot foot = foot_wrap(view->warnings);
-    page.point = width / COLUMN_WIDTH_POINTS;
-    page.foot = round(foot_height(&foot) * page.point);
-    if (request->height == 0) height += (int32_t)page.foot;
-    page.canvas = canvas_create(width, height, err);
-    TRY(page.canvas);
-    page.text = text_create(page.canvas, err);
-    TRY(page.text);
+    int length = snprintf(path, sizeof path, "%s/figures/%s.%s", folder, figure->name,
+                          style->format ? style->format : canvas_ending(CANVAS_PNG));
+    if (length < 0 || length >= (int)sizeof path)
+        FAIL(err, ERROR_INPUT, "the result folder's path is too long");
+    TRY(page_begin(&page, style, figure->height_over_width, foot_height(&foot), err));
     TRY(figure->draw(&page, view, err));
     foot_draw(&page, &foot);
-    TRY(canvas_read(page.canvas, &pixels, err));
-    TRY(figure_save(request, figure, page.canvas, pixels, err));
+    TRY(page_finish(&page, path, figure->title, err));
 cleanup:
     error_context(err, "figure %s", figure->name);
-    text_destroy(page.text);
-    canvas_destroy(page.canvas);
-    memory_free(pixels);
+    page_destroy(&page);
     return error_is_clean(err);
 }
 
@@ -131,39 +101,34 @@ cleanup:
 }
 
 // All names are checked before anything is read or drawn.
-static bool request_check(const RenderRequest *request, Error *err)
+static bool request_check(const char *folder, const PictureRequest *request, Error *err)
 {
     struct stat about;
     Figure figure;
     for (int32_t k = 0; k < request->figure_count; ++k)
         TRY(figure_find(request->figures[k], &figure, err));
-    if (stat(request->folder, &about) != 0)
-        FAIL(err, ERROR_INPUT, "cannot find the result folder %s: %s", request->folder,
-             strerror(errno));
-    if (!S_ISDIR(about.st_mode)) FAIL(err, ERROR_INPUT, "%s is not a folder", request->folder);
+    if (stat(folder, &about) != 0)
+        FAIL(err, ERROR_INPUT, "cannot find the result folder %s: %s", folder, strerror(errno));
+    if (!S_ISDIR(about.st_mode)) FAIL(err, ERROR_INPUT, "%s is not a folder", folder);
 cleanup:
     return error_is_clean(err);
 }
 
-// One context and one open result serve all pictures.
-__attribute__((visibility("default"))) bool amontons_render(const RenderRequest *request,
-                                                            Error *err)
+// One open result serves all pictures.
+__attribute__((visibility("default"))) bool
+amontons_render(const char *folder, const PictureRequest *request, Error *err)
 {
     ResultView view = {0};
-    RenderContext *context = NULL;
     int32_t count = request->figure_count > 0 ? request->figure_count : FIGURE_COUNT;
-    TRY(request_check(request, err));
-    TRY(result_view_open(request->folder, &view, err));
-    TRY(make_figures_folder(request->folder, err));
-    context = context_create(err);
-    TRY(context);
+    TRY(request_check(folder, request, err));
+    TRY(result_view_open(folder, &view, err));
+    TRY(make_figures_folder(folder, err));
     for (int32_t k = 0; k < count; ++k) {
         Figure figure = figure_get((FigureId)k);
         if (request->figure_count > 0) TRY(figure_find(request->figures[k], &figure, err));
-        TRY(figure_make(request, &figure, &view, err));
+        TRY(figure_make(folder, &request->style, &figure, &view, err));
     }
 cleanup:
-    context_destroy(context);
     result_view_close(&view);
     return error_is_clean(err);
 }

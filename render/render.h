@@ -6,10 +6,9 @@
 #ifndef AMONTONS_RENDER_RENDER_H
 #define AMONTONS_RENDER_RENDER_H
 
+#include "amontons_pictures.h"
 #include "base/error.h"
 #include "io/mesh_file.h"
-
-#include <stdint.h>
 
 // X(symbol, name, title)
 #define RENDER_FIGURES(X)                                                                          \
@@ -17,21 +16,17 @@
     X(FIGURE_SLIP_MAP, "slip-map", "log10 of slip rate over V, against U and x")                   \
     X(FIGURE_CONTACT_DENSITY, "contact-density", "contact density before sliding, zoomed in U")
 
-typedef struct RenderRequest {
-    const char *folder;   // the result folder; pictures go to folder/figures/NAME.png
-    const char *const *figures;   // [figure_count] names of RENDER_FIGURES; none: all of them
-    int32_t figure_count;
-    int32_t width, height;   // pixels; 0: the figure's own (1600 or more wide)
-} RenderRequest;
+typedef bool (*RenderFunction)(const char *folder, const PictureRequest *request, Error *err);
 
-typedef bool (*RenderFunction)(const RenderRequest *request, Error *err);
+// The module's entry: amontons_render_result. An unknown name is ERROR_INPUT and lists those that
+// exist.
+bool amontons_render(const char *folder, const PictureRequest *request, Error *err);
 
-// The module's entry. An unknown name is ERROR_INPUT and lists those that exist.
-bool amontons_render(const RenderRequest *request, Error *err);
-
-// Draws the curves that the file `plot` describes (render/plot_file.h) into the PNG file `png`.
-typedef bool (*RenderPlotFunction)(const char *plot, const char *png, Error *err);
-bool amontons_render_plot(const char *plot, const char *png, Error *err);
+// amontons_render_plot_file.
+typedef bool (*RenderPlotFunction)(const char *plot, const char *picture, const PictureStyle *style,
+                                   Error *err);
+bool amontons_render_plot(const char *plot, const char *picture, const PictureStyle *style,
+                          Error *err);
 
 // A mesh to draw: arrays as in io/mesh_file, all borrowed.
 typedef struct RenderMesh {
@@ -45,12 +40,12 @@ typedef struct RenderMesh {
     int32_t group_count;
     const MeshGroup *groups;   // [group_count]; curves are drawn and named
     double rod_low, rod_high;   // strip of the face x = least that the rod pushes, z; NaN: none
-    int32_t width;   // pixels; 0: 1720
+    PictureStyle style;   // but its format
 } RenderMesh;
 
 typedef bool (*RenderMeshFunction)(const RenderMesh *mesh, const char *path, Error *err);
 
-// Draws `mesh` to scale into the PNG file `path`.
+// Draws `mesh` to scale into the file `path`, which ends in .png, .pdf or .svg.
 bool amontons_render_mesh(const RenderMesh *mesh, const char *path, Error *err);
 
 #endif

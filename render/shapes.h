@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Lines, boxes and marks as triangles on a canvas. Called by axes and the figures.
+// Lines, boxes and marks on a canvas. Called by axes and the figures.
 #ifndef AMONTONS_RENDER_SHAPES_H
 #define AMONTONS_RENDER_SHAPES_H
 
@@ -17,7 +17,7 @@ void shape_segment(Canvas *canvas, const Stroke *stroke, Point from, Point to);
 void shape_outline(Canvas *canvas, const Stroke *stroke, const Box *box);   // corners square
 void shape_fill(Canvas *canvas, Color color, const Box *box);
 void shape_disc(Canvas *canvas, Color color, Point centre, double radius);
-// A convex polygon of [count] corners that go round.
+// A polygon of [count] corners that go round.
 void shape_polygon(Canvas *canvas, Color color, const Point *corners, int32_t count);
 // Slanting lines `spacing` pixels apart over `box`: where there is nothing to show.
 void shape_hatch(Canvas *canvas, const Stroke *stroke, const Box *box, double spacing);

@@ -1,46 +1,30 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A glyph is rasterised once a size and slant and copied onto the sheet, row by row of glyphs from
-// the top. Slanted letters are the upright ones sheared: the base package of the font has no
-// oblique face.
+// Letters of one size and slant are handed to Cairo together, so that a PDF holds words. Slanted
+// letters are the upright ones sheared: the base package of the font has no oblique face.
 #include "render/text.h"
 
 #include "base/memory.h"
 
-#include <ft2build.h>
-#include FT_FREETYPE_H
-#include FT_OUTLINE_H
+#include <cairo-ft.h>
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { GLYPHS_MAX = 512, NEST_MAX = 4, MINUS = 0x2212, REPLACEMENT = 0xfffd };
+enum { NEST_MAX = 4, RUN_SIZE = 256, LETTER_SIZE = 4 };
 
 static const double SCRIPT_SIZE = 0.7;   // of the text around it
 static const double SCRIPT_DROP = 0.18;   // of a lowered baseline, over the size around it
 static const double SCRIPT_RISE = 0.36;   // of a raised one
 static const double SLANT = 0.2;   // shear of slanted letters
 static const double DIGIT_HEIGHT = 0.729;   // of DejaVu Sans, over its size
-
-typedef struct Glyph {
-    uint32_t letter;   // Unicode
-    int32_t size;   // pixels
-    bool slanted;
-    int32_t x, y;   // upper left corner on the sheet
-    int32_t width, height;   // on the sheet, pixels
-    int32_t left, top;   // from the pen to the upper left corner; top upwards
-    double advance;   // of the pen, pixels
-} Glyph;
+static const double PI = 3.14159265358979323846;
+static const char MINUS[] = "\u2212", REPLACEMENT[] = "\ufffd";
 
 struct Text {
     Canvas *canvas;   // not owned
-    FT_Library library;   // owned
-    FT_Face face;   // owned
-    uint8_t *sheet;   // [GLYPH_SHEET_SIZE squared]; owned
-    int32_t shelf_x, shelf_y, shelf_height;   // where the next glyph goes
-    int32_t glyph_count;
-    Glyph glyphs[GLYPHS_MAX];
+    cairo_font_face_t *font;   // owned
+    cairo_font_options_t *options;   // owned
 };
 
 // Where a run of letters is: changed by the marks, kept on a stack.
@@ -51,10 +35,11 @@ typedef struct Pen {
 
 // A line of text being laid out.
 typedef struct Line {
-    const TextStyle *style;
-    Point start;   // of the baseline, on the picture, whole pixels
+    cairo_t *cairo;   // its origin is the start of the baseline
     double along;   // the pen's way from there
     bool drawn;   // false: only measured
+    char run[RUN_SIZE + LETTER_SIZE];   // letters that wait for the pen to change
+    size_t length;   // of these, bytes
 } Line;
 
 static const char *const FONT_FILES[] = {
@@ -62,37 +47,67 @@ static const char *const FONT_FILES[] = {
     "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf", "/usr/share/fonts/dejavu/DejaVuSans.ttf",
     "/usr/share/fonts/TTF/DejaVuSans.ttf", "/usr/local/share/fonts/dejavu/DejaVuSans.ttf"};
 
-// AMONTONS_FONT is taken at its word: where it is wrong, no other font is tried.
-static bool font_open(Text *text, Error *err)
+static bool is_font(FT_Library library, const char *path)
 {
-    const char *given = getenv("AMONTONS_FONT");
-    if (FT_Init_FreeType(&text->library)) FAIL(err, ERROR_LIBRARY, "FreeType does not start");
-    if (given && given[0]) {
-        if (FT_New_Face(text->library, given, 0, &text->face))
-            FAIL(err, ERROR_LIBRARY, "AMONTONS_FONT=%s is not a font that FreeType can read",
-                 given);
-    } else {
-        for (size_t k = 0; k < sizeof FONT_FILES / sizeof *FONT_FILES && !text->face; ++k)
-            if (FT_New_Face(text->library, FONT_FILES[k], 0, &text->face)) text->face = NULL;
+    FT_Face face = NULL;
+    if (FT_New_Face(library, path, 0, &face)) return false;
+    bool scales = FT_IS_SCALABLE(face);
+    FT_Done_Face(face);
+    return scales;
+}
+
+// AMONTONS_FONT is taken at its word: where it is wrong, no other font is tried.
+static bool font_find(const char **path, Error *err)
+{
+    FT_Library library = NULL;
+    *path = getenv("AMONTONS_FONT");
+    if (FT_Init_FreeType(&library)) FAIL(err, ERROR_LIBRARY, "FreeType does not start");
+    if (*path && (*path)[0]) {
+        if (!is_font(library, *path))
+            FAIL(err, ERROR_LIBRARY,
+                 "AMONTONS_FONT=%s is not a font that FreeType can read and scale", *path);
+        goto cleanup;
     }
-    if (!text->face)
-        FAIL(err, ERROR_LIBRARY,
-             "no DejaVuSans.ttf in the system's font folders (%s, ...): install the Debian package "
-             "fonts-dejavu-core, or set AMONTONS_FONT to a .ttf file",
-             FONT_FILES[0]);
-    if (!FT_IS_SCALABLE(text->face))
-        FAIL(err, ERROR_LIBRARY, "the font %s has no outlines that can be scaled", given);
+    for (size_t k = 0; k < sizeof FONT_FILES / sizeof *FONT_FILES; ++k) {
+        *path = FONT_FILES[k];
+        if (is_font(library, *path)) goto cleanup;
+    }
+    FAIL(err, ERROR_LIBRARY,
+         "no DejaVuSans.ttf in the system's font folders (%s, ...): install the Debian package "
+         "fonts-dejavu-core, or set AMONTONS_FONT to a .ttf file",
+         FONT_FILES[0]);
 cleanup:
+    FT_Done_FreeType(library);
     return error_is_clean(err);
 }
 
+// Cairo opens the file itself, as it keeps fonts for longer than we do. Nothing is looked up: the
+// pattern names a file.
+static bool font_open(Text *text, Error *err)
+{
+    const char *path = NULL;
+    FcPattern *pattern = NULL;
+    TRY(font_find(&path, err));
+    pattern = FcPatternCreate();
+    if (!pattern) FAIL(err, ERROR_MEMORY, "no memory for a font");
+    FcPatternAddString(pattern, FC_FILE, (const FcChar8 *)path);
+    text->font = cairo_ft_font_face_create_for_pattern(pattern);
+cleanup:
+    if (pattern) FcPatternDestroy(pattern);
+    return error_is_clean(err);
+}
+
+// Not hinted: letters keep their shape at print size, and are as wide in a PDF as in a PNG.
 Text *text_create(Canvas *canvas, Error *err)
 {
     Text *text = NULL;
     TRY(text = NEW_ARRAY(Text, 1, err));
     text->canvas = canvas;
-    TRY(text->sheet = NEW_ARRAY(uint8_t, (int64_t)GLYPH_SHEET_SIZE * GLYPH_SHEET_SIZE, err));
     TRY(font_open(text, err));
+    text->options = cairo_font_options_create();
+    cairo_font_options_set_hint_style(text->options, CAIRO_HINT_STYLE_NONE);
+    cairo_font_options_set_hint_metrics(text->options, CAIRO_HINT_METRICS_OFF);
+    cairo_font_options_set_antialias(text->options, CAIRO_ANTIALIAS_GRAY);
     return text;
 cleanup:
     text_destroy(text);
@@ -102,9 +117,8 @@ cleanup:
 void text_destroy(Text *text)
 {
     if (!text) return;
-    if (text->face) FT_Done_Face(text->face);
-    if (text->library) FT_Done_FreeType(text->library);
-    memory_free(text->sheet);
+    if (text->options) cairo_font_options_destroy(text->options);
+    cairo_font_face_destroy(text->font);   // NULL is fine
     memory_free(text);
 }
 
@@ -113,109 +127,45 @@ double text_digit_height(void)
     return DIGIT_HEIGHT;
 }
 
-// --- glyphs --------------------------------------------------------------------------------------
-// Room for width by height pixels and one around them.
-static bool sheet_place(Text *text, Glyph *glyph, Error *err)
+// Bytes of the UTF-8 letter at `words`; 0: they are none.
+static size_t letter_length(const char *words)
 {
-    if (text->shelf_x + glyph->width + 1 > GLYPH_SHEET_SIZE) {
-        text->shelf_x = 0;
-        text->shelf_y += text->shelf_height;
-        text->shelf_height = 0;
-    }
-    if (text->shelf_y + glyph->height + 1 > GLYPH_SHEET_SIZE || glyph->width > GLYPH_SHEET_SIZE)
-        FAIL(err, ERROR_LIBRARY, "the picture's text is too large for the sheet of glyphs");
-    glyph->x = text->shelf_x;
-    glyph->y = text->shelf_y;
-    text->shelf_x += glyph->width + 1;
-    if (glyph->height + 1 > text->shelf_height) text->shelf_height = glyph->height + 1;
-cleanup:
-    return error_is_clean(err);
+    const unsigned char *byte = (const unsigned char *)words;
+    size_t length = byte[0] >= 0xf0 ? 4 : byte[0] >= 0xe0 ? 3 : byte[0] >= 0xc0 ? 2 : 1;
+    bool lead = byte[0] < 0x80 || (byte[0] >= 0xc2 && byte[0] <= 0xf4);
+    for (size_t k = 1; k < length; ++k)
+        if ((byte[k] & 0xc0) != 0x80) return 0;
+    bool wide = length < 3 || byte[0] != 0xe0 || byte[1] >= 0xa0;   // else written too long
+    bool paired = byte[0] == 0xed && byte[1] >= 0xa0;   // half a UTF-16 pair
+    bool beyond = length == 4 &&
+                  ((byte[0] == 0xf0 && byte[1] < 0x90) || (byte[0] == 0xf4 && byte[1] >= 0x90));
+    return lead && wide && !paired && !beyond ? length : 0;
 }
 
-// Rasterises the letter at its size and slant, and puts it onto the sheet. Not hinted: letters keep
-// their shape at print size, and the same file comes out wherever FreeType is set up otherwise.
-static bool glyph_make(Text *text, Glyph *glyph, Error *err)
+// Draws, or only measures, the letters that wait.
+static void run_end(Line *line, const Pen *pen)
 {
-    FT_Matrix shear = {0x10000, (FT_Fixed)(SLANT * 0x10000), 0, 0x10000};
-    FT_GlyphSlot slot = text->face->glyph;
-    if (FT_Set_Pixel_Sizes(text->face, 0, (FT_UInt)glyph->size) ||
-        FT_Load_Char(text->face, glyph->letter, FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP))
-        FAIL(err, ERROR_LIBRARY, "FreeType does not give the letter U+%04X at %d pixels",
-             glyph->letter, glyph->size);
-    glyph->advance = (double)slot->linearHoriAdvance / 65536;
-    if (glyph->slanted) FT_Outline_Transform(&slot->outline, &shear);
-    if (FT_Render_Glyph(slot, FT_RENDER_MODE_NORMAL))
-        FAIL(err, ERROR_LIBRARY, "FreeType does not draw the letter U+%04X", glyph->letter);
-    glyph->width = (int32_t)slot->bitmap.width;
-    glyph->height = (int32_t)slot->bitmap.rows;
-    glyph->left = slot->bitmap_left;
-    glyph->top = slot->bitmap_top;
-    TRY(sheet_place(text, glyph, err));
-    for (int32_t row = 0; row < glyph->height; ++row)
-        memcpy(text->sheet + (size_t)(glyph->y + row) * GLYPH_SHEET_SIZE + glyph->x,
-               slot->bitmap.buffer + (ptrdiff_t)row * slot->bitmap.pitch, (size_t)glyph->width);
-    canvas_set_glyphs(text->canvas, text->sheet);
-cleanup:
-    return error_is_clean(err);
+    cairo_matrix_t matrix;
+    cairo_text_extents_t extents;
+    if (line->length == 0) return;
+    line->run[line->length] = '\0';
+    line->length = 0;
+    cairo_matrix_init(&matrix, pen->size, 0, pen->slanted ? -SLANT * pen->size : 0, pen->size, 0,
+                      0);
+    cairo_set_font_matrix(line->cairo, &matrix);
+    if (line->drawn) {
+        cairo_move_to(line->cairo, line->along, -pen->baseline);
+        cairo_show_text(line->cairo, line->run);
+    }
+    cairo_text_extents(line->cairo, line->run, &extents);
+    line->along += extents.x_advance;
 }
 
-// NULL after a fault, which the canvas keeps.
-static const Glyph *glyph_find(Text *text, uint32_t letter, const Pen *pen)
+static void letter_add(Line *line, const Pen *pen, const char *letter, size_t length)
 {
-    Error *err = canvas_failure(text->canvas);
-    Glyph wanted = {.letter = letter, .size = (int32_t)lround(pen->size), .slanted = pen->slanted};
-    for (int32_t k = 0; k < text->glyph_count; ++k) {
-        const Glyph *known = &text->glyphs[k];
-        if (known->letter == letter && known->size == wanted.size &&
-            known->slanted == wanted.slanted)
-            return known;
-    }
-    if (text->glyph_count == GLYPHS_MAX)
-        FAIL(err, ERROR_LIBRARY, "the picture has more than %d different glyphs", GLYPHS_MAX);
-    TRY(glyph_make(text, &wanted, err));
-    text->glyphs[text->glyph_count] = wanted;
-    return &text->glyphs[text->glyph_count++];
-cleanup:
-    return NULL;
-}
-
-// --- lines ---------------------------------------------------------------------------------------
-// The next Unicode letter of UTF-8; *words moves behind it.
-static uint32_t letter_next(const char **words)
-{
-    const unsigned char *byte = (const unsigned char *)*words;
-    int32_t more = byte[0] >= 0xf0 ? 3 : byte[0] >= 0xe0 ? 2 : byte[0] >= 0xc0 ? 1 : 0;
-    uint32_t letter = more ? byte[0] & (0x3fu >> more) : byte[0];
-    if (byte[0] >= 0x80 && more == 0) letter = REPLACEMENT;
-    for (int32_t k = 1; k <= more; ++k) {
-        if ((byte[k] & 0xc0) != 0x80) {
-            *words += k;
-            return REPLACEMENT;
-        }
-        letter = letter << 6 | (byte[k] & 0x3f);
-    }
-    *words += more + 1;
-    return letter;
-}
-
-// A quad of whole pixels, so that a texel is a pixel; turned by a quarter for rising text.
-static void glyph_draw(Text *text, const Line *line, const Pen *pen, const Glyph *glyph)
-{
-    static const int32_t order[6] = {0, 1, 2, 2, 1, 3};
-    double left = round(line->along) + glyph->left, top = round(pen->baseline) + glyph->top;
-    Vertex corner[4], vertices[6];
-    for (int32_t k = 0; k < 4; ++k) {
-        int32_t right = (k & 1) * glyph->width, down = (k >> 1) * glyph->height;
-        double along = left + right, up = top - down;
-        bool rising = line->style->rising;
-        corner[k] = (Vertex){.x = (float)(line->start.x + (rising ? -up : along)),
-                             .y = (float)(line->start.y - (rising ? along : up)),
-                             .u = (float)(glyph->x + right),
-                             .v = (float)(glyph->y + down),
-                             .color = line->style->color};
-    }
-    for (int32_t k = 0; k < 6; ++k) vertices[k] = corner[order[k]];
-    canvas_triangles(text->canvas, PAINT_GLYPH, vertices, 6);
+    if (line->length + length >= RUN_SIZE) run_end(line, pen);
+    memcpy(line->run + line->length, letter, length);
+    line->length += length;
 }
 
 // The pen inside a mark's braces.
@@ -232,49 +182,59 @@ static Pen pen_marked(const Pen *pen, char mark)
     return inner;
 }
 
-// Goes along the words, letter by letter, opening and closing marks; draws or only measures.
-static void line_walk(Text *text, Line *line, const char *words)
+// Goes along the words, letter by letter, opening and closing marks.
+static void line_walk(Line *line, double size, const char *words)
 {
-    Pen pen[NEST_MAX + 1] = {{.size = line->style->size}};
+    Pen pen[NEST_MAX + 1] = {{.size = size}};
     int32_t depth = 0;
     while (*words) {
-        bool mark = (*words == '_' || *words == '^' || *words == '~') && words[1] == '{';
-        if (mark && depth < NEST_MAX) {
+        bool opens = (*words == '_' || *words == '^' || *words == '~') && words[1] == '{';
+        if (opens && depth < NEST_MAX) {
+            run_end(line, &pen[depth]);
             pen[depth + 1] = pen_marked(&pen[depth], *words);
             ++depth;
             words += 2;
-            continue;
-        }
-        if (*words == '}' && depth > 0) {
-            --depth;
+        } else if (*words == '}' && depth > 0) {
+            run_end(line, &pen[depth--]);
             ++words;
-            continue;
+        } else {
+            size_t length = letter_length(words);
+            bool minus = *words == '-' && pen[depth].raised;
+            const char *letter = minus ? MINUS : length ? words : REPLACEMENT;
+            letter_add(line, &pen[depth], letter, letter == words ? length : strlen(letter));
+            words += length ? length : 1;
         }
-        uint32_t letter = letter_next(&words);
-        if (letter == '-' && pen[depth].raised) letter = MINUS;
-        const Glyph *glyph = glyph_find(text, letter, &pen[depth]);
-        if (!glyph) return;
-        if (line->drawn && glyph->width > 0) glyph_draw(text, line, &pen[depth], glyph);
-        line->along += glyph->advance;
     }
+    run_end(line, &pen[depth]);
+}
+
+static void line_begin(Text *text, Line *line, Color color)
+{
+    line->cairo = canvas_ink(text->canvas, color);
+    cairo_set_font_face(line->cairo, text->font);
+    cairo_set_font_options(line->cairo, text->options);
 }
 
 // In the pixels of `size`, marks not counted.
 double text_width(Text *text, double size, const char *words)
 {
-    TextStyle style = {.size = size};
-    Line line = {.style = &style};
-    line_walk(text, &line, words);
+    Line line = {0};
+    line_begin(text, &line, (Color){0, 0, 0, 1});
+    line_walk(&line, size, words);
     return line.along;
 }
 
-// Placed by its measured width; the line then starts on a whole pixel, and glyphs keep sharp.
+// Placed by its measured width.
 void text_draw(Text *text, const TextStyle *style, Point place, const char *words)
 {
     double back = style->across * text_width(text, style->size, words);
     double down = style->up * style->size * DIGIT_HEIGHT;
-    Line line = {.style = style, .drawn = true};
-    line.start.x = round(place.x + (style->rising ? down : -back));
-    line.start.y = round(place.y + (style->rising ? back : down));
-    line_walk(text, &line, words);
+    Line line = {.drawn = true};
+    line_begin(text, &line, style->color);
+    cairo_save(line.cairo);
+    cairo_translate(line.cairo, round(place.x + (style->rising ? down : -back)),
+                    round(place.y + (style->rising ? back : down)));
+    if (style->rising) cairo_rotate(line.cairo, -PI / 2);
+    line_walk(&line, style->size, words);
+    cairo_restore(line.cairo);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Text on a canvas: DejaVu Sans through FreeType, glyphs gathered on one sheet, placed on whole
-// pixels. Called by axes and the figures.
+// Text on a canvas: DejaVu Sans, opened by FreeType, drawn by Cairo. Called by page, axes and the
+// figures.
 //
 // Marks in a text (UTF-8): _{below} ^{above} ~{slanted, for variables}; they nest:
 // "~{F}_{T} / ~{F}_{N}", "10^{-3}" (the hyphen is drawn as a minus sign inside ^{}).
@@ -20,7 +20,7 @@ typedef struct TextStyle {
 } TextStyle;
 
 // Opens the font: the file of the environment's AMONTONS_FONT, else DejaVu Sans where systems keep
-// it. ERROR_LIBRARY names the package to install. Glyphs go onto `canvas`, which must outlive it.
+// it. ERROR_LIBRARY names the package to install. Draws on `canvas`, which must outlive it.
 Text *text_create(Canvas *canvas, Error *err);
 void text_destroy(Text *text);   // NULL is fine
 

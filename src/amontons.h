@@ -19,6 +19,7 @@
 #define AMONTONS_H
 
 #include "amontons_error.h"
+#include "amontons_pictures.h"
 
 #include <signal.h>
 #include <stdbool.h>
@@ -247,15 +248,10 @@ bool amontons_sweep(const char *path, const SweepOptions *options, SweepSummary 
 bool amontons_sweep_element(const char *path, int32_t element, Error *err);
 
 // --- results ------------------------------------------------------------------------------------
-// Draws `figures` ([figure_count] names; 0: all) of the result in `folder` into folder/figures.
-bool amontons_render_result(const char *folder, const char *const *figures, int32_t figure_count,
-                            Error *err);
-// Draws the curves that the YAML file `plot` describes (render/plot_file.h) into `png`.
-bool amontons_render_plot_file(const char *plot, const char *png, Error *err);
 typedef struct InfoOptions {
     const char *const *overrides;   // [override_count] "rod.width=1" of a scene, "n=4" of a .geo
     int32_t override_count;
-    const char *picture;   // PNG file of the mesh, or of a scene's mesh and rod; NULL: none
+    const char *picture;   // .png, .pdf or .svg of the mesh, or a scene's mesh and rod; NULL: none
 } InfoOptions;
 // Says in text what a mesh (.msh, .geo), a scene (.yaml) or a result folder holds. options: NULL is
 // fine.

@@ -8,9 +8,7 @@
 // points and its name, then a line "x y" for each point.
 #include "base/memory.h"
 #include "render/axes.h"
-#include "render/context.h"
 #include "render/legend_place.h"
-#include "render/png_file.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -20,6 +18,7 @@ enum { LINE_SIZE = 200, CURVES_MAX = 8, CHARTS_MAX = 60 };
 enum { COLUMNS = 3, WIDTH = 1000, HEIGHT = 700 };   // WIDTH, HEIGHT: of one chart, pixels
 enum { MARKED_MAX = 20 };   // curves of so few points show each of them
 
+static const double COLUMN_MM = 86;   // of one chart in print
 static const double NAME_PITCH = 9, DISC_RADIUS = 1.6;   // points
 
 typedef struct Curve {
@@ -206,35 +205,20 @@ static void charts_destroy(Chart *charts, int32_t count)
 static bool make_page(const char *path, Error *err)
 {
     int32_t count = 0;
-    RenderContext *context = NULL;
-    Page page = {.point = WIDTH / COLUMN_WIDTH_POINTS};
-    uint8_t *pixels = NULL;
+    Page page = {0};
     Chart *charts = NEW_ARRAY(Chart, CHARTS_MAX, err);
     if (!charts) goto cleanup;
     TRY(read_charts(charts, &count, err));
     int32_t columns = count < COLUMNS ? count : COLUMNS, rows = (count - 1) / COLUMNS + 1;
-    context = context_create(err);
-    TRY(context);
-    page.canvas = canvas_create(columns * WIDTH, rows * HEIGHT, err);
-    TRY(page.canvas);
-    page.text = text_create(page.canvas, err);
-    TRY(page.text);
+    PictureStyle style = {.width = columns * COLUMN_MM, .dpi = WIDTH / COLUMN_MM * 25.4};
+    TRY(page_begin(&page, &style, (double)(rows * HEIGHT) / (columns * WIDTH), 0, err));
     for (int32_t k = 0; k < count; k++) {
         Point corner = {k % COLUMNS * WIDTH, k / COLUMNS * HEIGHT};
         TRY(draw_chart(&page, corner, &charts[k], err));
     }
-    TRY(canvas_read(page.canvas, &pixels, err));
-    PngPicture picture = {.width = columns * WIDTH,
-                          .height = rows * HEIGHT,
-                          .pixels = pixels,
-                          .pixels_per_metre = WIDTH / (1e-3 * COLUMN_WIDTH_MM),
-                          .title = "Validation of amontons"};
-    TRY(png_file_write(path, &picture, err));
+    TRY(page_finish(&page, path, "Validation of amontons", err));
 cleanup:
-    text_destroy(page.text);
-    canvas_destroy(page.canvas);
-    context_destroy(context);
-    memory_free(pixels);
+    page_destroy(&page);
     charts_destroy(charts, count);
     return error_is_clean(err);
 }

@@ -176,17 +176,25 @@ def sweep(study: Any, settings: Settings | None = None, folder: Any = None, *, j
     return read_table(Path(folder) / "sweep.csv")
 
 
-def render(result: Any, figures: Sequence[str] = ()) -> list[Path]:
-    """Draws pictures of a stored result again: `amontons render`. figures: their names; (): all. The files, in the
-    folder figures/ of the result."""
+def _picture_style(style: dict[str, Any]) -> Any:
+    given = {**style, "format": style.get("format", "png").encode()}
+    return c.PictureStyle(**given)
+
+
+def render(result: Any, figures: Sequence[str] = (), **style: Any) -> list[Path]:
+    """Draws pictures of a stored result again: `amontons render`. figures: their names; (): all. style: format ("png",
+    "pdf", "svg"), width (mm), dpi, dark. The files, in the folder figures/ of the result."""
     folder = result.folder if isinstance(result, Result) else Path(result)
-    call(lib.amontons_render_result, str(folder).encode(), words(figures), len(figures))
-    return sorted((folder / "figures").glob("*.png"))
+    request = c.PictureRequest(figures=words(figures), figure_count=len(figures), style=_picture_style(style))
+    call(lib.amontons_render_result, str(folder).encode(), ctypes.byref(request))
+    return sorted((folder / "figures").glob(f"*.{style.get('format', 'png')}"))
 
 
-def render_plot(plot: Any, png: Any) -> None:
-    """Draws the curves that the YAML file `plot` describes into `png`: `amontons render PLOT.yaml`."""
-    call(lib.amontons_render_plot_file, str(plot).encode(), str(png).encode())
+def render_plot(plot: Any, picture: Any, **style: Any) -> None:
+    """Draws the curves that the YAML file `plot` describes into `picture`, whose name ends in .png, .pdf or .svg:
+    `amontons render PLOT.yaml`. style: as for render, but the format."""
+    given = _picture_style(style)
+    call(lib.amontons_render_plot_file, str(plot).encode(), str(picture).encode(), ctypes.byref(given))
 
 
 def info(path: Any, settings: Settings | None = None, picture: Any = None) -> str:

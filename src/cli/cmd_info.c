@@ -32,8 +32,8 @@ int command_info(int argc, char **argv)
          "Use this value for a key of the scene, or for a parameter of the .geo; may be given "
          "several times",
          .words = &settings},
-        {"picture", 0, "FILE.png", "Draw the mesh, and for a scene where the rod is",
-         .word = &picture},
+        {"picture", 0, "FILE.png",
+         "Draw the mesh, and for a scene where the rod is. Also .pdf, .svg", .word = &picture},
         option_trust(&trusted),
         {0}};
     int status = options_read(&text, options, argc, argv, &file);

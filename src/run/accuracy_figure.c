@@ -89,5 +89,5 @@ bool accuracy_figure(const Levels *levels, const char *title, const char *folder
     write_runs(levels, json);
     json_end(json);
     json_end(json);
-    return json_finish(json, err) && amontons_render_plot_file(path, png, err);
+    return json_finish(json, err) && amontons_render_plot_file(path, png, NULL, err);
 }

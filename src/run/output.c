@@ -90,8 +90,9 @@ bool output_draw_figures(Simulation *simulation, Error *err)
     const char *names[SCENE_LIST_MAX];
     if (wanted->count == 0) return true;
     for (int32_t k = 0; k < wanted->count; k++) names[k] = wanted->name[k];
+    PictureRequest request = {.figures = names, .figure_count = wanted->count};
     double started = clock_seconds();
-    if (!pictures_draw(simulation->folder.path, names, wanted->count, err)) return false;
+    if (!pictures_draw(simulation->folder.path, &request, err)) return false;
     simulation->figures = wanted->count;
     simulation->figures_seconds = clock_seconds() - started;
     return true;

@@ -6,7 +6,6 @@
 #include "amontons.h"
 
 // As amontons_render_result, but always in this process.
-bool pictures_draw(const char *folder, const char *const *figures, int32_t figure_count,
-                   Error *err);
+bool pictures_draw(const char *folder, const PictureRequest *request, Error *err);
 
 #endif

@@ -31,7 +31,7 @@ static const char *const OWN_FILES[] = {
     "static.vtu", "stability.json", "stability.h5", "model1d.json", "model1d.h5"};
 enum { OWN_FILE_COUNT = sizeof OWN_FILES / sizeof OWN_FILES[0] };
 
-#define FIGURE_FILE(id, name, words) name ".png",
+#define FIGURE_FILE(id, name, words) name ".png", name ".pdf", name ".svg",
 static const char *const FIGURES[] = {RENDER_FIGURES(FIGURE_FILE) "accuracy.png", "accuracy.json"};
 
 // A file in its place or a folder that cannot be written to is told at once.

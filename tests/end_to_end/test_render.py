@@ -31,10 +31,14 @@ class Error(ctypes.Structure):
                 ("message", ctypes.c_char * 2000)]
 
 
+class Style(ctypes.Structure):
+    _fields_ = [("format", ctypes.c_char_p), ("width", ctypes.c_double), ("dpi", ctypes.c_double),
+                ("dark", ctypes.c_bool)]
+
+
 class Request(ctypes.Structure):
-    _fields_ = [("folder", ctypes.c_char_p), ("figures", ctypes.POINTER(ctypes.c_char_p)),
-                ("figure_count", ctypes.c_int32), ("width", ctypes.c_int32),
-                ("height", ctypes.c_int32)]
+    _fields_ = [("figures", ctypes.POINTER(ctypes.c_char_p)), ("figure_count", ctypes.c_int32),
+                ("style", Style)]
 
 
 def preload_sanitizer(module):
@@ -51,18 +55,18 @@ LIBRARY = ctypes.CDLL(os.path.join(MODULES, "amontons_render.so"))
 LIBRARY.amontons_render.restype = ctypes.c_bool
 
 
-def render(folder, *figures, width=0, height=0):
+def render(folder, *figures, **style):
     """(code, message) of the call; code 0: drawn."""
     error = Error()
     names = (ctypes.c_char_p * max(len(figures), 1))(*[name.encode() for name in figures])
-    request = Request(folder.encode(), names, len(figures), width, height)
-    done = LIBRARY.amontons_render(ctypes.byref(request), ctypes.byref(error))
+    request = Request(names, len(figures), Style(**style))
+    done = LIBRARY.amontons_render(folder.encode(), ctypes.byref(request), ctypes.byref(error))
     assert done == (error.code == 0)
     return error.code, error.message.decode()
 
 
-def path_of(folder, figure):
-    return os.path.join(folder, "figures", figure + ".png")
+def path_of(folder, figure, ending="png"):
+    return os.path.join(folder, "figures", f"{figure}.{ending}")
 
 
 def read_bytes(folder, figure):
@@ -508,18 +512,76 @@ class Variants(unittest.TestCase):
         for name, options in cases.items():
             with self.subTest(name):
                 fixture.make(self.folder, **options)
-                self.draw(width=600)
+                self.draw(dpi=600 / 86 * 25.4)
                 for figure in FIGURES:
                     self.assertEqual(read_picture(self.folder, figure).shape[1], 600)
 
     def test_wanted_size(self):
+        """A width in mm and dots per inch: letters keep their size in print."""
         fixture.make(self.folder)
-        self.draw("force", width=2000, height=1000)
-        self.assertEqual(read_picture(self.folder, "force").shape, (1000, 2000, 3))
-        for width, height in ((100, 100), (100000, 800), (2000, 10)):
-            code, message = render(self.folder, "force", width=width, height=height)
+        self.draw("force", width=100, dpi=254)
+        wide = read_picture(self.folder, "force")
+        self.assertEqual(wide.shape, (800, 1000, 3))
+        place = read_bytes(self.folder, "force").index(b"pHYs") + 4
+        self.assertEqual(struct.unpack(">II", read_bytes(self.folder, "force")[place:place + 8]), (10000, 10000))
+        for style in {"dpi": 50}, {"width": 10000}, {"width": 1e300}:
+            code, message = render(self.folder, "force", **style)
             self.assertEqual(code, ERROR_INPUT)
             self.assertIn("200 to 8192", message)
+        code, message = render(self.folder, "force", format=b"jpeg")
+        self.assertEqual(code, ERROR_INPUT)
+        self.assertIn("png, pdf, svg", message)
+
+    def test_vector_files(self):
+        """Drawn by poppler and librsvg, PDF and SVG show what the PNG shows; fonts are embedded; the same
+        bytes come out twice."""
+        fixture.make(self.folder)
+        dpi, names = 200, ("force", "slip-map")
+        self.draw(*names, dpi=dpi)
+        plain = {name: read_picture(self.folder, name) for name in names}
+        self.draw(*names, dpi=dpi, format=b"pdf")
+        self.draw(*names, dpi=dpi, format=b"svg")
+        for name in names:
+            pdf, svg = path_of(self.folder, name, "pdf"), path_of(self.folder, name, "svg")
+            with open(pdf, "rb") as file:
+                content = file.read()
+            self.assertNotIn(b"CreationDate", content)
+            fonts = subprocess.run(["pdffonts", pdf], capture_output=True, text=True, check=True).stdout.splitlines()[2:]
+            self.assertGreater(len(fonts), 0)
+            for font in fonts:
+                self.assertRegex(font, r"\+DejaVuSans .* yes yes yes ", "embedded, a subset, with letters to copy")
+            words = subprocess.run(["pdftotext", pdf, "-"], capture_output=True, text=True, check=True).stdout
+            self.assertIn("10−3", words)
+            across, down = plain[name].shape[1], plain[name].shape[0]
+            subprocess.run(["pdftoppm", "-png", "-singlefile", "-scale-to-x", str(across), "-scale-to-y", str(down),
+                            pdf, os.path.join(self.folder, "figures", "drawn_pdf")], check=True)
+            subprocess.run(["rsvg-convert", "-w", str(across), "-h", str(down), svg,
+                            "-o", path_of(self.folder, "drawn_svg")], check=True)
+            for drawn in "drawn_pdf", "drawn_svg":
+                other = read_picture(self.folder, drawn)[:down, :across, :3]
+                blurred = [picture[:down // 4 * 4, :across // 4 * 4].reshape(down // 4, 4, across // 4, 4, 3).mean(axis=(1, 3))
+                           for picture in (plain[name], other)]
+                away = np.abs(blurred[0] - blurred[1]).max(axis=-1)
+                self.assertLess(away.mean(), 3, (name, drawn))
+                self.assertLess((away > 60).mean(), 0.01, (name, drawn))
+
+    def test_dark(self):
+        """White lines on black, and the colour map turned round: what slips most is brightest."""
+        fixture.make(self.folder)
+        self.draw("slip-map")
+        white = read_picture(self.folder, "slip-map")
+        self.draw("slip-map", dark=True)
+        dark = read_picture(self.folder, "slip-map")
+        self.assertLess(dark[1, 1].max(), 40)
+        for place in np.argwhere(is_color(white, INK))[::997]:
+            self.assertGreater(dark[tuple(place)].min(), 200)
+        frame = Frame(white)
+        row, _ = frame.pixel(0, 0.2)
+        inside = slice(int(frame.left) + 5, int(frame.right) - 5)
+        slips = ~is_color(white[row, inside], STICK, 3)
+        self.assertGreater(slips.sum(), 300)
+        light = np.corrcoef(white[row, inside][slips].sum(axis=-1), dark[row, inside][slips].sum(axis=-1))
+        self.assertLess(light[0, 1], -0.9)
 
 
 class Errors(unittest.TestCase):

@@ -94,7 +94,7 @@ bool figure_end(Figure *figure, Error *err)
         return false;
     }
     json_end(json);
-    if (json_finish(json, err)) amontons_render_plot_file(path, png, err);
+    if (json_finish(json, err)) amontons_render_plot_file(path, png, NULL, err);
     return error_is_clean(err);
 }
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Shapes, text and heat maps, counted in the pixels that are read back.
+// Shapes, text and heat maps, counted in the pixels that are read back; and the files.
 #include "render/canvas.h"
 
 #include "base/memory.h"
-#include "render/context.h"
 #include "render/shapes.h"
 #include "render/text.h"
 
@@ -12,21 +11,21 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
 enum { SIZE = 400 };
 
 static const Color BLACK = {0, 0, 0, 1};
-static RenderContext *context;
 static Canvas *canvas;
 
 static int canvas_begin(void **state)
 {
+    const CanvasDef def = {.width = SIZE, .height = SIZE, .dpi = 200};
     Error err = {0};
     (void)state;
-    context = context_create(&err);
-    if (context) canvas = canvas_create(SIZE, SIZE, &err);
+    canvas = canvas_create(&def, &err);
     return canvas ? 0 : -1;
 }
 
@@ -34,7 +33,6 @@ static int canvas_end(void **state)
 {
     (void)state;
     canvas_destroy(canvas);
-    context_destroy(context);
     canvas = NULL;
     return 0;
 }
@@ -113,14 +111,21 @@ static void clips_hold(void **state)
     assert_float_equal(area_read(), 500 + 1100, 1e-9);
 }
 
-static void more_triangles_than_a_batch(void **state)
+// A line that is stroked in pieces, with a dash that is not.
+static void long_lines_are_whole(void **state)
 {
     (void)state;
-    for (int32_t k = 0; k < 40000; ++k) {
-        double x = k % 200, y = k / 200 % 200;
-        shape_fill(canvas, BLACK, &(Box){x, y, x + 1, y + 1});
-    }
-    assert_float_equal(area_read(), 40000, 1e-9);
+    enum { COUNT = 1500 };
+    Point line[COUNT];
+    Stroke stroke = {.color = BLACK, .width = 2};
+    for (int32_t k = 0; k < COUNT; ++k) line[k] = (Point){20 + k * 0.2, 100};
+    shape_line(canvas, &stroke, line, COUNT);
+    double solid = 2 * (COUNT - 1) * 0.2;
+    assert_true(fabs(area_read() - solid - 3.14) < 2);
+    stroke.dash = stroke.space = 10;
+    for (int32_t k = 0; k < COUNT; ++k) line[k].y = 200;
+    shape_line(canvas, &stroke, line, COUNT);
+    assert_true(fabs(area_read() - 1.5 * solid - 3.14) < 12);
 }
 
 static void heat_shows_levels_and_holes(void **state)
@@ -198,7 +203,7 @@ static void text_turns_and_aligns(void **state)
     assert_true(fabs(y - 100) < 1.5);
     style.rising = true;
     text_draw(text, &style, (Point){300, 300}, "0");
-    assert_true(fabs(area_read() / upright - 2) < 1e-6);
+    assert_true(fabs(area_read() / upright - 2) < 2e-3);
     text_destroy(text);
 }
 
@@ -216,27 +221,55 @@ static void odd_words_do_no_harm(void **state)
     text_destroy(text);
 }
 
-static void too_many_glyphs_are_reported(void **state)
-{
-    (void)state;
-    Error err = {0};
-    uint8_t *pixels = NULL;
-    Text *text = text_begin();
-    for (int32_t size = 100; size < 300; ++size) text_width(text, size, "MW@");
-    assert_false(canvas_read(canvas, &pixels, &err));
-    assert_int_equal(err.code, ERROR_LIBRARY);
-    text_destroy(text);
-}
-
 static void sizes_have_limits(void **state)
 {
     (void)state;
     Error err = {0};
-    assert_null(canvas_create(CANVAS_SIZE_MIN - 1, 300, &err));
+    CanvasDef def = {.width = CANVAS_SIZE_MIN - 1, .height = 300, .dpi = 100};
+    assert_null(canvas_create(&def, &err));
     assert_int_equal(err.code, ERROR_INPUT);
     error_clear(&err);
-    assert_null(canvas_create(300, CANVAS_SIZE_MAX + 1, &err));
+    def = (CanvasDef){.width = 300, .height = CANVAS_SIZE_MAX + 1, .dpi = 100};
+    assert_null(canvas_create(&def, &err));
     assert_int_equal(err.code, ERROR_INPUT);
+}
+
+// White paper becomes dark, ink light, and a hue stays the same.
+static void dark_paper_turns_lightness(void **state)
+{
+    (void)state;
+    Color paper = color_on_dark((Color){1, 1, 1, 1}), ink = color_on_dark((Color){0, 0, 0, 0.5F});
+    Color red = color_on_dark((Color){0.6F, 0.1F, 0.1F, 1});
+    assert_true(paper.red < 0.12F && fabsf(paper.red - paper.blue) < 0.01F);
+    assert_true(ink.red > 0.9F && ink.alpha == 0.5F);
+    assert_true(red.red > 0.9F && red.green < 0.8F && red.blue < 0.8F);
+}
+
+// Memory that runs out while Cairo hands on the bytes of a PDF is an error, and none is lost.
+static void vector_files_run_out_of_memory(void **state)
+{
+    (void)state;
+    const CanvasFormat formats[] = {CANVAS_PNG, CANVAS_PDF, CANVAS_SVG};
+    for (int32_t f = 0; f < 3; ++f) {
+        const CanvasDef def = {.format = formats[f], .width = 300, .height = 300, .dpi = 100};
+        int64_t live = memory_counters().live, k = 0;
+        bool done = false;
+        for (; !done; ++k) {
+            char path[] = "/tmp/amontons_canvas_XXXXXX";
+            Error err = {0};
+            close(mkstemp(path));
+            memory_fail_after(k);
+            Canvas *page = canvas_create(&def, &err);
+            if (page) shape_disc(page, BLACK, (Point){100, 100}, 50);
+            done = page && canvas_write(page, path, "a disc", &err);
+            memory_fail_after(-1);
+            canvas_destroy(page);
+            unlink(path);
+            assert_int_equal(memory_counters().live, live);
+            assert_int_equal(err.code, done ? ERROR_NONE : ERROR_MEMORY);
+        }
+        assert_in_range(k, 3, 100);
+    }
 }
 
 int main(void)
@@ -249,14 +282,15 @@ int main(void)
         CASE(dashes_leave_gaps),
         CASE(broken_points_break_lines),
         CASE(clips_hold),
-        CASE(more_triangles_than_a_batch),
+        CASE(long_lines_are_whole),
         CASE(heat_shows_levels_and_holes),
         CASE(a_heat_map_too_large_is_reported),
         CASE(text_has_width_and_ink),
         CASE(text_turns_and_aligns),
         CASE(odd_words_do_no_harm),
-        CASE(too_many_glyphs_are_reported),
         CASE(sizes_have_limits),
+        cmocka_unit_test(dark_paper_turns_lightness),
+        cmocka_unit_test(vector_files_run_out_of_memory),
     };
 #undef CASE
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -4,7 +4,6 @@
 #include "render/legend_place.h"
 
 #include "near.h"
-#include "render/context.h"
 #include "render/figure_curves.h"
 
 #include "base/memory.h"
@@ -120,13 +119,11 @@ static int32_t frame_right(Plot *plot)
 {
     Error err = {0};
     enum { WIDTH = 860, HEIGHT = 645 };
-    Page page = {.point = WIDTH / COLUMN_WIDTH_POINTS};
-    RenderContext *context = context_create(&err);
+    const PictureStyle style = {.dpi = 254};   // 10 pixels a millimetre
+    Page page = {0};
     uint8_t *pixels = NULL;
     int32_t right = -1;
-    assert_non_null(context);
-    assert_non_null(page.canvas = canvas_create(WIDTH, HEIGHT, &err));
-    assert_non_null(page.text = text_create(page.canvas, &err));
+    assert_true(page_begin(&page, &style, (double)HEIGHT / WIDTH, 0, &err));
     assert_true(figure_curves(&page, plot, &err) && canvas_read(page.canvas, &pixels, &err));
     for (int32_t column = 0; column < WIDTH; column++) {
         int32_t dark = 0;
@@ -134,9 +131,7 @@ static int32_t frame_right(Plot *plot)
         if (dark > HEIGHT / 2) right = column;
     }
     memory_free(pixels);
-    text_destroy(page.text);
-    canvas_destroy(page.canvas);
-    context_destroy(context);
+    page_destroy(&page);
     return right;
 }
 

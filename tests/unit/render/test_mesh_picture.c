@@ -39,7 +39,7 @@ static RenderMesh mesh_by_hand(MeshGroup groups[3])
                         .groups = groups,
                         .rod_low = 0.4,
                         .rod_high = 0.6,
-                        .width = 400};
+                        .style = {.dpi = 118.14}};   // 400 pixels
 }
 
 // Width and height from the file's own head.
@@ -59,13 +59,13 @@ static void read_size(const char *path, uint32_t size[2])
 static void test_drawn(void **state)
 {
     (void)state;
-    char path[] = "/tmp/amontons_mesh_XXXXXX";
+    char path[] = "/tmp/amontons_mesh_XXXXXX.png";
     Error err = {0};
     MeshGroup groups[3];
     RenderMesh mesh = mesh_by_hand(groups);
     uint32_t size[2];
     int64_t live = memory_counters().live;
-    close(mkstemp(path));
+    close(mkstemps(path, 4));
     assert_true(amontons_render_mesh(&mesh, path, &err));
     assert_int_equal(memory_counters().live, live);
     read_size(path, size);
@@ -73,7 +73,7 @@ static void test_drawn(void **state)
     assert_in_range(size[1], 250, 400);   // 2 x 1 with margins, lines above, numbers below
     mesh.title = mesh.note = NULL;
     mesh.rod_low = mesh.rod_high = NAN;
-    mesh.width = 0;
+    mesh.style.dpi = 0;
     assert_true(amontons_render_mesh(&mesh, path, &err));
     read_size(path, size);
     assert_int_equal(size[0], 1720);
@@ -84,7 +84,7 @@ static void test_drawn(void **state)
 static void test_tall(void **state)
 {
     (void)state;
-    char path[] = "/tmp/amontons_mesh_XXXXXX";
+    char path[] = "/tmp/amontons_mesh_XXXXXX.png";
     Error err = {0};
     MeshGroup groups[3];
     RenderMesh mesh = mesh_by_hand(groups);
@@ -92,7 +92,7 @@ static void test_tall(void **state)
     uint32_t size[2];
     for (int32_t k = 0; k < 12; k++) places[k] = k % 2 ? 50 * PLACES[k] : PLACES[k];
     mesh.position = places;
-    close(mkstemp(path));
+    close(mkstemps(path, 4));
     assert_true(amontons_render_mesh(&mesh, path, &err));
     read_size(path, size);
     assert_true(size[1] <= 1.4 * 400 + 1);

@@ -83,7 +83,7 @@ static void names_stand_beside_y(void **state)
     assert_string_equal(plot->main.y.names[1], "best");
     assert_true(plot->main.y.low == 0.5 && plot->main.y.high == 2.5);
     assert_true(fabs(plot->main.x.low - 0.5) < 1e-12 && fabs(plot->main.x.high - 11.5) < 1e-12);
-    if (!amontons_render_plot(path, png, &err)) fail_msg("%s", err.message);
+    if (!amontons_render_plot(path, png, NULL, &err)) fail_msg("%s", err.message);
     plot_destroy(plot);
     memory_free(plot);
 }
@@ -133,13 +133,13 @@ static void draws_and_frees_all(void **state)
     Error err = {0};
     int64_t live = memory_counters().live, k = 0;
     write_plot(WHOLE);
-    if (!amontons_render_plot(path, png, &err)) fail_msg("%s", err.message);
+    if (!amontons_render_plot(path, png, NULL, &err)) fail_msg("%s", err.message);
     assert_int_equal(access(png, F_OK), 0);
     assert_int_equal(memory_counters().live, live);
     for (bool done = false; !done; k++) {
         err = (Error){0};
         memory_fail_after(k);
-        done = amontons_render_plot(path, png, &err);
+        done = amontons_render_plot(path, png, NULL, &err);
         memory_fail_after(-1);
         assert_true(done || err.code == ERROR_MEMORY);
         assert_int_equal(memory_counters().live, live);

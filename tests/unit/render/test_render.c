@@ -81,9 +81,9 @@ static void draws_all_and_frees_all(void **state)
 {
     (void)state;
     Error err = {0};
-    RenderRequest request = {.folder = folder};
+    PictureRequest request = {0};
     int64_t live = memory_counters().live;
-    assert_true(amontons_render(&request, &err));
+    assert_true(amontons_render(folder, &request, &err));
     assert_int_equal(memory_counters().live, live);
     assert_true(picture_exists("force.png"));
     assert_true(picture_exists("slip-map.png"));
@@ -94,12 +94,12 @@ static void draws_all_and_frees_all(void **state)
 static void memory_runs_out_everywhere(void **state)
 {
     (void)state;
-    RenderRequest request = {.folder = folder, .width = 240, .height = 200};
+    PictureRequest request = {.style = {.dpi = 120}};
     int64_t live = memory_counters().live, k = 0;
     for (; k < FAULTS_MAX; ++k) {
         Error err = {0};
         memory_fail_after(k);
-        bool done = amontons_render(&request, &err);
+        bool done = amontons_render(folder, &request, &err);
         memory_fail_after(-1);
         assert_int_equal(memory_counters().live, live);
         if (done) break;
@@ -116,8 +116,8 @@ static void figures_can_be_chosen(void **state)
     char command[PATH_SIZE + 20];
     snprintf(command, sizeof command, "rm -rf '%s/figures'", folder);
     assert_int_equal(system(command), 0);
-    RenderRequest request = {.folder = folder, .figures = names, .figure_count = 1};
-    assert_true(amontons_render(&request, &err));
+    PictureRequest request = {.figures = names, .figure_count = 1};
+    assert_true(amontons_render(folder, &request, &err));
     assert_true(picture_exists("contact-density.png"));
     assert_false(picture_exists("force.png"));
 }
@@ -127,8 +127,8 @@ static void unknown_figures_are_named(void **state)
     (void)state;
     Error err = {0};
     const char *const names[] = {"force", "colour"};
-    RenderRequest request = {.folder = folder, .figures = names, .figure_count = 2};
-    assert_false(amontons_render(&request, &err));
+    PictureRequest request = {.figures = names, .figure_count = 2};
+    assert_false(amontons_render(folder, &request, &err));
     assert_int_equal(err.code, ERROR_INPUT);
     assert_non_null(strstr(err.message, "\"colour\""));
     assert_non_null(strstr(err.message, "force, slip-map, contact-density"));

@@ -65,7 +65,7 @@ static void use_everything(const char *place)
     RunOptions options = {.folder = folder}, nowhere = {0};
     bool done = amontons_run(scene, &options, &summary, &err);
     bool read = amontons_scene_read("no-such-scene.yaml", NULL, 0, &none, &refused);
-    bool shown = amontons_render_result("no-such-folder", NULL, 0, &unread);
+    bool shown = amontons_render_result("no-such-folder", NULL, &unread);
     bool ended = amontons_run(failing, &nowhere, &summary, &unfinished);
     amontons_scene_destroy(scene);
     amontons_scene_destroy(failing);

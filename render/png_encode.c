@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// PNG by libpng (ISO/IEC 15948): 8-bit RGB, sRGB, with the density that gives the picture its
-// printed width. Written as `path`.part and renamed. Bytes are the same for the same pixels: no
-// time is stored.
-#include "render/png_file.h"
+// By libpng (ISO/IEC 15948): 8-bit RGB, sRGB, with the density that gives the picture its printed
+// width, which Cairo's own writer leaves out.
+#include "render/png_encode.h"
 
 #include <png.h>
 
-#include <errno.h>
-#include <limits.h>
 #include <math.h>
 #include <setjmp.h>
-#include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 // Large areas of one colour: a low level is five times as fast as the default and 10 % larger.
 enum { COMPRESSION_LEVEL = 3, TEXTS = 2 };
 
-// libpng's way to report: keep the cause, then jump back into picture_write.
+typedef struct Output {
+    PngSink sink;
+    void *context;
+} Output;
+
+// libpng's way to report: keep the cause, then jump back into png_encode.
 static void fault_keep(png_structp png, png_const_charp message)
 {
     Error *err = png_get_error_ptr(png);
@@ -30,6 +30,17 @@ static void warning_drop(png_structp png, png_const_charp message)
 {
     (void)png;
     (void)message;
+}
+
+static void bytes_pass(png_structp png, png_bytep bytes, size_t length)
+{
+    const Output *output = png_get_io_ptr(png);
+    if (!output->sink(output->context, bytes, length)) png_error(png, "no memory for a picture");
+}
+
+static void bytes_flush(png_structp png)
+{
+    (void)png;   // they are in memory
 }
 
 // Size, colour space, density for print, title and program: everything before the rows.
@@ -50,11 +61,14 @@ static void head_write(png_structp png, png_infop info, const PngPicture *pictur
     png_set_pHYs(png, info, density, density, PNG_RESOLUTION_METER);
     png_set_text(png, info, texts, TEXTS);
     png_write_info(png, info);
+    png_set_filler(png, 0, PNG_FILLER_AFTER);   // the fourth byte is left out
+    png_set_bgr(png);
 }
 
 // libpng jumps back to setjmp on a fault: nothing here may change between the two.
-static bool picture_write(FILE *out, const PngPicture *picture, Error *err)
+bool png_encode(const PngPicture *picture, PngSink sink, void *context, Error *err)
 {
+    Output output = {sink, context};
     png_infop info = NULL;
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, err, fault_keep, warning_drop);
     if (png) info = png_create_info_struct(png);
@@ -64,34 +78,12 @@ static bool picture_write(FILE *out, const PngPicture *picture, Error *err)
         return false;
     }
     if (setjmp(png_jmpbuf(png)) == 0) {
-        png_init_io(png, out);
+        png_set_write_fn(png, &output, bytes_pass, bytes_flush);
         head_write(png, info, picture);
         for (int32_t row = 0; row < picture->height; ++row)
-            png_write_row(png, picture->pixels + (size_t)row * (size_t)picture->width * 3);
+            png_write_row(png, picture->pixels + (size_t)row * (size_t)picture->stride);
         png_write_end(png, info);
     }
     png_destroy_write_struct(&png, &info);
-    return error_is_clean(err);
-}
-
-// ERROR_FILE says what the system or libpng said, and which file.
-bool png_file_write(const char *path, const PngPicture *picture, Error *err)
-{
-    char part[PATH_MAX + 8];
-    FILE *out = NULL;
-    snprintf(part, sizeof part, "%s.part", path);
-    out = fopen(part, "wb");
-    if (!out) FAIL(err, ERROR_FILE, "%s", strerror(errno));
-    TRY(picture_write(out, picture, err));
-    if (fflush(out) != 0 || fsync(fileno(out)) != 0) FAIL(err, ERROR_FILE, "%s", strerror(errno));
-    int closed = fclose(out);
-    out = NULL;
-    if (closed != 0 || rename(part, path) != 0) FAIL(err, ERROR_FILE, "%s", strerror(errno));
-cleanup:
-    if (out) fclose(out);
-    if (!error_is_clean(err)) {
-        unlink(part);
-        error_context(err, "cannot write %s", path);
-    }
     return error_is_clean(err);
 }

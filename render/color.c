@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Made from a smooth path in CIELAB (CIE 15:2004, white D65) through a few stations, walked at
-// constant speed and turned to sRGB (IEC 61966-2-1). The stations are ours: lightness falls in
-// nearly equal steps while the hue goes from yellowish white through red to violet, with as much
-// chroma as sRGB holds there.
-#include "render/colormap.h"
+// The map is made from a smooth path in CIELAB (CIE 15:2004, white D65) through a few stations,
+// walked at constant speed and turned to sRGB (IEC 61966-2-1). The stations are ours: lightness
+// falls in nearly equal steps while the hue goes from yellowish white through red to violet, with
+// as much chroma as sRGB holds there.
+#include "render/color.h"
 
 #include <math.h>
 
 enum { STATIONS = 6, PATH_POINTS = 4000 };
+
+static const double DARK_PAPER = 9, DARK_INK = 97;   // CIELAB lightness of what was white, black
 
 typedef struct Lab {
     double L, a, b;
@@ -56,21 +58,52 @@ static double lab_inverse(double f)
     return f > knee ? f * f * f : 3 * knee * knee * (f - 4.0 / 29);
 }
 
-// The transfer function of sRGB; what is outside its gamut by rounding is clipped.
-static uint8_t srgb_byte(double linear)
+// CIELAB's cube root with its linear foot.
+static double lab_root(double part)
 {
-    double value = linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
-    return (uint8_t)lround(255 * fmin(fmax(value, 0), 1));
+    const double knee = 6.0 / 29;
+    return part > knee * knee * knee ? cbrt(part) : part / (3 * knee * knee) + 4.0 / 29;
 }
 
-static void lab_to_srgb(Lab lab, uint8_t color[3])
+// The transfer function of sRGB; what is outside its gamut is clipped.
+static double srgb_value(double linear)
+{
+    double value = linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
+    return fmin(fmax(value, 0), 1);
+}
+
+static double srgb_linear(double value)
+{
+    return value <= 0.04045 ? value / 12.92 : pow((value + 0.055) / 1.055, 2.4);
+}
+
+static Color color_of_lab(Lab lab)
 {
     double f = (lab.L + 16) / 116;
     double x = 0.95047 * lab_inverse(f + lab.a / 500), y = lab_inverse(f);
     double z = 1.08883 * lab_inverse(f - lab.b / 200);
-    color[0] = srgb_byte(3.2404542 * x - 1.5371385 * y - 0.4985314 * z);
-    color[1] = srgb_byte(-0.9692660 * x + 1.8760108 * y + 0.0415560 * z);
-    color[2] = srgb_byte(0.0556434 * x - 0.2040259 * y + 1.0572252 * z);
+    return (Color){(float)srgb_value(3.2404542 * x - 1.5371385 * y - 0.4985314 * z),
+                   (float)srgb_value(-0.9692660 * x + 1.8760108 * y + 0.0415560 * z),
+                   (float)srgb_value(0.0556434 * x - 0.2040259 * y + 1.0572252 * z), 1};
+}
+
+static Lab lab_of_color(Color color)
+{
+    double red = srgb_linear((double)color.red), green = srgb_linear((double)color.green);
+    double blue = srgb_linear((double)color.blue);
+    double x = lab_root((0.4124564 * red + 0.3575761 * green + 0.1804375 * blue) / 0.95047);
+    double y = lab_root(0.2126729 * red + 0.7151522 * green + 0.0721750 * blue);
+    double z = lab_root((0.0193339 * red + 0.1191920 * green + 0.9503041 * blue) / 1.08883);
+    return (Lab){116 * y - 16, 500 * (x - y), 200 * (y - z)};
+}
+
+Color color_on_dark(Color color)
+{
+    Lab lab = lab_of_color(color);
+    lab.L = DARK_INK + (DARK_PAPER - DARK_INK) * lab.L / 100;
+    Color turned = color_of_lab(lab);
+    turned.alpha = color.alpha;
+    return turned;
 }
 
 static double lab_distance(Lab from, Lab to)
@@ -85,7 +118,7 @@ static Lab path_point(int32_t k)
 }
 
 // Walks the path twice: for its length, then to drop an entry each 1 / (MAP_SIZE - 1) of it.
-void colormap_fill(uint8_t *colors)
+void color_map_fill(uint8_t *colors)
 {
     double length = 0, walked = 0;
     for (int32_t k = 0; k < PATH_POINTS; ++k)
@@ -95,6 +128,9 @@ void colormap_fill(uint8_t *colors)
         Lab here = path_point(k);
         if (k > 0) walked += lab_distance(path_point(k - 1), here);
         if (walked < length * entry / (MAP_SIZE - 1) && k < PATH_POINTS) continue;
-        lab_to_srgb(here, colors + 3 * entry++);
+        Color color = color_of_lab(here);
+        colors[3 * entry] = (uint8_t)lroundf(255 * color.red);
+        colors[3 * entry + 1] = (uint8_t)lroundf(255 * color.green);
+        colors[3 * entry++ + 2] = (uint8_t)lroundf(255 * color.blue);
     }
 }

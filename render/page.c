@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "render/page.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double WIDTH_DEFAULT = 86;   // mm: a journal's column
+static const double DPI_DEFAULT = 508;   // 20 pixels a millimetre
+static const double INCH = 25.4;   // mm
+static const double POINTS_AN_INCH = 72;
+
+static bool find_format(const char *name, CanvasFormat *format)
+{
+    for (int32_t k = 0; k < CANVAS_FORMATS; ++k) {
+        *format = (CanvasFormat)k;
+        if (strcmp(canvas_ending(*format), name) == 0) return true;
+    }
+    return false;
+}
+
+bool page_style_of_name(const char *path, PictureStyle *style, Error *err)
+{
+    const char *dot = strrchr(path, '.');
+    CanvasFormat format = CANVAS_PNG;
+    if (!dot || !find_format(dot + 1, &format))
+        FAIL(err, ERROR_INPUT, "%s: the name of a picture ends in .png, .pdf or .svg", path);
+    style->format = canvas_ending(format);
+cleanup:
+    return error_is_clean(err);
+}
+
+static double width_in_mm(const PictureStyle *style)
+{
+    return style->width > 0 ? style->width : WIDTH_DEFAULT;
+}
+
+double page_width(const PictureStyle *style)
+{
+    return width_in_mm(style) / INCH * POINTS_AN_INCH;
+}
+
+bool page_begin(Page *page, const PictureStyle *style, double height, double foot, Error *err)
+{
+    CanvasDef def = {.dpi = style->dpi > 0 ? style->dpi : DPI_DEFAULT, .dark = style->dark};
+    double width = width_in_mm(style) / INCH * def.dpi;
+    *page = (Page){.point = def.dpi / POINTS_AN_INCH};
+    page->foot = round(foot * page->point);
+    if (style->format && !find_format(style->format, &def.format))
+        FAIL(err, ERROR_INPUT, "there is no format \"%s\"; known are png, pdf, svg", style->format);
+    def.width = (int32_t)lround(fmin(width, INT32_MAX));
+    def.height = (int32_t)(lround(fmin(width * height, INT32_MAX / 2)) + lround(page->foot));
+    TRY(page->canvas = canvas_create(&def, err));
+    TRY(page->text = text_create(page->canvas, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+bool page_finish(Page *page, const char *path, const char *title, Error *err)
+{
+    return canvas_write(page->canvas, path, title, err);
+}
+
+void page_destroy(Page *page)
+{
+    text_destroy(page->text);
+    canvas_destroy(page->canvas);
+    *page = (Page){0};
+}

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Pictures of a stored result, and of curves that a file describes. Part of amontons.h.
+#ifndef AMONTONS_PICTURES_H
+#define AMONTONS_PICTURES_H
+
+#include "amontons_error.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Of the printed page; zeroed is fine. Letters and lines keep their size, whatever the width.
+typedef struct PictureStyle {
+    const char *format;   // "png", "pdf", "svg"; NULL: png
+    double width;   // mm; 0: 86, the column of a journal
+    double dpi;   // dots per inch, of a PNG and of maps in the others; 0: 508
+    bool dark;   // light lines on dark paper
+} PictureStyle;
+
+typedef struct PictureRequest {
+    const char *const *figures;   // [figure_count] names, as output.figures has them; 0: all
+    int32_t figure_count;
+    PictureStyle style;
+} PictureRequest;
+
+// Draws figures of the result in `folder` into folder/figures/NAME.png (.pdf, .svg). NULL: all.
+bool amontons_render_result(const char *folder, const PictureRequest *request, Error *err);
+
+// Draws the curves that the YAML file `plot` describes (render/plot_file.h) into the file
+// `picture`, whose name ends in .png, .pdf or .svg: style->format is not asked. NULL is fine.
+bool amontons_render_plot_file(const char *plot, const char *picture, const PictureStyle *style,
+                               Error *err);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
