@@ -10,13 +10,16 @@ from measured_run import PROGRAM
 MARKERS = ("circle", "square", "triangle", "down")
 
 
-def draw(path, title, x_label, y_label, curves):
-    """PATH.yaml and PATH.png; curves: name -> (x, y), both above 0."""
+def draw(path, title, x_label, y_label, curves, guide=None):
+    """PATH.yaml and PATH.png; curves: name -> (x, y), both above 0. guide: the one that is a line, the others being points
+    then."""
     series = []
     for number, (name, (x, y)) in enumerate(curves.items()):
         series.append({"label": name, "x": [float(v) for v in x], "y": [float(v) for v in y],
                        "color": 1 + number % 7, "marker": MARKERS[number % len(MARKERS)],
-                       "filled": number < 4, "line": "thin"})
+                       "filled": number < 4, "line": "none" if guide else "thin"})
+        if name == guide:
+            series[-1] |= {"color": 0, "marker": "none", "line": "dashed"}
     plot = {"title": title, "x": {"label": x_label, "scale": "log"},
             "y": {"label": y_label, "scale": "log"}, "series": series}
     file = path.with_suffix(".yaml")
