@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Only those calls of a driver that HDF5 needs to create a file and write it. To HDF5 all of them
 // succeed (0); `failure` holds what really happened.
+//
+// New bytes go into the file at once. What lies below `kept` is needed to read the file as of the
+// last flush: what HDF5 writes there goes to the journal first (array_disk_settle).
 #include "io/array_disk.h"
 
 #include <errno.h>
@@ -84,6 +87,14 @@ static haddr_t disk_end_of_file(const H5FD_t *base, H5FD_mem_t type)
     return ((const ArrayDisk *)base)->end_of_file;
 }
 
+static bool sync_file(ArrayDisk *disk)
+{
+    // EINVAL: a file system that cannot sync, which is no error.
+    if (fdatasync(disk->file->descriptor) != 0 && errno != EINVAL) note_failure(disk, errno);
+    disk->unsynced = false;
+    return disk->failure == 0;
+}
+
 // HDF5 may ask for what it has not written yet: zeros.
 static herr_t disk_read(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_t address, size_t size,
                         void *buffer)
@@ -91,6 +102,8 @@ static herr_t disk_read(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_t a
     (void)type, (void)transfer;
     ArrayDisk *disk = (ArrayDisk *)base;
     char *next = buffer;
+    haddr_t from = address;
+    size_t whole = size;
     while (size > 0) {
         ssize_t count = pread(disk->file->descriptor, next, size, (off_t)address);
         if (count < 0 && errno == EINTR) continue;
@@ -101,25 +114,17 @@ static herr_t disk_read(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_t a
         size -= (size_t)count;
     }
     memset(next, 0, size);   // past the end, or unreadable
+    int cause = array_journal_overlay(&disk->journal, (int64_t)from, buffer, whole);
+    if (cause != 0) note_failure(disk, cause);
     return 0;
 }
 
-// Room for all that was handed out, before the first table of the last flush is overwritten: else
-// a disk that fills up in the middle of a flush would leave tables of which some are new and some
-// old. Where the file system cannot promise room, that may happen.
-static void reserve(ArrayDisk *disk)
+static void write_over(ArrayDisk *disk, haddr_t address, size_t size, const void *buffer)
 {
-    haddr_t from = disk->reserved > disk->kept ? disk->reserved : disk->kept;
-    if (disk->failure != 0 || from >= disk->end_of_space) return;
-    int cause =
-        posix_fallocate(disk->file->descriptor, (off_t)from, (off_t)(disk->end_of_space - from));
-    if (cause != 0 && cause != EINVAL && cause != EOPNOTSUPP) note_failure(disk, cause);
-    disk->reserved = disk->end_of_space;
-}
-
-void array_disk_keep(ArrayDisk *disk)
-{
-    disk->kept = disk->end_of_space;
+    // What the journal holds now may be needed until the file is on the disk.
+    if (disk->unsynced && !sync_file(disk)) return;
+    int cause = array_journal_add(&disk->journal, (int64_t)address, buffer, size);
+    if (cause != 0) note_failure(disk, cause);
 }
 
 // After a failure nothing more is written: the state of the last flush stays readable.
@@ -129,10 +134,11 @@ static herr_t disk_write(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_t 
     (void)type, (void)transfer;
     ArrayDisk *disk = (ArrayDisk *)base;
     const char *next = buffer;
-    if (address < disk->kept) reserve(disk);
+    bool over = address < disk->kept;
     // HDF5 checks the length when it closes: keep it as if all had been written.
     if (address + size > disk->end_of_file) disk->end_of_file = address + size;
-    while (size > 0 && disk->failure == 0) {
+    if (over && disk->failure == 0) write_over(disk, address, size, buffer);
+    while (size > 0 && disk->failure == 0 && !over) {
         ssize_t count = pwrite(disk->file->descriptor, next, size, (off_t)address);
         if (count < 0 && errno == EINTR) continue;
         if (count <= 0) {
@@ -158,8 +164,73 @@ static herr_t disk_truncate(H5FD_t *base, hid_t transfer, hbool_t closing)
     return 0;
 }
 
+// --- a file from its beginning to its end -------------------------------------------------------
+
+bool array_disk_open(ArrayDisk *disk, const PartFile *file, bool anew, Error *err)
+{
+    struct stat status;
+    *disk = (ArrayDisk){.file = file};   // of a reopened file HDF5 itself says where its space ends
+    int cause = anew ? 0 : array_journal_find(&disk->journal, file->path);
+    if (cause == 0 && disk->journal.holds)
+        cause = array_journal_apply(&disk->journal, file->descriptor);
+    array_journal_close(&disk->journal);
+    if (cause == 0) sync_file(disk);
+    if (cause == 0) cause = disk->failure;
+    if (cause == 0) cause = array_journal_create(&disk->journal, file->path);
+    if (cause != 0) FAIL(err, ERROR_FILE, "cannot write %s: %s", file->part, strerror(cause));
+    if (fstat(file->descriptor, &status) == 0)
+        disk->kept = disk->end_of_file = (haddr_t)status.st_size;
+cleanup:
+    return error_is_clean(err);
+}
+
+bool array_disk_look(ArrayDisk *disk, const PartFile *file, Error *err)
+{
+    struct stat status;
+    *disk = (ArrayDisk){.file = file};
+    int cause = array_journal_find(&disk->journal, file->path);
+    if (cause != 0)
+        FAIL(err, ERROR_FILE, "cannot read %s.journal: %s", file->path, strerror(cause));
+    if (fstat(file->descriptor, &status) == 0) disk->end_of_file = (haddr_t)status.st_size;
+cleanup:
+    return error_is_clean(err);
+}
+
+// First the new bytes, then the journal, each on the disk before the next.
+bool array_disk_settle(ArrayDisk *disk, Error *err)
+{
+    if (disk->failure == 0 && disk->journal.holds && sync_file(disk)) {
+        int cause = array_journal_seal(&disk->journal);
+        if (cause == 0) cause = array_journal_apply(&disk->journal, disk->file->descriptor);
+        if (cause != 0) note_failure(disk, cause);
+        disk->unsynced = true;
+    }
+    disk->kept = disk->end_of_space;
+    return array_disk_check(disk, 0, "", err);
+}
+
+bool array_disk_sync(ArrayDisk *disk, Error *err)
+{
+    sync_file(disk);
+    return array_disk_check(disk, 0, "", err);
+}
+
+bool array_disk_end(ArrayDisk *disk, Error *err)
+{
+    TRY(array_disk_settle(disk, err));
+    TRY(array_disk_sync(disk, err));
+    array_journal_remove(&disk->journal);
+cleanup:
+    return error_is_clean(err);
+}
+
+void array_disk_close(ArrayDisk *disk)
+{
+    array_journal_close(&disk->journal);
+}
+
 // FLMAP_DICHOTOMY: metadata and raw data are gathered apart, though both go to one file.
-bool array_disk_use(ArrayDisk *disk, const PartFile *file, hid_t access, hid_t *driver)
+bool array_disk_use(ArrayDisk *disk, hid_t access, hid_t *driver)
 {
     static const H5FD_class_t description = {
         .name = "amontons_disk",
@@ -180,9 +251,6 @@ bool array_disk_use(ArrayDisk *disk, const PartFile *file, hid_t access, hid_t *
         .fl_map = H5FD_FLMAP_DICHOTOMY,
     };
     DiskAddress address = {disk};
-    struct stat status;
-    *disk = (ArrayDisk){.file = file};   // of a reopened file HDF5 itself says where its space ends
-    if (fstat(file->descriptor, &status) == 0) disk->end_of_file = (haddr_t)status.st_size;
     *driver = H5FDregister(&description);
     return *driver >= 0 && H5Pset_driver(access, *driver, &address) >= 0;
 }

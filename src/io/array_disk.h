@@ -6,6 +6,7 @@
 #ifndef AMONTONS_IO_ARRAY_DISK_H
 #define AMONTONS_IO_ARRAY_DISK_H
 
+#include "io/array_journal.h"
 #include "io/part_file.h"
 
 #include <hdf5.h>
@@ -20,20 +21,31 @@ typedef struct ArrayDisk {
     haddr_t end_of_space;   // bytes handed out to HDF5
     haddr_t end_of_file;   // bytes the file has, or would have if nothing had failed
     haddr_t kept;   // bytes that a reader needs of the last whole flush
-    haddr_t reserved;   // bytes that the disk has promised room for; 0: not asked yet
+    ArrayJournal journal;   // what is to be written over those
+    bool unsynced;   // a journal was copied into the file, which is not yet on the disk
 } ArrayDisk;
+
+// Begins with a file that is open. anew: it is empty; else what a killed writer left half done is
+// done first. ERROR_FILE.
+bool array_disk_open(ArrayDisk *disk, const PartFile *file, bool anew, Error *err);
+// The same for a file that is only read: what is half done is seen as done.
+bool array_disk_look(ArrayDisk *disk, const PartFile *file, Error *err);
 
 // Makes `access` (a file access property list) use `disk`, which must stay where it is until the
 // HDF5 file is closed; `driver` is released by the caller with H5FDunregister.
 // false: HDF5 refused, and its error stack says why.
-bool array_disk_use(ArrayDisk *disk, const PartFile *file, hid_t access, hid_t *driver);
+bool array_disk_use(ArrayDisk *disk, hid_t access, hid_t *driver);
 
 // Ends a call that wrote `what`; `status` is HDF5's, negative for a failure. ERROR_FILE with the
 // system's reason when the disk has failed, now or before.
 bool array_disk_check(const ArrayDisk *disk, herr_t status, const char *what, Error *err);
 
-// A flush has come to its end.
-void array_disk_keep(ArrayDisk *disk);
+// HDF5's flush has come to its end: what it writes over comes into the file, all or nothing.
+bool array_disk_settle(ArrayDisk *disk, Error *err);
+bool array_disk_sync(ArrayDisk *disk, Error *err);   // onto the disk
+// HDF5 has closed the file: settled, on the disk, without a journal.
+bool array_disk_end(ArrayDisk *disk, Error *err);
+void array_disk_close(ArrayDisk *disk);   // a journal that is there stays; zeroed is fine
 
 // HDF5's message for the fault of its last call, the one nearest to the origin.
 const char *hdf5_cause(char cause[HDF5_CAUSE_SIZE]);

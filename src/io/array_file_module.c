@@ -4,12 +4,13 @@
 //   * the tables that say where the chunks are stay in HDF5's cache (evictions are off);
 //   * a chunk that is written again, as the last one of a series is, goes to a fresh place, for
 //     space is handed out once (array_disk) and not managed (H5F_FSPACE_STRATEGY_NONE);
-//   * H5Fflush writes all chunks first, then the tables, and the file's length last.
+//   * what H5Fflush writes over, the tables, comes into the file through a journal, all or nothing.
 // HDF5's own way, SWMR, allows no new arrays or attributes while writing, and marks a killed
 // writer's file so that ordinary readers refuse it.
 #include "io/array_file_module.h"
 
 #include "base/memory.h"
+#include "io/array_attribute.h"
 #include "io/array_disk.h"
 #include "io/array_series.h"
 #include "io/part_file.h"
@@ -44,27 +45,25 @@ cleanup:
 }
 
 // First our own buffers, then HDF5's.
-static bool hdf5_flush(Hdf5File *file, Error *err)
+static bool write_all(Hdf5File *file, Error *err)
 {
-    if (!file->writing) return true;
     TRY(check_writable(file, err));
     for (int32_t s = 0; s < file->series_count; s++)
         TRY(series_hand_over(&file->series[s], &file->disk, err));
     herr_t status = H5Fflush(file->id, H5F_SCOPE_LOCAL);
     TRY(array_disk_check(&file->disk, status, "what was appended", err));
-    array_disk_keep(&file->disk);
 cleanup:
     return error_is_clean(err);
 }
 
+static bool hdf5_flush(Hdf5File *file, Error *err)
+{
+    return !file->writing || (write_all(file, err) && array_disk_settle(&file->disk, err));
+}
+
 static bool hdf5_sync(Hdf5File *file, Error *err)
 {
-    TRY(hdf5_flush(file, err));
-    // EINVAL: a file system that cannot sync, which is no error.
-    if (fsync(file->part.descriptor) != 0 && errno != EINVAL)
-        FAIL(err, ERROR_FILE, "cannot write %s to disk: %s", file->part.part, strerror(errno));
-cleanup:
-    return error_is_clean(err);
+    return hdf5_flush(file, err) && array_disk_sync(&file->disk, err);
 }
 
 // --- opening and closing ------------------------------------------------------------------------
@@ -88,7 +87,8 @@ static bool begin_hdf5(Hdf5File *file, bool anew, Error *err)
     char cause[HDF5_CAUSE_SIZE];
     hid_t access = H5Pcreate(H5P_FILE_ACCESS);
     hid_t creation = H5Pcreate(H5P_FILE_CREATE);
-    if (!array_disk_use(&file->disk, &file->part, access, &file->driver) ||
+    TRY(array_disk_open(&file->disk, &file->part, anew, err));
+    if (!array_disk_use(&file->disk, access, &file->driver) ||
         keep_metadata_until_flush(access) < 0 ||
         H5Pset_file_space_strategy(creation, H5F_FSPACE_STRATEGY_NONE, false, 1) < 0)
         FAIL(err, ERROR_LIBRARY, "cannot prepare HDF5 for %s: %s", file->path, hdf5_cause(cause));
@@ -111,6 +111,7 @@ static void destroy(Hdf5File *file)
     for (int32_t s = 0; s < file->series_count; s++) series_destroy(&file->series[s]);
     if (file->id > 0) H5Fclose(file->id);
     if (file->driver > 0) H5FDunregister(file->driver);
+    array_disk_close(&file->disk);
     part_file_leave(&file->part);
     memory_free(file->series);
     memory_free(file);
@@ -162,6 +163,19 @@ cleanup:
     return error_is_clean(err);
 }
 
+// A file that has not got its name yet is read through the journal that its writer left.
+static bool use_journal(Hdf5File *file, const char *path, hid_t access, Error *err)
+{
+    char cause[HDF5_CAUSE_SIZE];
+    if (strcmp(file->path, path) == 0) goto cleanup;
+    TRY(part_file_look(&file->part, path, err));
+    TRY(array_disk_look(&file->disk, &file->part, err));
+    if (file->disk.journal.holds && !array_disk_use(&file->disk, access, &file->driver))
+        FAIL(err, ERROR_LIBRARY, "cannot read %s: %s", file->path, hdf5_cause(cause));
+cleanup:
+    return error_is_clean(err);
+}
+
 // Without a lock, so that the file of a running simulation can be read as of its last flush.
 static Hdf5File *hdf5_open(const char *path, Error *err)
 {
@@ -175,6 +189,7 @@ static Hdf5File *hdf5_open(const char *path, Error *err)
         FAIL(err, ERROR_FILE, "cannot read %s: %s", file->path, strerror(errno));
     properties = H5Pcreate(H5P_FILE_ACCESS);
     H5Pset_file_locking(properties, false, true);
+    TRY(use_journal(file, path, properties, err));
     file->id = H5Fopen(file->path, H5F_ACC_RDONLY, properties);
     if (file->id < 0)
         FAIL(err, ERROR_FILE, "cannot read %s, not a whole HDF5 file: %s", file->path,
@@ -186,15 +201,24 @@ cleanup:
     return NULL;
 }
 
-static bool hdf5_close(Hdf5File *file, Error *err)
+// HDF5 writes once more when it closes.
+static bool end_writing(Hdf5File *file, Error *err)
 {
-    if (!file->writing) goto cleanup;
-    // Where one of these fails the name is not given; closing itself writes once more.
-    TRY(hdf5_flush(file, err));
+    TRY(write_all(file, err));
     for (int32_t s = 0; s < file->series_count; s++) series_destroy(&file->series[s]);
     herr_t status = H5Fclose(file->id);
     file->id = 0;
     TRY(array_disk_check(&file->disk, status, "the end", err));
+    TRY(array_disk_end(&file->disk, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// Where one of these fails the name is not given.
+static bool hdf5_close(Hdf5File *file, Error *err)
+{
+    if (!file->writing) goto cleanup;
+    TRY(end_writing(file, err));
     TRY(part_file_commit(&file->part, err));
 cleanup:
     destroy(file);
@@ -205,39 +229,17 @@ cleanup:
 static void hdf5_abandon(Hdf5File *file)
 {
     Error ignored = {0};
-    hdf5_flush(file, &ignored);
+    end_writing(file, &ignored);
     destroy(file);
 }
 
 // --- attributes ---------------------------------------------------------------------------------
 
-// The text as an attribute of `object`, in UTF-8 of variable length: h5py reads it as str.
-static herr_t write_text(hid_t object, const char *name, const char *value)
-{
-    hid_t type = H5Tcopy(H5T_C_S1);
-    H5Tset_size(type, H5T_VARIABLE);
-    H5Tset_cset(type, H5T_CSET_UTF8);
-    hid_t space = H5Screate(H5S_SCALAR);
-    if (H5Aexists(object, name) > 0) H5Adelete(object, name);
-    hid_t attribute = H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
-    herr_t status = attribute < 0 ? -1 : H5Awrite(attribute, type, &value);
-    if (attribute >= 0) H5Aclose(attribute);
-    H5Sclose(space);
-    H5Tclose(type);
-    return status;
-}
-
-// Attributes stand in the root of the file. One cannot be changed in place: an old one of this name
-// is removed first.
+// They stand in the root of the file.
 static bool hdf5_set_number(Hdf5File *file, const char *name, double value, Error *err)
 {
     TRY(check_writable(file, err));
-    if (H5Aexists(file->id, name) > 0) H5Adelete(file->id, name);
-    hid_t space = H5Screate(H5S_SCALAR);
-    hid_t attribute = H5Acreate2(file->id, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT);
-    herr_t status = attribute < 0 ? -1 : H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value);
-    if (attribute >= 0) H5Aclose(attribute);
-    H5Sclose(space);
+    herr_t status = attribute_write_number(file->id, name, value);
     TRY(array_disk_check(&file->disk, status, name, err));
 cleanup:
     return error_is_clean(err);
@@ -246,43 +248,28 @@ cleanup:
 static bool hdf5_set_text(Hdf5File *file, const char *name, const char *value, Error *err)
 {
     TRY(check_writable(file, err));
-    TRY(array_disk_check(&file->disk, write_text(file->id, name, value), name, err));
+    herr_t status = attribute_write_text(file->id, name, value);
+    TRY(array_disk_check(&file->disk, status, name, err));
 cleanup:
     return error_is_clean(err);
 }
 
-// A scalar or an array of one, whatever its stored type: HDF5 converts.
 static bool hdf5_get_number(Hdf5File *file, const char *name, double *value, Error *err)
 {
     char cause[HDF5_CAUSE_SIZE];
-    hid_t attribute = -1;
     if (H5Aexists(file->id, name) <= 0) FAIL(err, ERROR_FILE, "%s has no %s", file->path, name);
-    attribute = H5Aopen(file->id, name, H5P_DEFAULT);
-    hid_t space = H5Aget_space(attribute);
-    bool is_one = H5Sget_simple_extent_npoints(space) == 1;
-    H5Sclose(space);
-    if (!is_one || H5Aread(attribute, H5T_NATIVE_DOUBLE, value) < 0)
+    if (attribute_read_number(file->id, name, value) < 0)
         FAIL(err, ERROR_FILE, "%s: %s is no number: %s", file->path, name, hdf5_cause(cause));
 cleanup:
-    if (attribute >= 0) H5Aclose(attribute);
     return error_is_clean(err);
 }
 
-// The text is in HDF5's memory, which it frees.
 static bool hdf5_get_text(Hdf5File *file, const char *name, char *value, int32_t size, Error *err)
 {
-    hid_t attribute = -1, type = -1;
-    char *stored = NULL;
     if (H5Aexists(file->id, name) <= 0) FAIL(err, ERROR_FILE, "%s has no %s", file->path, name);
-    attribute = H5Aopen(file->id, name, H5P_DEFAULT);
-    type = H5Aget_type(attribute);
-    if (H5Tis_variable_str(type) <= 0 || H5Aread(attribute, type, &stored) < 0 || !stored)
+    if (attribute_read_text(file->id, name, value, size) < 0)
         FAIL(err, ERROR_FILE, "%s: %s is no text", file->path, name);
-    snprintf(value, (size_t)size, "%s", stored);
 cleanup:
-    if (stored) H5free_memory(stored);
-    if (type >= 0) H5Tclose(type);
-    if (attribute >= 0) H5Aclose(attribute);
     return error_is_clean(err);
 }
 
@@ -318,8 +305,9 @@ static bool hdf5_add_series(Hdf5File *file, const ArraySeries *series, Error *er
         FAIL(err, ERROR_LIBRARY, "%s holds %s already", file->path, series->name);
     TRY(grow_series_list(file, err));
     TRY(series_create(&added, file->id, series, err));
-    herr_t status = write_text(added.dataset, "unit", series->unit);
-    if (status >= 0) status = write_text(added.dataset, "description", series->description);
+    herr_t status = attribute_write_text(added.dataset, "unit", series->unit);
+    if (status >= 0)
+        status = attribute_write_text(added.dataset, "description", series->description);
     TRY(array_disk_check(&file->disk, status, series->name, err));
     file->series[file->series_count++] = added;
     added = (SeriesWriter){0};   // the list owns it now

@@ -76,6 +76,17 @@ cleanup:
     return error_is_clean(err);
 }
 
+bool part_file_look(PartFile *file, const char *path, Error *err)
+{
+    TRY(name_part(file, path, err));
+    file->descriptor = open(file->part, O_RDONLY | O_CLOEXEC);
+    if (file->descriptor < 0)
+        FAIL(err, ERROR_FILE, "cannot read %s: %s", file->part, strerror(errno));
+    file->open = true;
+cleanup:
+    return error_is_clean(err);
+}
+
 bool part_file_write(PartFile *file, const void *bytes, int64_t size, Error *err)
 {
     const char *next = bytes;

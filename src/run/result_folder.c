@@ -25,7 +25,7 @@ enum { PATH_SIZE = PATH_MAX + 300 };
 static const double LOCK_WAIT = 1;
 static const char LOCK_NAME[] = "amontons.lock", PART[] = ".part";
 
-// What proves a result, in the order in which it is removed; each also with PART behind it.
+// What proves a result, in the order in which it is removed; each also with the ends of own_path.
 static const char *const OWN_FILES[] = {
     "run.json",   CHECKPOINT_FILE,  "history.h5",   "fields.pvd",   "static.json", "static.h5",
     "static.vtu", "stability.json", "stability.h5", "model1d.json", "model1d.h5"};
@@ -96,10 +96,11 @@ cleanup:
     return error_is_clean(err);
 }
 
-// folder/OWN_FILES[k / 2], the unfinished file where k is odd.
+// folder/OWN_FILES[k / 3], the unfinished file, and its journal (io/array_journal).
 static void own_path(const char *folder, int k, char path[PATH_SIZE])
 {
-    snprintf(path, PATH_SIZE, "%s/%s%s", folder, OWN_FILES[k / 2], k % 2 ? PART : "");
+    static const char *const ends[] = {"", ".part", ".journal"};
+    snprintf(path, PATH_SIZE, "%s/%s%s", folder, OWN_FILES[k / 3], ends[k % 3]);
 }
 
 // Who holds the lock has written so into its file.
@@ -151,7 +152,7 @@ bool result_folder_claim(const char *path, bool overwrite, ResultFolder *folder,
         FAIL(err, ERROR_INPUT, "the path of the result folder is too long");
     memcpy(folder->path, path, strlen(path) + 1);
     TRY(take_lock(folder, err));
-    for (int k = 0; k < 2 * OWN_FILE_COUNT && !folder->has_earlier; k++) {
+    for (int k = 0; k < 3 * OWN_FILE_COUNT && !folder->has_earlier; k++) {
         own_path(path, k, found);
         folder->has_earlier = access(found, F_OK) == 0;
     }
@@ -173,7 +174,7 @@ bool result_folder_clear(ResultFolder *folder, Error *err)
 {
     char path[PATH_SIZE];
     if (!folder->has_earlier) return true;
-    for (int k = 0; k < 2 * OWN_FILE_COUNT; k++) {
+    for (int k = 0; k < 3 * OWN_FILE_COUNT; k++) {
         own_path(folder->path, k, path);
         if (unlink(path) != 0 && errno != ENOENT)
             FAIL(err, ERROR_FILE, "cannot remove the earlier result %s: %s", path, strerror(errno));

@@ -177,7 +177,7 @@ class Layers(unittest.TestCase):
         owners = {
             "gmshc.h": r"src/io/mesh_\w+_module\.c",
             "cholmod.h": r"src/base/sparse\w*\.c",
-            "hdf5.h": r"src/io/array_(file_module|disk|series)\.[ch]",
+            "hdf5.h": r"src/io/array_(file_module|attribute|disk|series)\.[ch]",
             "libfyaml.h": r"src/io/yaml_\w+\.[ch]",
             "cairo[\\w-]*.h": CAIRO,
             "png.h": r"render/png_encode\.c",

@@ -7,9 +7,28 @@
 #include "near.h"
 #include "result_place.h"
 
+#include <sys/syscall.h>
 #include <sys/wait.h>
 
 enum { WIDTH = 7, ROWS = 30000 };   // many chunks of either series
+
+// Every write of the module comes here (the test exports its symbols): the one that is due is done
+// by half, and kills the process.
+static int64_t writes_left = -1;
+
+ssize_t pwrite(int file, const void *bytes, size_t size, off_t at)
+{
+    bool last = writes_left == 0;
+    if (writes_left >= 0) writes_left--;
+    ssize_t count = syscall(SYS_pwrite64, file, bytes, last ? size / 2 : size, at);
+    if (last) kill(getpid(), SIGKILL);
+    return count;
+}
+
+ssize_t pwrite64(int file, const void *bytes, size_t size, off64_t at)
+{
+    return pwrite(file, bytes, size, at);
+}
 
 static double values[(int64_t)ROWS * WIDTH];
 
@@ -122,6 +141,88 @@ static void test_killed(void **state)
     place_remove(place);
 }
 
+// Flushes after FLUSHED rows, twice and thrice as many.
+enum { FLUSHED = 1100, FLUSHES = 3 };
+
+static _Noreturn void write_until_killed(const char *path, bool anew, int64_t writes)
+{
+    Error err = {0};
+    writes_left = writes;
+    ArrayFile *file = anew ? array_file_create(path, &err) : array_file_reopen(path, &err);
+    if (!file) _exit(1);
+    if (anew) add_series(file, &err);
+    if (!anew) array_file_cut(file, "a/scalar", FLUSHED, &err);
+    if (!anew) array_file_cut(file, "wide", FLUSHED, &err);
+    for (int64_t k = anew ? 0 : 1; k < FLUSHES; k++) {
+        append(file, k * FLUSHED, (k + 1) * FLUSHED, &err);
+        if (!array_file_flush(file, &err)) _exit(1);
+    }
+    array_file_close(file, &err);
+    _exit(0);
+}
+
+static bool is_killed(const char *path, bool anew, int64_t writes)
+{
+    int status = 0;
+    pid_t child = fork();
+    if (child == 0) write_until_killed(path, anew, writes);
+    assert_int_equal(waitpid(child, &status, 0), child);
+    if (WIFSIGNALED(status)) assert_int_equal(WTERMSIG(status), SIGKILL);
+    if (!WIFSIGNALED(status)) assert_int_equal(WEXITSTATUS(status), 0);
+    return WIFSIGNALED(status);
+}
+
+// What can be read now: so many whole flushes, the same for every series; -1: none yet.
+static int64_t flushed_rows(const char *path)
+{
+    Error err = {0};
+    double *read = NULL;
+    int64_t rows = 0;
+    int32_t width = 0;
+    ArrayFile *file = array_file_open(path, &err);
+    if (!file) return -1;
+    if (array_file_has(file, "wide"))
+        assert_true(array_file_read(file, "wide", &read, &rows, &width, &err));
+    memory_free(read);
+    array_file_close(file, &err);
+    if (rows > 0) expect_rows(path, rows);
+    assert_true(rows % FLUSHED == 0);
+    return rows;
+}
+
+// At every write there is: what the last flush left can be read and gone on with; also where it was
+// being gone on with.
+static void test_killed_at_every_write(void **state)
+{
+    (void)state;
+    char place[PLACE_SIZE], path[2 * PLACE_SIZE];
+    bool anew = true;
+    int64_t before = -1, mid_flush = 0;
+    fill_values();
+    for (int64_t writes = 0;; writes++) {
+        place_make(place);
+        snprintf(path, sizeof path, "%s", place_path(place, "file.h5"));
+        if (!anew) assert_true(is_killed(path, true, before));
+        bool killed = is_killed(path, anew, writes);
+        int64_t rows = flushed_rows(path);
+        mid_flush += place_has(place, "file.h5.journal");
+        if (rows >= FLUSHED) {
+            if (killed && anew && before < 0) before = writes;
+            go_on(path, FLUSHED, 2 * FLUSHED);
+            expect_rows(path, 2 * FLUSHED);
+            assert_false(place_has(place, "file.h5.journal"));
+        } else {
+            assert_true(anew && before < 0);
+        }
+        place_remove(place);
+        if (killed) continue;
+        if (!anew) break;
+        anew = false;
+        writes = -1;
+    }
+    assert_true(before > 0 && mid_flush > 20);
+}
+
 // Missing, no HDF5 file, fewer rows, no such series, being written.
 static void test_refused(void **state)
 {
@@ -157,8 +258,8 @@ static void test_refused(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_killed),
-                                       cmocka_unit_test(test_finished),
-                                       cmocka_unit_test(test_refused)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_killed), cmocka_unit_test(test_killed_at_every_write),
+        cmocka_unit_test(test_finished), cmocka_unit_test(test_refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
