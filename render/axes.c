@@ -5,6 +5,9 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
+
+static const double PREFIX_SLACK = 1e-5;   // decades over 3: 0.99999 m is 1 m
 
 enum { TICKS_X_MAX = 7, TICKS_Y_MAX = 6, TICKS_MIN = 2 };
 
@@ -21,6 +24,24 @@ static double axis_part(const Axis *axis, double value)
 {
     if (!axis->is_log) return (value - axis->low) / (axis->high - axis->low);
     return value > 0 ? log(value / axis->low) / log(axis->high / axis->low) : NAN;
+}
+
+// What stands before a unit for 1000 times more or less; a prefix of kg is none.
+void axis_set_unit(Axis *axis, const char *name, const char *unit)
+{
+    static const char *const prefix[] = {"n", "\u00b5", "m", "", "k", "M", "G"};
+    static const char *const scaled[] = {"m",    "m/s",  "s",       "Pa",
+                                         "Pa s", "Pa/s", "J/m^{3}", "W/m^{3}"};
+    double largest = fmax(fabs(axis->low), fabs(axis->high));
+    bool has_prefixes = false;
+    for (size_t k = 0; k < sizeof scaled / sizeof *scaled; ++k)
+        has_prefixes = has_prefixes || strcmp(scaled[k], unit) == 0;
+    int32_t power = (int32_t)floor(log10(largest) / 3 + PREFIX_SLACK);
+    if (!has_prefixes || !(largest > 0) || !isfinite(largest)) power = 0;
+    power = power < -3 ? -3 : power > 3 ? 3 : power;
+    if (unit[0] == 'm' && power > 0) power = 0;   // nobody says km of a block
+    axis->factor = pow(1000, -power);
+    snprintf(axis->label, sizeof axis->label, "%.70s (%s%.16s)", name, prefix[power + 3], unit);
 }
 
 // y grows upwards in the data and downwards on the canvas.
@@ -50,7 +71,8 @@ static double number_width(const Page *page, const Axes *axes, const Ticks *tick
 static Ticks axis_ticks(const Axis *axis, int32_t wanted)
 {
     Ticks log_ticks = {0};
-    if (axis->is_log) log_ticks = ticks_choose_log(axis->low, axis->high, wanted);
+    if (axis->is_log)
+        log_ticks = ticks_choose_log(axis->low * axis->factor, axis->high * axis->factor, wanted);
     if (axis->is_log && log_ticks.count < TICKS_MIN)
         log_ticks = ticks_choose_thirds(axis->low * axis->factor, axis->high * axis->factor);
     if (log_ticks.count >= TICKS_MIN) return log_ticks;

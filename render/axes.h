@@ -12,7 +12,7 @@ typedef struct Axis {
     double low, high;   // ends, in the data's unit
     double factor;   // numbers shown are the data's times this
     char label[AXIS_LABEL_SIZE];   // name and unit, with text.h's marks; may be empty
-    bool is_log;   // low > 0 then, and factor 1
+    bool is_log;   // low > 0 then
     const char (*names)[AXIS_LABEL_SIZE];   // of the y axis: what stands at 1, 2, ... in the place
         // of numbers, [name_count]; NULL: numbers; not owned
     int32_t name_count;
@@ -24,6 +24,10 @@ typedef struct Axes {
     double number_size;   // points: numbers at ticks
     Color color;   // of the frame
 } Axes;
+
+// Writes "name (unit)" into the label, with the prefix that makes the numbers from low to high
+// short, and sets the factor that belongs to it. unit: of SI, "m", "Pa", "m/s"; others get none.
+void axis_set_unit(Axis *axis, const char *name, const char *unit);
 
 // Where (x, y) of the data lies on the picture.
 Point axes_place(const Axes *axes, double x, double y);

@@ -12,6 +12,8 @@
 enum { RANGES = 5 };
 
 static const double RANGE_LOW[RANGES] = {0.9, 0.75, 0.5, 0.25, 0};   // where the scale may start
+static const double NAME_GAP = 2.5;   // points: frame to the line above it
+static const double NAME_ABOVE = 9.5;   // points above the frame that it takes
 static const Color OPEN = {0.55f, 0.56f, 0.58f, 1};
 
 typedef struct Precursors {
@@ -58,6 +60,14 @@ static void grid_to_levels(PixelGrid *grid, double critical, double low)
     }
 }
 
+// In the blue of the slip map's bar.
+static void name_draw(const Page *page, const Axes *axes)
+{
+    TextStyle style = {.size = SMALL_SIZE * page->point, .color = ZOOM_DENSITY, .across = 1};
+    Point place = {axes->box.right, axes->box.top - NAME_GAP * page->point};
+    text_draw(page->text, &style, place, "what is marked blue in slip-map");
+}
+
 bool figure_contact_density(const Page *page, ResultView *view, Error *err)
 {
     double critical = view->number[NUMBER_CRITICAL_VELOCITY];
@@ -78,12 +88,16 @@ bool figure_contact_density(const Page *page, ResultView *view, Error *err)
     map.bar.clipped = map.bar.low > 0;
     map.bar.neutral = seen.open ? "open" : NULL;
     map.bar.neutral_color = OPEN;
+    if (zoom.found) map.above = NAME_ABOVE;
     map_page_layout(page, view, zoom.U_low, zoom.U_high, &map);
     TRY(map_page_fill(view, view->status, &map, err));
     grid_to_levels(&map.grid, critical, map.bar.low);
     map_page_draw_field(page, view, &map);
     TRY(map_page_draw_front(page, view, &map, err));
-    if (zoom.found) map.axes.color = ZOOM_DENSITY;
+    if (zoom.found) {
+        map.axes.color = ZOOM_DENSITY;
+        name_draw(page, &map.axes);
+    }
     map_page_draw_frame(page, view, &map);
 cleanup:
     map_page_destroy(&map);

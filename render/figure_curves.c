@@ -203,7 +203,7 @@ bool figure_curves(const Page *page, const Plot *plot, Error *err)
 {
     double point = page->point;
     Axes axes = {.x = plot->main.x, .y = plot->main.y, .number_size = NUMBER_SIZE, .color = INK};
-    axes.box.top = round(axes_top_margin(&axes) * point);
+    axes.box.top = page->head + round(axes_top_margin(&axes) * point);
     axes.box.bottom = round(canvas_height(page->canvas) - axes_bottom_margin(&axes) * point);
     axes.box.left = round(axes_left_margin(page, &axes) * point);
     axes.box.right = round(canvas_width(page->canvas) - RIGHT_MARGIN * point);

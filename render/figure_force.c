@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { LEVELS_MAX = 3 };
+enum { LEVELS_MAX = 3, LEVEL_NAME_SIZE = 40 };
 
 static const double DATA_SHARE = 0.54;   // of the frame's height, where an inset is above it
 static const double HEADROOM = 1.06;   // frame's top over the largest value
@@ -18,6 +18,8 @@ static const double INSET_HEIGHT = 0.285;   // of the frame's height
 static const double INSET_WIDTH = 0.72;   // of the frame's width
 static const double INSET_RIGHT = 0.03;   // of the frame's width: its distance from the right
 static const double LEVEL_MARGIN = 15;   // points: names of the levels, right of the frame
+static const double AWAY_MARGIN = 26;   // points: the same, where one is beyond the frame
+static const double AWAY = 1.5;   // a level above so many times the curve would press it flat
 static const double PEAK_RADIUS = 1.4;   // points
 static const double THIN_DISTANCE = 0.3;   // pixels: nearer points of a curve add nothing
 
@@ -29,6 +31,7 @@ typedef struct Level {
     double mu;
     const char *name;
     double y;   // of the name's middle, pixels
+    bool away;   // beyond the frame: named at its top with its value
 } Level;
 
 // mu against U, clipped to the frame: the inset draws the same curve in other axes.
@@ -66,8 +69,9 @@ static bool mu_range(const ResultView *view, const double U[2], double range[2])
     return range[1] >= range[0];
 }
 
-// The levels that the result knows: mu_M is missing in a run that did not end.
-static int32_t levels_list(const ResultView *view, Level level[LEVELS_MAX])
+// The levels that the result knows: mu_M is missing in a run that did not end. highest: the largest
+// mu of the curve.
+static int32_t levels_list(const ResultView *view, double highest, Level level[LEVELS_MAX])
 {
     static const struct {
         ResultNumber number;
@@ -78,7 +82,9 @@ static int32_t levels_list(const ResultView *view, Level level[LEVELS_MAX])
     int32_t count = 0;
     for (int32_t k = 0; k < LEVELS_MAX; ++k) {
         double mu = view->number[known[k].number];
-        if (isfinite(mu)) level[count++] = (Level){.mu = mu, .name = known[k].name};
+        if (!isfinite(mu)) continue;
+        level[count] = (Level){.mu = mu, .name = known[k].name};
+        level[count++].away = highest > 0 && mu > AWAY * highest;
     }
     return count;
 }
@@ -86,7 +92,10 @@ static int32_t levels_list(const ResultView *view, Level level[LEVELS_MAX])
 // Names that would overlap move apart, downwards from the highest.
 static void names_spread(const Axes *axes, Level *level, int32_t count, double spacing)
 {
-    for (int32_t k = 0; k < count; ++k) level[k].y = axes_place(axes, 0, level[k].mu).y;
+    for (int32_t k = 0; k < count; ++k) {
+        level[k].y = axes_place(axes, 0, level[k].mu).y;
+        if (level[k].away) level[k].y = axes->box.top + spacing / 2;
+    }
     for (int32_t k = 1; k < count; ++k) {
         Level moved = level[k];   // sorted by height: at most three
         int32_t place = k;
@@ -106,10 +115,15 @@ static void levels_draw(const Page *page, const Axes *axes, Level *level, int32_
     stroke.space = 2 * point;
     names_spread(axes, level, count, 1.1 * style.size);
     for (int32_t k = 0; k < count; ++k) {
+        char words[LEVEL_NAME_SIZE];
         Point from = axes_place(axes, axes->x.low, level[k].mu);
         Point to = axes_place(axes, axes->x.high, level[k].mu);
-        shape_segment(page->canvas, &stroke, from, to);
-        text_draw(page->text, &style, (Point){to.x + 2 * point, level[k].y}, level[k].name);
+        if (!level[k].away) shape_segment(page->canvas, &stroke, from, to);
+        if (level[k].away) style.size = SMALL_SIZE * point;
+        snprintf(words, sizeof words, level[k].away ? "\u2191%s %.3g" : "%s", level[k].name,
+                 level[k].mu);
+        text_draw(page->text, &style, (Point){to.x + 2 * point, level[k].y}, words);
+        style.size = NUMBER_SIZE * point;
     }
 }
 
@@ -164,20 +178,25 @@ static Axes axes_layout(const Page *page, const ResultView *view, double share)
     double U[2], range[2] = {0, 1}, point = page->point;
     Axes axes = {.number_size = NUMBER_SIZE, .color = INK};
     Level level[LEVELS_MAX];
-    int32_t count = levels_list(view, level);
     result_view_range(view, &U[0], &U[1]);
     if (!mu_range(view, U, range)) range[0] = range[1] = 0;
-    for (int32_t k = 0; k < count; ++k) range[1] = fmax(range[1], level[k].mu);
+    int32_t count = levels_list(view, range[1], level);
+    bool away = false;
+    for (int32_t k = 0; k < count; ++k) {
+        if (!level[k].away) range[1] = fmax(range[1], level[k].mu);
+        away = away || level[k].away;
+    }
     axes.x = figure_length_axis(view, "U", U[0], U[1]);
     axes.y = (Axis){.low = fmin(0, range[0] * HEADROOM), .factor = 1};
     axes.y.high = axes.y.low + (range[1] * HEADROOM - axes.y.low) / share;
     if (!(axes.y.high > axes.y.low)) axes.y.high = axes.y.low + 1;
     snprintf(axes.y.label, sizeof axes.y.label, "~{F}_{T} / ~{F}_{N}");
-    axes.box.top = round(axes_top_margin(&axes) * point);
+    axes.box.top = page->head + round(axes_top_margin(&axes) * point);
     axes.box.bottom =
         round(canvas_height(page->canvas) - page->foot - axes_bottom_margin(&axes) * point);
     axes.box.left = round(axes_left_margin(page, &axes) * point);
-    axes.box.right = round(canvas_width(page->canvas) - LEVEL_MARGIN * point);
+    axes.box.right =
+        round(canvas_width(page->canvas) - (away ? AWAY_MARGIN : LEVEL_MARGIN) * point);
     return axes;
 }
 
@@ -186,7 +205,10 @@ bool figure_force(const Page *page, ResultView *view, Error *err)
     bool enlarged = zoom_choose(view).found;
     Axes axes = axes_layout(page, view, enlarged ? DATA_SHARE : 1), inset;
     Level level[LEVELS_MAX];
-    int32_t count = levels_list(view, level);
+    double U[2], range[2] = {0, 0};
+    result_view_range(view, &U[0], &U[1]);
+    mu_range(view, U, range);
+    int32_t count = levels_list(view, range[1], level);
     levels_draw(page, &axes, level, count);
     TRY(curve_draw(page, view, &axes, err));
     peaks_draw(page, view, &axes);

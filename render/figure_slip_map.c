@@ -15,9 +15,11 @@ static const double MARK_WIDTH = 9;   // points: room for the name l_c
 static const double ZOOM_GAP = 0.8;   // points: frame to the bar that marks the zoom
 static const double ZOOM_BAR = 1.8;   // points: height of that bar
 static const double ZOOM_DESCENT = 2;   // points: bar to the foot of its name
+static const double ZOOM_LEADER_LENGTH = 6, NAME_SPACE = 1.6;   // points: along it, and behind it
 static const double ZOOM_ABOVE = 11;   // points above the frame that bar and name take
 static const double EXPONENT_WIDTH = 4;   // of the numbers' size: a power of ten at the left
-static const char ZOOM_NAME[] = "contact density map";
+static const double ZOOM_LEADER = 0.5;   // points: width of the line from its name to the bar
+static const char ZOOM_NAME[] = "enlarged in contact-density";
 static const Color STICK = {0.84f, 0.85f, 0.87f, 1};
 
 // Where the scale ends: the half decade above all slip.
@@ -55,12 +57,11 @@ static void critical_length_draw(const Page *page, const MapPage *map, double le
     Point from = axes_place(axes, axes->x.low, length), to = axes_place(axes, axes->x.high, length);
     TextStyle style = {.size = NUMBER_SIZE * page->point, .color = INK, .up = 0.5};
     shape_segment(page->canvas, &stroke, from, to);
-    text_draw(page->text, &style, (Point){to.x + (1.6 + map->pads_width) * page->point, to.y},
-              "~{l}_{c}");
+    text_draw(page->text, &style, (Point){to.x + 1.6 * page->point, to.y}, "~{l}_{c}");
 }
 
 // A bar above the frame, in the colour of the contact-density map's frame: what that one enlarges.
-// Its name stands above its middle, as far as the frame reaches.
+// Its name stands beside it, where there is more room, with a line that leads from it to the bar.
 static void zoom_draw(const Page *page, const Zoom *zoom, const Axes *axes)
 {
     double foot = axes->box.top - ZOOM_GAP * page->point;
@@ -69,10 +70,18 @@ static void zoom_draw(const Page *page, const Zoom *zoom, const Axes *axes)
     Box bar = {from.x, foot - ZOOM_BAR * page->point, fmax(to.x, from.x + page->point), foot};
     double width = text_width(page->text, style.size, ZOOM_NAME);
     double first = axes->box.left + EXPONENT_WIDTH * axes->number_size * page->point;
-    double left = fmin((bar.left + bar.right - width) / 2, axes->box.right - width);
-    Point place = {fmax(left, first), bar.top - ZOOM_DESCENT * page->point};
+    double middle = (bar.left + bar.right) / 2, gap = ZOOM_LEADER_LENGTH * page->point;
+    bool before = middle - gap - width > first;   // the name stands left of the bar
+    double height = bar.top - ZOOM_DESCENT * page->point;
+    double words = height - text_digit_height() * style.size / 2;
+    Stroke leader = {.color = ZOOM_DENSITY, .width = ZOOM_LEADER * page->point};
+    const Point line[3] = {
+        {middle, bar.top}, {middle, words}, {middle + (before ? -gap : gap), words}};
+    style.across = before ? 1 : 0;
+    double space = (before ? -1 : 1) * NAME_SPACE * page->point;
     shape_fill(page->canvas, ZOOM_DENSITY, &bar);
-    text_draw(page->text, &style, place, ZOOM_NAME);
+    shape_line(page->canvas, &leader, line, 3);
+    text_draw(page->text, &style, (Point){line[2].x + space, height}, ZOOM_NAME);
 }
 
 bool figure_slip_map(const Page *page, ResultView *view, Error *err)

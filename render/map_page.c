@@ -17,20 +17,13 @@ static const Color HATCH_COLOR = {0.72f, 0.72f, 0.74f, 1};
 
 Axis figure_length_axis(const ResultView *view, const char *symbol, double low, double high)
 {
-    static const struct {
-        double metres;
-        const char *name;
-    } unit[] = {{1, "m"}, {1e-3, "mm"}, {1e-6, "\u00b5m"}, {1e-9, "nm"}};
+    char name[16];
     Axis axis = {.low = low, .high = high, .factor = 1};
-    if (!view->si) {
-        snprintf(axis.label, sizeof axis.label, "~{%s} / ~{L}_{0}", symbol);
-        return axis;
-    }
-    int32_t k = 0;
-    double largest = fmax(fabs(low), fabs(high));
-    while (k < 3 && largest < 0.9999 * unit[k].metres) ++k;
-    axis.factor = 1 / unit[k].metres;
-    snprintf(axis.label, sizeof axis.label, "~{%s} (%s)", symbol, unit[k].name);
+    snprintf(name, sizeof name, "~{%.8s}", symbol);
+    if (view->si)
+        axis_set_unit(&axis, name, "m");
+    else
+        snprintf(axis.label, sizeof axis.label, "%s / ~{L}_{0}", name);
     return axis;
 }
 
@@ -55,7 +48,7 @@ void map_page_layout(const Page *page, const ResultView *view, double U_low, dou
     axes->y = figure_length_axis(view, "x", x_low, x_high);
     axes->number_size = NUMBER_SIZE;
     axes->color = INK;
-    axes->box.top = round(fmax(axes_top_margin(axes), map->above) * point);
+    axes->box.top = page->head + round(fmax(axes_top_margin(axes), map->above) * point);
     axes->box.bottom =
         round(canvas_height(page->canvas) - page->foot - axes_bottom_margin(axes) * point);
     axes->box.left = round(axes_left_margin(page, axes) * point);
@@ -83,7 +76,9 @@ static SpaceTime view_space_time(const ResultView *view)
                        .nodes = view->nodes,
                        .x = view->x,
                        .pad = view->pad,
-                       .slip_rate = view->slip_rate};
+                       .slip_rate = view->slip_rate,
+                       .event_count = view->rapid_count,
+                       .events = (const double(*)[2])view->rapid};
 }
 
 bool map_page_fill(const ResultView *view, const double *status, MapPage *map, Error *err)
@@ -157,7 +152,7 @@ void map_page_draw_frame(const Page *page, const ResultView *view, const MapPage
     Box bar = map->axes.box;
     bar.left = round(bar.right + (BAR_GAP + map->pads_width + map->mark_width) * page->point);
     axes_draw(page, &map->axes);
-    pad_marks_draw(page, view, &map->axes);
+    pad_marks_draw(page, view, &map->axes, map->mark_width);
     colorbar_draw(page, &map->bar, &bar);
 }
 

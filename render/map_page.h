@@ -13,8 +13,8 @@ typedef struct MapPage {
     PixelGrid grid;   // fills the frame; its columns are some pixels wide; owned
     Colorbar bar;
     double above;   // points above the frame kept for marks; more are kept where the axes need them
-    double mark_width;   // points between pads' names and bar kept for a mark's name
-    double pads_width;   // points between frame and mark: the pads' names
+    double mark_width;   // points right of the frame kept for a mark's name
+    double pads_width;   // points between that and the bar: the pads' names
 } MapPage;
 
 // Places the frame for U from low to high and all x; map->bar, above and mark_width are given.

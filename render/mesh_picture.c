@@ -37,6 +37,15 @@ static Point node_place(const MeshPage *map, int32_t node)
 
 // --- layout -------------------------------------------------------------------------------------
 
+static void name_axis(Axis *axis, const char *name, const char *unit)
+{
+    if (unit && strcmp(unit, "m") == 0)
+        axis_set_unit(axis, name, unit);
+    else
+        snprintf(axis->label, sizeof axis->label, "%s%s%.40s", name, unit ? " / " : "",
+                 unit ? unit : " (the mesh's unit)");
+}
+
 // Ranges of both axes, margins included, and the picture's size that draws them to scale.
 static void choose_ranges(const RenderMesh *mesh, Axes *axes)
 {
@@ -48,8 +57,15 @@ static void choose_ranges(const RenderMesh *mesh, Axes *axes)
     double margin = MARGIN * fmax(high[0] - low[0], high[1] - low[1]);
     axes->x = (Axis){.low = low[0] - margin, .high = high[0] + margin, .factor = 1};
     axes->y = (Axis){.low = low[1] - margin, .high = high[1] + margin, .factor = 1};
-    snprintf(axes->x.label, sizeof axes->x.label, "~{x}");
-    snprintf(axes->y.label, sizeof axes->y.label, "~{z}");
+    name_axis(&axes->x, "~{x}", mesh->unit);
+    name_axis(&axes->y, "~{z}", mesh->unit);
+    if (axes->y.factor != axes->x.factor) {   // one unit for both
+        Axis *finer = axes->y.factor > axes->x.factor ? &axes->y : &axes->x;
+        const Axis *coarser = finer == &axes->y ? &axes->x : &axes->y;
+        finer->factor = coarser->factor;
+        snprintf(finer->label, sizeof finer->label, "%s%s", finer == &axes->y ? "~{z}" : "~{x}",
+                 coarser->label + 4);
+    }
     axes->number_size = NUMBER_SIZE;
     axes->color = INK;
 }
@@ -152,60 +168,91 @@ static Color group_color(const MeshGroup *group, int32_t contact)
     return OTHER;
 }
 
-static void draw_curve(const MeshPage *map, const MeshGroup *group, Color color, Box *extent)
+static Box curve_extent(const MeshPage *map, const MeshGroup *group)
+{
+    Box extent = {INFINITY, INFINITY, -INFINITY, -INFINITY};
+    for (int32_t k = 0; k < group->nodes_per_edge * group->edge_count; ++k) {
+        Point place = node_place(map, group->edge_nodes[k]);
+        extent.left = fmin(extent.left, place.x);
+        extent.right = fmax(extent.right, place.x);
+        extent.top = fmin(extent.top, place.y);
+        extent.bottom = fmax(extent.bottom, place.y);
+    }
+    return extent;
+}
+
+static void draw_curve(const MeshPage *map, const MeshGroup *group, Color color)
 {
     Stroke stroke = {.color = color, .width = CURVE_WIDTH_NAMED * map->page->point};
-    *extent = (Box){INFINITY, INFINITY, -INFINITY, -INFINITY};
     for (int32_t k = 0; k < group->edge_count; ++k) {
         const int32_t *nodes = group->edge_nodes + (int64_t)k * group->nodes_per_edge;
         Point from = node_place(map, nodes[0]), to = node_place(map, nodes[1]);
         Point through = group->nodes_per_edge == 3 ? node_place(map, nodes[2]) : to;
-        shape_segment(map->page->canvas, &stroke, from, through);
-        shape_segment(map->page->canvas, &stroke, through, to);
-        extent->left = fmin(extent->left, fmin(from.x, to.x));
-        extent->right = fmax(extent->right, fmax(from.x, to.x));
-        extent->top = fmin(extent->top, fmin(from.y, to.y));
-        extent->bottom = fmax(extent->bottom, fmax(from.y, to.y));
+        const Point line[3] = {from, through, to};
+        shape_line(map->page->canvas, &stroke, line, 3);
     }
 }
 
+// What a curve is called: "contact_3" as it is, "pad 3" or "3", by `form` 0, 1, 2.
+static const char *group_name(const MeshGroup *group, int32_t form, char name[GROUP_NAME_SIZE + 4])
+{
+    bool numbered = is_contact(group) && strncmp(group->name, "contact_", 8) == 0;
+    if (form == 0 || !numbered || !group->name[8]) return group->name;
+    snprintf(name, GROUP_NAME_SIZE + 4, "%s%s", form == 1 ? "pad " : "", group->name + 8);
+    return name;
+}
+
+// The longest form that fits below every contact: all are called alike.
+static int32_t choose_form(const MeshPage *map)
+{
+    const Page *page = map->page;
+    char name[GROUP_NAME_SIZE + 4];
+    int32_t form = 0;
+    for (int32_t g = 0; g < map->mesh->group_count; ++g) {
+        const MeshGroup *group = &map->mesh->groups[g];
+        if (group->dimension != 1 || group->edge_count == 0 || !is_contact(group)) continue;
+        Box extent = curve_extent(map, group);
+        while (form < 2 && text_width(page->text, NUMBER_SIZE * page->point,
+                                      group_name(group, form, name)) > extent.right - extent.left)
+            ++form;
+    }
+    return form;
+}
+
 // Outside the mesh, beside the middle of the curve: below or above a level one, left or right of an
-// upright one. What is too long for a pad loses "contact_".
-static void draw_name(const MeshPage *map, const MeshGroup *group, Color color, const Box *extent)
+// upright one.
+static void draw_name(const MeshPage *map, const MeshGroup *group, Color color, int32_t form)
 {
     const Page *page = map->page;
     const Box *box = &map->axes.box;
+    Box extent = curve_extent(map, group);
     double gap = NAME_GAP * page->point, middle = (box->left + box->right) / 2;
-    double x = (extent->left + extent->right) / 2, y = (extent->top + extent->bottom) / 2;
+    double x = (extent.left + extent.right) / 2, y = (extent.top + extent.bottom) / 2;
     TextStyle style = {.size = NUMBER_SIZE * page->point, .color = color, .across = 0.5};
-    const char *name = group->name;
-    if (extent->right - extent->left >= extent->bottom - extent->top) {
+    char buffer[GROUP_NAME_SIZE + 4];
+    const char *name = group_name(group, form, buffer);
+    if (extent.right - extent.left >= extent.bottom - extent.top) {
         bool below = y > (box->top + box->bottom) / 2;
-        double room = extent->right - extent->left;
-        if (is_contact(group) && strlen(name) > 8 &&
-            text_width(page->text, style.size, name) > room)
-            name += 8;
         style.up = below ? 1 : 0;
         text_draw(page->text, &style, (Point){x, y + (below ? gap : -gap)}, name);
         return;
     }
     style.rising = true;
-    if (isfinite(map->mesh->rod_low)) y = (extent->top + y) / 2;   // the middle is the arrow's
+    if (isfinite(map->mesh->rod_low)) y = (extent.top + y) / 2;   // the middle is the arrow's
     double right = text_digit_height() * style.size + gap;   // the baseline is on the right
     text_draw(page->text, &style, (Point){x < middle ? x - gap : x + right, y}, name);
 }
 
 static void draw_groups(const MeshPage *map)
 {
-    int32_t contact = 0;
+    int32_t contact = 0, form = choose_form(map);
     for (int32_t g = 0; g < map->mesh->group_count; ++g) {
         const MeshGroup *group = &map->mesh->groups[g];
-        Box extent;
         if (group->dimension != 1 || group->edge_count == 0) continue;
         Color color = group_color(group, contact);
         contact += is_contact(group);
-        draw_curve(map, group, color, &extent);
-        draw_name(map, group, color, &extent);
+        draw_curve(map, group, color);
+        draw_name(map, group, color, form);
     }
 }
 
@@ -266,7 +313,8 @@ __attribute__((visibility("default"))) bool amontons_render_mesh(const RenderMes
     Page page = {0};
     PictureStyle style = mesh->style;
     TRY(page_style_of_name(path, &style, err));
-    TRY(page_begin(&page, &style, picture_shape(mesh), 0, err));
+    PageDef def = {.style = &style, .height = picture_shape(mesh)};
+    TRY(page_begin(&page, &def, err));
     draw_page(mesh, &page);
     TRY(page_finish(&page, path, mesh->title ? mesh->title : "mesh", err));
 cleanup:

@@ -66,9 +66,10 @@ double pad_marks_width(const Page *page, const ResultView *view)
     return BAR_GAP + BAR_WIDTH + NAME_GAP + widest / page->point;
 }
 
-void pad_marks_draw(const Page *page, const ResultView *view, const Axes *axes)
+void pad_marks_draw(const Page *page, const ResultView *view, const Axes *axes, double beside)
 {
-    double point = page->point, from = 0, to = 0, left = axes->box.right + BAR_GAP * point;
+    double point = page->point, from = 0, to = 0;
+    double left = axes->box.right + (beside + BAR_GAP) * point;
     TextStyle style = {.size = SMALL_SIZE * point, .color = INK, .up = 0.5};
     int32_t count = pad_count(view);
     for (int32_t pad = 0; count > 1 && pad < count; ++pad) {

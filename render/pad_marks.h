@@ -9,6 +9,7 @@
 
 // Points right of the frame that the marks take; 0: there are none.
 double pad_marks_width(const Page *page, const ResultView *view);
-void pad_marks_draw(const Page *page, const ResultView *view, const Axes *axes);
+// beside: points between the frame and the marks.
+void pad_marks_draw(const Page *page, const ResultView *view, const Axes *axes, double beside);
 
 #endif

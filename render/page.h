@@ -13,15 +13,22 @@ typedef struct Page {
     Canvas *canvas;   // owned
     Text *text;   // owned
     double point;   // pixels in a printed point
-    double foot;   // pixels kept free below the figure, a whole number
+    double head, foot;   // pixels kept free above and below the figure, whole numbers
 } Page;
+
+typedef struct PageDef {
+    const PictureStyle *style;
+    double height;   // of the figure over the page's width
+    const char *title;   // drawn above the figure, shrunk to fit; NULL or empty: none
+    double foot;   // points below the figure
+} PageDef;
 
 // Points in the width of a page of this style.
 double page_width(const PictureStyle *style);
 
-// An empty page, `height` times as high as wide and `foot` points more. ERROR_INPUT: a format there
-// is none of, or a size beyond what canvas allows.
-bool page_begin(Page *page, const PictureStyle *style, double height, double foot, Error *err);
+// A page that is empty but for its title. ERROR_INPUT: a format there is none of, or a size beyond
+// what canvas allows.
+bool page_begin(Page *page, const PageDef *def, Error *err);
 
 // Writes the picture into the file `path`, with `title` stored in it.
 bool page_finish(Page *page, const char *path, const char *title, Error *err);

@@ -11,6 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { UNIT_SIZE = 16 };
+
 static const double MARGIN = 0.05;   // of the data's range, beside the data
 static const double HEIGHT_STANDARD = 0.75;
 
@@ -237,13 +239,25 @@ static void fit_axis(const PlotPanel *panel, bool is_x, Axis *axis)
 
 // --- the whole ----------------------------------------------------------------------------------
 
+// An axis with a unit of its own has its prefix; its ends are known.
+static bool read_unit(const PlotReader *reader, YamlNode panel, const char *name, Axis *axis)
+{
+    char unit[UNIT_SIZE] = "", label[AXIS_LABEL_SIZE];
+    YamlNode map = child(reader, panel, name);
+    if (map == YAML_NO_NODE) return true;
+    if (!read_text(reader, map, "unit", unit, sizeof unit)) return false;
+    snprintf(label, sizeof label, "%s", axis->label);
+    if (unit[0]) axis_set_unit(axis, label, unit);
+    return true;
+}
+
 // The plot itself, or its inset: both have axes, a legend and series.
 static bool read_panel(const PlotReader *reader, YamlNode map, PlotPanel *panel)
 {
     YamlNode list = child(reader, map, "series");
     int32_t corner = CORNER_AUTO;
-    if (!read_axis(reader, map, "x", "label scale range ", &panel->x) ||
-        !read_axis(reader, map, "y", "label scale range names ", &panel->y) ||
+    if (!read_axis(reader, map, "x", "label unit scale range ", &panel->x) ||
+        !read_axis(reader, map, "y", "label unit scale range names ", &panel->y) ||
         !read_choice(reader, map, "legend", CORNERS, &corner))
         return false;
     YamlNode y = child(reader, map, "y");
@@ -262,7 +276,7 @@ static bool read_panel(const PlotReader *reader, YamlNode map, PlotPanel *panel)
         if (!read_series(reader, item, &panel->series[panel->series_count++])) return false;
     fit_axis(panel, true, &panel->x);
     fit_axis(panel, false, &panel->y);
-    return true;
+    return read_unit(reader, map, "x", &panel->x) && read_unit(reader, map, "y", &panel->y);
 }
 
 // Keys are checked here, as an inset has a `place` more than a plot.

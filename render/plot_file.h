@@ -2,9 +2,11 @@
 // A plot described in a YAML (or JSON) file: curves, marks, error bars, levels. Studies write such
 // files; `amontons render PLOT.yaml` draws them. Read here, drawn by figure_curves.
 //
-//     title: mu_M against pressure            # stored in the PNG
+//     title: mu_M against pressure            # above the plot
 //     height: 0.75                            # over the width; default 0.75
 //     x: {label: "~{P}_{ext}", scale: log, range: [1e-3, 1e-1]}   # linear; the data's
+//                                             # unit: Pa beside a label: written behind it, as
+//                                             # kPa or MPa where that makes the numbers short
 //     y: {label: "~{\u03bc}_{M}"}          # or {names: [a, b]}: these stand at y = 1, 2, ...
 //     legend: auto                            # where it hides nothing; or upper-right, upper-left,
 //                                             # lower-left, lower-right, outside, none

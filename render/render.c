@@ -79,7 +79,11 @@ static bool figure_make(const char *folder, const PictureStyle *style, const Fig
                           style->format ? style->format : canvas_ending(CANVAS_PNG));
     if (length < 0 || length >= (int)sizeof path)
         FAIL(err, ERROR_INPUT, "the result folder's path is too long");
-    TRY(page_begin(&page, style, figure->height_over_width, foot_height(&foot), err));
+    PageDef def = {.style = style,
+                   .height = figure->height_over_width,
+                   .title = view->title,
+                   .foot = foot_height(&foot)};
+    TRY(page_begin(&page, &def, err));
     TRY(figure->draw(&page, view, err));
     foot_draw(&page, &foot);
     TRY(page_finish(&page, path, figure->title, err));

@@ -39,6 +39,7 @@ typedef struct RenderMesh {
     const int32_t *element_nodes;
     int32_t group_count;
     const MeshGroup *groups;   // [group_count]; curves are drawn and named
+    const char *unit;   // of lengths: "m" (drawn with a prefix), "~{L}_{0}"; NULL: not known
     double rod_low, rod_high;   // strip of the face x = least that the rod pushes, z; NaN: none
     PictureStyle style;   // but its format
 } RenderMesh;

@@ -14,7 +14,8 @@ amontons_render_plot(const char *path, const char *picture, const PictureStyle *
     TRY(plot);
     TRY(page_style_of_name(picture, &used, err));
     TRY(plot_file_read(path, plot, err));
-    TRY(page_begin(&page, &used, plot->height_over_width, 0, err));
+    PageDef def = {.style = &used, .height = plot->height_over_width, .title = plot->title};
+    TRY(page_begin(&page, &def, err));
     TRY(figure_curves(&page, plot, err));
     TRY(page_finish(&page, picture, plot->title, err));
 cleanup:

@@ -136,6 +136,13 @@ static bool events_read(ResultView *view, Error *err)
         view->events[k] = (ViewEvent){known ? (int32_t)kind : -1, column[1][k], column[2][k]};
     }
     view->event_count = count;
+    TRY(view->rapid = memory_array(count, sizeof *view->rapid, err));
+    for (int32_t k = 0; k < count; ++k) {
+        const ViewEvent *event = &view->events[k];
+        if (event->kind <= VIEW_QUASI_STATIC || !isfinite(event->U_start + event->U_stop)) continue;
+        view->rapid[view->rapid_count][0] = event->U_start;
+        view->rapid[view->rapid_count++][1] = event->U_stop;
+    }
 cleanup:
     for (int32_t k = 0; k < 3; ++k) memory_free(column[k]);
     return error_is_clean(err);
@@ -154,6 +161,7 @@ bool result_view_open(const char *folder, ResultView *view, Error *err)
     TRY(scalar_read(view, SERIES_MU, &view->mu, err));
     TRY(range_check(view, err));
     TRY(nodes_read(view, err));
+    TRY(lines_read(view, "title", &view->title, err));
     TRY(lines_read(view, "pads", &view->pad_names, err));
     TRY(lines_read(view, "warnings", &view->warnings, err));
     TRY(events_read(view, err));
@@ -186,11 +194,13 @@ void result_view_close(ResultView *view)
     memory_free(view->mu);
     memory_free(view->x);
     memory_free(view->pad);
+    memory_free(view->title);
     memory_free(view->pad_names);
     memory_free(view->warnings);
     memory_free(view->slip_rate);
     memory_free(view->status);
     memory_free(view->events);
+    memory_free(view->rapid);
     memory_free(view->peaks);
     *view = (ResultView){0};
 }

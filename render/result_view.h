@@ -20,6 +20,7 @@ typedef struct ViewPeak {
 
 typedef struct ResultView {
     ArrayFile *file;   // owned
+    char *title;   // of the scene; may be empty; owned
     bool si;   // lengths are metres; else normalised
     int64_t rows;   // accepted steps, at least 2
     double *U;   // [rows] rod displacement, length; owned
@@ -35,6 +36,8 @@ typedef struct ResultView {
     int32_t event_count, peak_count;   // 0 in a run that did not end
     ViewEvent *events;   // [event_count] owned
     ViewPeak *peaks;   // [peak_count] owned
+    int32_t rapid_count;   // events that are not quasi-static and have ended
+    double (*rapid)[2];   // [rapid_count] U from and to; owned
 } ResultView;
 
 // ERROR_INPUT names `folder` when it holds no history, or one without the two steps a picture

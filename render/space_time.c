@@ -10,6 +10,8 @@
 #include <math.h>
 #include <string.h>
 
+static const double ONE_COLUMN = 1.5;   // columns: what is shorter rounds to one
+
 // Half way to the neighbours on the same pad; the last node of a pad has nothing beyond it, so that
 // gaps stay gaps.
 void node_extent(const SpaceTime *data, int32_t i, double *from, double *to)
@@ -35,6 +37,18 @@ static int32_t column_of(const PixelGrid *grid, double U)
     return place >= grid->columns ? grid->columns : (int32_t)place;
 }
 
+// The same for a step of a rapid event: all of a short one are in one column.
+static int32_t column_of_step(const SpaceTime *data, const PixelGrid *grid, double U)
+{
+    double width = (grid->U_high - grid->U_low) / grid->columns;
+    for (int32_t k = 0; k < data->event_count; ++k) {
+        const double *event = data->events[k];
+        if (U >= event[0] && U <= event[1] && event[1] - event[0] < ONE_COLUMN * width)
+            return column_of(grid, (event[0] + event[1]) / 2);
+    }
+    return column_of(grid, U);
+}
+
 // by_column: [columns * nodes]; an open node counts as more than any rate.
 static void step_add(const SpaceTime *data, int64_t row, int32_t column, float *by_column)
 {
@@ -57,7 +71,7 @@ static void columns_gather(const SpaceTime *data, const PixelGrid *grid, float *
     for (int64_t k = 0; k < (int64_t)data->nodes * grid->columns; ++k) by_column[k] = NAN;
     for (int64_t row = 0; row < data->rows; ++row) {
         if (!isfinite(data->U[row])) continue;
-        int32_t column = column_of(grid, data->U[row]);
+        int32_t column = column_of_step(data, grid, data->U[row]);
         if (column < 0) continue;
         for (; reached < column; ++reached)
             if (next[reached] == data->rows) next[reached] = row;

@@ -211,7 +211,8 @@ static bool make_page(const char *path, Error *err)
     TRY(read_charts(charts, &count, err));
     int32_t columns = count < COLUMNS ? count : COLUMNS, rows = (count - 1) / COLUMNS + 1;
     PictureStyle style = {.width = columns * COLUMN_MM, .dpi = WIDTH / COLUMN_MM * 25.4};
-    TRY(page_begin(&page, &style, (double)(rows * HEIGHT) / (columns * WIDTH), 0, err));
+    PageDef def = {.style = &style, .height = (double)(rows * HEIGHT) / (columns * WIDTH)};
+    TRY(page_begin(&page, &def, err));
     for (int32_t k = 0; k < count; k++) {
         Point corner = {k % COLUMNS * WIDTH, k / COLUMNS * HEIGHT};
         TRY(draw_chart(&page, corner, &charts[k], err));

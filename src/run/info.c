@@ -24,7 +24,8 @@ static bool info_scene_mesh(const Scene *scene, const char *picture, FILE *out, 
     double middle = 0, width = 0;
     model_rod_strip(scene, mesh.z_max - mesh.z_min, &middle, &width);
     double strip[2] = {middle - 0.5 * width, middle + 0.5 * width};
-    TRY(info_draw_mesh(&mesh, scene->rod.kind == ROD_NONE ? NULL : strip, picture, err));
+    const char *unit = scene->units == UNITS_SI ? "m" : "~{L}_{0}";
+    TRY(info_draw_mesh(&mesh, scene->rod.kind == ROD_NONE ? NULL : strip, unit, picture, err));
 cleanup:
     mesh_file_destroy(&file);
     mesh_destroy(&mesh);

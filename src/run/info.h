@@ -10,7 +10,9 @@ bool info_mesh(const char *path, const InfoOptions *options, FILE *out, Error *e
 void info_write_mesh(const Mesh *mesh, FILE *out);
 bool info_result(const char *folder, FILE *out, Error *err);   // a result folder
 
-// The mesh as a picture; strip: the rod's, z from and to, NULL: none.
-bool info_draw_mesh(const Mesh *mesh, const double strip[2], const char *picture, Error *err);
+// The mesh as a picture; strip: the rod's, z from and to, NULL: none. unit: of lengths, as
+// RenderMesh has it.
+bool info_draw_mesh(const Mesh *mesh, const double strip[2], const char *unit, const char *picture,
+                    Error *err);
 
 #endif

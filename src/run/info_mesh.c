@@ -96,7 +96,7 @@ bool info_mesh(const char *path, const InfoOptions *options, FILE *out, Error *e
     TRY(mesh_file_read(path, parameters, options->override_count, &file, err));
     TRY(mesh_build(&file, path, &mesh, err));
     info_write_mesh(&mesh, out);
-    if (options->picture) TRY(info_draw_mesh(&mesh, NULL, options->picture, err));
+    if (options->picture) TRY(info_draw_mesh(&mesh, NULL, NULL, options->picture, err));
 cleanup:
     mesh_file_destroy(&file);
     mesh_destroy(&mesh);
@@ -105,7 +105,8 @@ cleanup:
 }
 
 // strip: the rod's lowest and highest z, length, or NULL. Drawn by the module `render`.
-bool info_draw_mesh(const Mesh *mesh, const double strip[2], const char *picture, Error *err)
+bool info_draw_mesh(const Mesh *mesh, const double strip[2], const char *unit, const char *picture,
+                    Error *err)
 {
     char note[200];
     const char *name = strrchr(mesh->path, '/');
@@ -115,6 +116,7 @@ bool info_draw_mesh(const Mesh *mesh, const double strip[2], const char *picture
              summary.aspect_max);
     RenderMesh request = {.title = name ? name + 1 : mesh->path,
                           .note = note,
+                          .unit = unit,
                           .node_count = mesh->node_count,
                           .position = mesh->position,
                           .element_count = mesh->element_count,

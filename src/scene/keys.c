@@ -36,7 +36,8 @@ static const char *const figure_choices[] = {
 // Keys of one map stand together: the writers open and close maps as they go along.
 static const SceneKey keys[] = {
     {"title", KEY_TEXT, offsetof(Scene, title), "1", RANGE_ANY, "\"\"",
-     .sentence = "What the scene is, in a line; shown in the closing lines and kept in results."},
+     .sentence = "What the scene is, in a line; shown in the closing lines and above "
+                 "figures, kept in results."},
     {"units", KEY_CHOICE, offsetof(Scene, units), "1", RANGE_ANY, "normalised",
      .sentence = "`normalised`: plain numbers; density, Young's modulus and eta1 usually 1. "
                  "`si`: numbers in SI base units, or with a unit (10 um/s, 3 kPa).",

@@ -253,8 +253,9 @@ class Pictures(unittest.TestCase):
         picture, frame = self.picture["slip-map"], Frame(self.picture["slip-map"])
         ink = is_color(picture, INK, 90)
         for beside, ticks in ((14, 6), (7, 21)):   # pixels: there, minor ticks have ended or not
-            found = groups(ink[:int(frame.bottom) + 9, int(frame.left) - beside])
-            wanted = frame.bottom - np.linspace(0, 1, ticks) * (frame.bottom - frame.top)
+            top = int(frame.top) - 9   # the title is above
+            found = groups(ink[top:int(frame.bottom) + 9, int(frame.left) - beside])
+            wanted = frame.bottom - top - np.linspace(0, 1, ticks) * (frame.bottom - frame.top)
             np.testing.assert_allclose(sorted(found), sorted(wanted), atol=1.01)
         start = int(frame.left) - 9
         found = groups(ink[int(frame.bottom) + 14, start:int(frame.right) + 10])
@@ -371,7 +372,7 @@ class Variants(unittest.TestCase):
         picture = read_picture(self.folder, "slip-map")
         frame = Frame(picture)
         x, pad = data["nodes/x"], data["nodes/pad"]
-        beside = slice(int(frame.right) + 3, int(frame.right) + 25)
+        beside = slice(int(frame.right) + 66, int(frame.right) + 90)   # beyond the name of l_c
         for k in range(3):
             row, _ = frame.pixel(0.5, x[pad == k].mean())
             self.assertTrue(is_color(picture[row, beside], gray).any(), k)
@@ -409,6 +410,36 @@ class Variants(unittest.TestCase):
         self.assertGreater(len(groups(words[rows].any(axis=0))), 10, "letters")
         self.assertGreater(rows[0], 3)
         self.assertTrue(frame.left < columns[0] and columns[-1] <= frame.right + 1)
+
+    def test_title(self):
+        """Above the figure, which stays what it is; a long one is made to fit."""
+        pictures = {}
+        for title in "", "A block", "A block " * 40:
+            fixture.make(self.folder, change=lambda data, attributes: attributes.update(title=title))
+            self.draw("force")
+            pictures[title] = read_picture(self.folder, "force")
+        plain, *titled = pictures.values()
+        for picture in titled:
+            head = picture.shape[0] - plain.shape[0]
+            np.testing.assert_array_equal(picture[head:], plain)
+            inked = np.flatnonzero(is_color(picture[:head], INK, 60).any(axis=0))
+            self.assertGreater(inked[0], 10)
+            self.assertLess(inked[-1], plain.shape[1] - 10)
+            self.assertEqual(picture[:3].min(), 255)
+        self.assertGreater(inked[-1], 0.9 * plain.shape[1])
+
+    def test_a_level_far_above_leaves_room_to_the_curve(self):
+        """mu_S three times the curve: an arrow and its value, and the curve as high as without it."""
+        heights = []
+        for mu in 0.38, 1.2:
+            fixture.make(self.folder, change=lambda data, attributes: attributes.update(mu_static=mu))
+            self.draw("force")
+            picture = read_picture(self.folder, "force")
+            frame = Frame(picture)
+            rows = np.flatnonzero(is_color(picture, CURVE, 8)[int(frame.top + frame.bottom) // 2:].any(axis=1))
+            heights.append((rows[-1] - rows[0]) / (frame.bottom - frame.top))
+        self.assertGreater(heights[1], 0.4)
+        self.assertGreaterEqual(heights[1], 0.95 * heights[0])
 
     def test_warnings_stand_below(self):
         """The figure is what it is without; below it, in a colour of their own, whole words only."""
@@ -521,7 +552,7 @@ class Variants(unittest.TestCase):
         fixture.make(self.folder)
         self.draw("force", width=100, dpi=254)
         wide = read_picture(self.folder, "force")
-        self.assertEqual(wide.shape, (800, 1000, 3))
+        self.assertEqual(wide.shape, (800 + round(14 * 254 / 72), 1000, 3), "14 points for the title")
         place = read_bytes(self.folder, "force").index(b"pHYs") + 4
         self.assertEqual(struct.unpack(">II", read_bytes(self.folder, "force")[place:place + 8]), (10000, 10000))
         for style in {"dpi": 50}, {"width": 10000}, {"width": 1e300}:

@@ -17,8 +17,9 @@ const char *figure_last_word(const char *key)
     return dot ? dot + 1 : key;
 }
 
-void figure_record_label(const StudyRecord *record, char label[FIGURE_LABEL_SIZE])
+FigureLabel figure_record_label(const StudyRecord *record)
 {
+    FigureLabel label = {0};
     static const struct {
         const char *path, *label;
     } known[] = {
@@ -29,14 +30,16 @@ void figure_record_label(const StudyRecord *record, char label[FIGURE_LABEL_SIZE
         {"results.l_c_over_L", "~{l}_{c} / ~{L}"},
         {"results.l_sc_over_L", "~{l}_{sc} / ~{L}"},
     };
-    snprintf(label, FIGURE_LABEL_SIZE, "%.80s", record->name);
+    snprintf(label.words, FIGURE_LABEL_SIZE, "%.80s", record->name);
     for (size_t k = 0; k < sizeof known / sizeof known[0]; k++)
         if (strcmp(record->path, known[k].path) == 0)
-            snprintf(label, FIGURE_LABEL_SIZE, "%s", known[k].label);
+            snprintf(label.words, FIGURE_LABEL_SIZE, "%s", known[k].label);
+    return label;
 }
 
-void figure_key_label(const char *name, const Scene *scene, char label[FIGURE_LABEL_SIZE])
+FigureLabel figure_key_label(const char *name, const Scene *scene)
 {
+    FigureLabel label = {0};
     static const struct {
         const char *dimension, *si, *normalised;
     } units[] = {{"length", "m", "~{L}_{0}"},
@@ -47,16 +50,17 @@ void figure_key_label(const char *name, const Scene *scene, char label[FIGURE_LA
                  {"viscosity", "Pa s", NULL}};
     int32_t count = 0, index = scene_key_index(name);
     const SceneKey *keys = scene_keys(&count);
-    snprintf(label, FIGURE_LABEL_SIZE, "%.60s", figure_last_word(name));
-    if (index < 0 || keys[index].type != KEY_NUMBER) return;
+    snprintf(label.words, FIGURE_LABEL_SIZE, "%.60s", figure_last_word(name));
+    if (index < 0 || keys[index].type != KEY_NUMBER) return label;
     for (size_t k = 0; k < sizeof units / sizeof units[0]; k++) {
         if (strcmp(keys[index].unit, units[k].dimension) != 0) continue;
         if (scene->units == UNITS_SI)
-            snprintf(label, FIGURE_LABEL_SIZE, "%.60s (%s)", figure_last_word(name), units[k].si);
+            label.unit = units[k].si;
         else if (units[k].normalised)
-            snprintf(label, FIGURE_LABEL_SIZE, "%.60s / %s", figure_last_word(name),
+            snprintf(label.words, FIGURE_LABEL_SIZE, "%.60s / %s", figure_last_word(name),
                      units[k].normalised);
     }
+    return label;
 }
 
 // --- the description ----------------------------------------------------------------------------
@@ -105,10 +109,11 @@ static void write_numbers(JsonWriter *json, const char *key, const double *value
     json_end(json);
 }
 
-void figure_write_axis(Figure *figure, const char *name, const char *label, bool is_log)
+void figure_write_axis(Figure *figure, const char *name, const FigureLabel *label, bool is_log)
 {
     json_begin_object(figure->json, name);
-    json_text(figure->json, "label", label);
+    json_text(figure->json, "label", label->words);
+    if (label->unit) json_text(figure->json, "unit", label->unit);
     json_text(figure->json, "scale", is_log ? "log" : "linear");
     json_end(figure->json);
 }

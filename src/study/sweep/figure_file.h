@@ -31,8 +31,12 @@ typedef struct Curve {
 bool figure_begin(Figure *figure, Error *err);
 // The description on disk, then its picture. Called once, also after a failure.
 bool figure_end(Figure *figure, Error *err);
+typedef struct FigureLabel {
+    char words[FIGURE_LABEL_SIZE];
+    const char *unit;   // of SI, to be written with the prefix that suits; NULL: none
+} FigureLabel;
 // Its ends fit the data.
-void figure_write_axis(Figure *figure, const char *name, const char *label, bool is_log);
+void figure_write_axis(Figure *figure, const char *name, const FigureLabel *label, bool is_log);
 void figure_write_curve(JsonWriter *json, const Curve *curve);
 
 // Why the marks of a point are open: a bit for each kind of its warnings, and one more where its
@@ -44,8 +48,8 @@ void figure_write_doubts(Figure *figure, const Warned *warned, uint32_t doubts);
 
 const char *figure_last_word(const char *key);   // "length" of mesh.set.length
 // The paper's symbol where there is one, with render/text's marks.
-void figure_record_label(const StudyRecord *record, char label[FIGURE_LABEL_SIZE]);
-// "pressure (Pa)", or "pressure / E" in normalised units.
-void figure_key_label(const char *name, const Scene *scene, char label[FIGURE_LABEL_SIZE]);
+FigureLabel figure_record_label(const StudyRecord *record);
+// "pressure" and "Pa", or "pressure / E" in normalised units.
+FigureLabel figure_key_label(const char *name, const Scene *scene);
 
 #endif

@@ -90,7 +90,6 @@ bool figure_of_ranking(const Sweep *sweep, const SweepTable *table, const Rankin
                        Error *err)
 {
     Figure figure = {.sweep = sweep, .name = "ranking"};
-    char label[FIGURE_LABEL_SIZE];
     int32_t shown = ranking->ranked;
     uint32_t doubts = 0;
     if (shown > sweep->study.rank.top) shown = sweep->study.rank.top;
@@ -101,9 +100,9 @@ bool figure_of_ranking(const Sweep *sweep, const SweepTable *table, const Rankin
         const RankRow *row = &ranking->rows[k];
         doubts |= figure_doubts(table, row->point, ranking->has_error, row->error);
     }
-    figure_record_label(&sweep->study.records[sweep->study.rank.record], label);
+    FigureLabel label = figure_record_label(&sweep->study.records[sweep->study.rank.record]);
     json_number(figure.json, "height", fmax(0.3, HEIGHT_LEFT + ROW_HEIGHT * shown));
-    figure_write_axis(&figure, "x", label, false);
+    figure_write_axis(&figure, "x", &label, false);
     TRY(write_names(&figure, ranking, shown, err));
     json_begin_list(figure.json, "series");
     write_baseline(&figure, ranking, shown);
@@ -232,17 +231,19 @@ cleanup:
     return error_is_clean(err);
 }
 
-static void write_axes(Figure *figure)
+static FigureLabel axis_label(const Figure *figure, StudyAxisData axis)
 {
     const Study *study = &figure->sweep->study;
-    const StudyPlot *plot = &study->plot;
-    char x[FIGURE_LABEL_SIZE], y[FIGURE_LABEL_SIZE];
-    if (plot->x.is_record) figure_record_label(&study->records[plot->x.index], x);
-    if (!plot->x.is_record) figure_key_label(study->columns[plot->x.index], figure->scene, x);
-    if (plot->y.is_record) figure_record_label(&study->records[plot->y.index], y);
-    if (!plot->y.is_record) figure_key_label(study->columns[plot->y.index], figure->scene, y);
-    figure_write_axis(figure, "x", x, plot->log_x);
-    figure_write_axis(figure, "y", y, plot->log_y);
+    return axis.is_record ? figure_record_label(&study->records[axis.index])
+                          : figure_key_label(study->columns[axis.index], figure->scene);
+}
+
+static void write_axes(Figure *figure)
+{
+    const StudyPlot *plot = &figure->sweep->study.plot;
+    FigureLabel x = axis_label(figure, plot->x), y = axis_label(figure, plot->y);
+    figure_write_axis(figure, "x", &x, plot->log_x);
+    figure_write_axis(figure, "y", &y, plot->log_y);
 }
 
 // A curve for each value of `series`, in the study's order, whose colours go round after seven.

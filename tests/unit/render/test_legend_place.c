@@ -120,10 +120,11 @@ static int32_t frame_right(Plot *plot)
     Error err = {0};
     enum { WIDTH = 860, HEIGHT = 645 };
     const PictureStyle style = {.dpi = 254};   // 10 pixels a millimetre
+    const PageDef def = {.style = &style, .height = (double)HEIGHT / WIDTH};
     Page page = {0};
     uint8_t *pixels = NULL;
     int32_t right = -1;
-    assert_true(page_begin(&page, &style, (double)HEIGHT / WIDTH, 0, &err));
+    assert_true(page_begin(&page, &def, &err));
     assert_true(figure_curves(&page, plot, &err) && canvas_read(page.canvas, &pixels, &err));
     for (int32_t column = 0; column < WIDTH; column++) {
         int32_t dark = 0;

@@ -37,7 +37,7 @@ static void fastest_step_shows(void **state)
 {
     (void)state;
     PixelGrid grid;
-    SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL};
+    SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL, 0, NULL};
     grid_make(&data, &grid);
     assert_float_equal(at(&grid, 3, 2), 50, 0);   // lower node: |-50|, between slower steps
     assert_float_equal(at(&grid, 3, 1), 9, 0);   // upper node
@@ -51,11 +51,32 @@ static void long_steps_hold_their_end(void **state)
 {
     (void)state;
     PixelGrid grid;
-    SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL};
+    SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL, 0, NULL};
     grid_make(&data, &grid);
     assert_float_equal(at(&grid, 2, 2), 2, 0);
     for (int32_t column = 4; column <= 8; ++column) assert_float_equal(at(&grid, column, 2), 6, 0);
     assert_true(isnan(at(&grid, 9, 2)));   // behind the last step: nothing is known
+    pixel_grid_destroy(&grid);
+}
+
+// A rapid event on both sides of the border at 0.4 is in the column of its middle; one of two columns
+// stays in both.
+static void a_short_event_is_in_one_column(void **state)
+{
+    (void)state;
+    const double U[STEPS] = {0, 0.2, 0.38, 0.395, 0.402, 0.41, 0.45, 1};
+    const double rate[STEPS * NODES] = {0, 0, 1, 1, 1, 1, 90, 90, 80, 80, 70, 70, 2, 2, 3, 3};
+    const double event[1][2] = {{0.395, 0.41}}, whole[1][2] = {{0.31, 0.49}};
+    PixelGrid grid;
+    SpaceTime data = {STEPS, U, NODES, two_x, one_pad, rate, NULL, 1, event};
+    grid_make(&data, &grid);
+    assert_float_equal(at(&grid, 3, 2), 1, 0);
+    assert_float_equal(at(&grid, 4, 2), 90, 0);
+    pixel_grid_destroy(&grid);
+    data.events = whole;
+    grid_make(&data, &grid);
+    assert_float_equal(at(&grid, 3, 2), 90, 0);
+    assert_float_equal(at(&grid, 4, 2), 80, 0);
     pixel_grid_destroy(&grid);
 }
 
@@ -64,7 +85,7 @@ static void a_window_sees_what_surrounds_it(void **state)
     (void)state;
     Error err = {0};
     PixelGrid grid = {0.4, 0.6, 0, 1, COLUMNS, ROWS, NULL};
-    SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL};
+    SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL, 0, NULL};
     assert_true(space_time_to_pixels(&data, &grid, &err));
     for (int32_t column = 0; column < COLUMNS; ++column)
         assert_float_equal(at(&grid, column, 2), 6, 0);   // inside the step that ends at 0.85
@@ -76,7 +97,7 @@ static void before_the_first_step_is_nothing(void **state)
     (void)state;
     const double U[3] = {NAN, 0.5, 0.55}, rate[3 * NODES] = {7, 7, 1, 1, 2, 2};
     PixelGrid grid;
-    SpaceTime data = {3, U, NODES, two_x, one_pad, rate, NULL};
+    SpaceTime data = {3, U, NODES, two_x, one_pad, rate, NULL, 0, NULL};
     grid_make(&data, &grid);
     for (int32_t column = 0; column < 5; ++column) assert_true(isnan(at(&grid, column, 0)));
     assert_float_equal(at(&grid, 5, 1), 2, 0);
@@ -91,7 +112,7 @@ static void nodes_fill_their_pads_only(void **state)
     const double U[2] = {0, 1}, rate[12] = {1, 2, 3, 4, 5, 6, 1, 2, 3, 4, 5, 6};
     double from = 0, to = 0;
     PixelGrid grid;
-    SpaceTime data = {2, U, 6, x, pad, rate, NULL};
+    SpaceTime data = {2, U, 6, x, pad, rate, NULL, 0, NULL};
     node_extent(&data, 2, &from, &to);
     assert_float_equal(from, 0.175, 1e-15);
     assert_float_equal(to, 0.25, 1e-15);
@@ -110,7 +131,7 @@ static void open_is_infinite_and_nan_is_none(void **state)
     (void)state;
     const double U[2] = {0, 0.95}, rate[4] = {1, NAN, 1, NAN}, status[4] = {1, 1, 0, 1};
     PixelGrid grid;
-    SpaceTime data = {2, U, NODES, two_x, one_pad, rate, status};
+    SpaceTime data = {2, U, NODES, two_x, one_pad, rate, status, 0, NULL};
     grid_make(&data, &grid);
     assert_float_equal(at(&grid, 0, 2), 1, 0);
     assert_true(isinf(at(&grid, 5, 2)));
@@ -134,7 +155,7 @@ static void agrees_with_the_definition(void **state)
         }
         PixelGrid grid = {0, 1, 0, 1, COLUMNS, 1, NULL};
         Error err = {0};
-        SpaceTime data = {MANY, U, 1, &x, &pad, rate, NULL};
+        SpaceTime data = {MANY, U, 1, &x, &pad, rate, NULL, 0, NULL};
         assert_true(space_time_to_pixels(&data, &grid, &err));
         for (int32_t column = 0; column < COLUMNS; ++column) {
             double fastest = -1, behind = -1;
@@ -156,7 +177,7 @@ static void agrees_with_the_definition(void **state)
 static void memory_can_be_short(void **state)
 {
     (void)state;
-    SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL};
+    SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL, 0, NULL};
     int64_t live = memory_counters().live;
     for (int64_t k = 0; k < 3; ++k) {
         Error err = {0};
@@ -175,6 +196,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fastest_step_shows),
         cmocka_unit_test(long_steps_hold_their_end),
+        cmocka_unit_test(a_short_event_is_in_one_column),
         cmocka_unit_test(a_window_sees_what_surrounds_it),
         cmocka_unit_test(before_the_first_step_is_nothing),
         cmocka_unit_test(nodes_fill_their_pads_only),
