@@ -5,8 +5,9 @@
 // Steps lie very unevenly in U: thousands inside a rapid event that is thinner than a pixel, none
 // for many pixels while nothing happens. A column of pixels takes the fastest of the steps
 // inside it, so no event is lost; one without a step takes the step that ends behind it, as an
-// implicit step holds its end's value. A rapid event whose length rounds to one column is in one, that
-// of its middle, also where it lies across a border: it would look twice as long. A node stands for the part of its pad that is nearest to it.
+// implicit step holds its end's value. A rapid event whose length rounds to one column is in one,
+// that of its middle, also where it lies across a border: it would look twice as long. A node
+// stands for the part of its pad that is nearest to it.
 #ifndef AMONTONS_RENDER_SPACE_TIME_H
 #define AMONTONS_RENDER_SPACE_TIME_H
 

@@ -59,8 +59,8 @@ static void long_steps_hold_their_end(void **state)
     pixel_grid_destroy(&grid);
 }
 
-// A rapid event on both sides of the border at 0.4 is in the column of its middle; one of two columns
-// stays in both.
+// A rapid event on both sides of the border at 0.4 is in the column of its middle; one of two
+// columns stays in both.
 static void a_short_event_is_in_one_column(void **state)
 {
     (void)state;
