@@ -34,9 +34,10 @@ class Rules(unittest.TestCase):
 
     def test_fit_is_the_program_s(self):
         """The same sum by hand as in tests/unit/record/test_error_bars.c."""
-        bar = estimates.fitted_line([20, 40], [[0.29, 0.31], [0.30, 0.34]])
-        mesh, branches = math.hypot(0.01, 2.78 * 0.12 / 40 * 0.32), 2 * math.sqrt((2e-4 + 8e-4) / 2) / math.sqrt(2)
-        self.assertAlmostEqual(bar, math.hypot(mesh, branches))
+        bar = estimates.fitted_line([0.30, 0.32], [20, 40])
+        self.assertAlmostEqual(bar, math.hypot(0.01, 2.78 * 0.12 / 40 * 0.32))
+        three = estimates.fitted_line([0.30, 0.30, 0.30], [10, 20, 40])      # no slope, no scatter but the usual one
+        self.assertAlmostEqual(three, 2.57 * math.sqrt(4 / 5) * 0.12 / 40 * 0.30)
 
     def test_verdict(self):
         """Bars of 1, errors 0.1 to 2: half of them hold; twice as wide all but the last would."""
@@ -92,9 +93,9 @@ class Whole(unittest.TestCase):
             self.assertEqual(ended.returncode, 0, ended.stderr)
             rows = [line.split(" | ") for line in Path(folder, "estimators.md").read_text().splitlines()]
             self.assertTrue(Path(folder, "estimators.png").exists())
-        states = {row[0]: float(row[1]) for row in rows if len(row) == 5 and row[0].startswith("| ") and "x" in row[0]}
+        states = {row[0]: float(row[2]) for row in rows if len(row) == 6 and row[0].startswith("| ") and "x" in row[0]}
         self.assertLess(states["| 12 x 12"], 0.8 * states["| 6 x 6"])      # the indicator falls with the cells
-        errors = [float(row[3]) for row in rows if len(row) == 7 and " x " in row[0]]
+        errors = [float(row[4]) for row in rows if len(row) == 8 and " x " in row[0]]
         self.assertEqual(len(errors), 4)
         self.assertLess(max(errors), 5)      # %, of all meshes: they compute this block
 

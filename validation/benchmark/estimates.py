@@ -13,7 +13,7 @@ ORDERS = (0.5, 2)      # an observed order is taken to lie between these, as is 
 ORDER_BLIND = 1        # of mu here (precision.md)
 # The program's own rule, src/record/error_bars.c.
 SLOPE, SCATTER, SCATTER_LEVELS, STEPS = 0.5, 0.12, 4, 0.002
-STUDENT = {4: 2.78, 5: 2.57, 6: 2.45}
+STUDENT = {4: 2.78, 5: 2.57}      # by degrees of freedom
 SURE = 0.95
 
 
@@ -40,18 +40,14 @@ def convergence_index_or_blind(values):
     return SAFETY_BLIND * difference(values) / (2**ORDER_BLIND - 1) if found is None else found
 
 
-def fitted_line(nodes, runs):
-    """The program's fit. nodes: in contact, of each mesh; runs: values on each mesh. What drops leave is not in it."""
-    means = [statistics.mean(values) for values in runs]
+def fitted_line(values, nodes):
+    """The mesh part of the program's bar. nodes: in contact, of each mesh."""
     size = nodes[-1] / numpy.array(nodes)
-    slope, start = numpy.polyfit(size, means, 1, w=1 / size)
-    residual = (((means - start - slope * size) / size) ** 2).sum()
+    slope, start = numpy.polyfit(size, values, 1, w=1 / size)
+    residual = (((values - start - slope * size) / size) ** 2).sum()
     freedoms = len(nodes) - 2 + SCATTER_LEVELS
-    scatter = math.sqrt((residual + SCATTER_LEVELS * (SCATTER / nodes[-1] * means[-1]) ** 2) / freedoms)
-    mesh = max(math.hypot(SLOPE * slope, STUDENT[freedoms] * scatter), STEPS * means[-1])
-    off = [value - mean for values, mean in zip(runs, means) for value in values]
-    spread = math.sqrt(sum(part**2 for part in off) / max(1, len(off) - len(runs)))
-    return math.hypot(mesh, 2 * spread / math.sqrt(len(runs[-1])))
+    scatter = math.sqrt((residual + SCATTER_LEVELS * (SCATTER / nodes[-1] * values[-1]) ** 2) / freedoms)
+    return max(math.hypot(SLOPE * slope, STUDENT[freedoms] * scatter), STEPS * values[-1])
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Which estimator's error bars hold, and what do they cost? On the 20 blocks of set A among promise.py's cases.
 
-    validation/benchmark/estimators.py [--quick] [-o FOLDER] [--promise FOLDER]
+    validation/benchmark/estimators.py [--quick] [--report] [-o FOLDER] [--promise FOLDER]
 
 Compared are: a bar of 1 % for all cases; the difference of N and 2N cells; Richardson's extrapolation from N, 2N and 4N as
 Roache's grid convergence index; the program's own fit, on the same runs, and as promise.md has it (`--to 3%`, `--to 1%`);
@@ -11,18 +11,19 @@ Zhu), relative and squared. Then meshes whose cells are short where slip sets ou
 nodes. References and the program's bars are read from promise.md beside this file.
 
 Runs are kept in FOLDER/estimators.jsonl as they end (default results/estimators): the same command goes on where it was
-stopped. What promise.py left in its own folder (--promise, default results/promise) on meshes of 80 cells is not computed
-again. Leaves estimators.md and a figure in FOLDER. --quick: one case on small meshes."""
+stopped. Runs on fixed meshes that promise.py has left in its own folder (--promise, default results/promise) are not
+computed again. Leaves estimators.md and a figure in FOLDER. --report: computes nothing, shows what is
+there. --quick: one case on small meshes."""
 import argparse
 import math
 import statistics
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import estimates
 import figure
 from estimates import Answer
-from estimator_runs import FULL, QUICK, SHORTENED, compute
+from estimator_runs import FULL, GRADE, QUICK, compute
 from measured_run import ROOT, commit, markdown_table
 from promise import BLOCK, CASES, FIRST, Kept, case
 from promise_work import sure_error
@@ -30,8 +31,8 @@ from promise_work import sure_error
 HERE = Path(__file__).resolve().parent
 SAME_BAR = 0.01      # of mu_M: what one would say of 40 cells without any estimator
 GUIDE = "error = bar"
-DRAWN = {"difference, 1 run a mesh": "difference of N, 2N", "Roache, else 3 differences, 1 run": "Roache, N, 2N, 4N",
-         "the program's fit, 1 run": "the program's fit", "indicator squared": "indicator squared"}
+DRAWN = {"difference": "difference of N, 2N", "Roache, else 3 differences": "Roache, N, 2N, 4N", "fit": "fit, N, 2N, 4N",
+         "indicator squared": "indicator squared"}
 
 
 @dataclass(frozen=True)
@@ -49,50 +50,37 @@ def promised(path):
         cells = [cell.strip() for cell in line.strip("|").split("|")]
         if len(cells) != 13 or not cells[0].startswith(("A,", "B,")):
             continue
-        answers = tuple(Answer(float(cells[k].split()[0]) / 100, float(cells[k + 1]) / 100, float(cells[k + 4])) for k in (3, 8))
+        answers = tuple(Answer(float(cells[k].split()[0]) / 100, float(cells[k + 1]) / 100, float(cells[k + 4]))
+                        for k in (3, 8))
         rows[cells[0]] = Promised(float(cells[1]), float(cells[2]) / 100, answers)
     return rows
 
 
 @dataclass(frozen=True)
 class Found:
-    """Of one case: (kind, cells) -> runs, cells -> state, and what promise.md has."""
-    meshes: dict
+    """Of one case: (name of the mesh, cells) -> run, cells -> state, and what promise.md has."""
+    runs: dict
     states: dict
     promised: Promised
 
-    def error(self, mu):
-        return mu / self.promised.mu - 1
+    def error(self, mesh, cells):
+        return self.runs[mesh, cells]["mu"] / self.promised.mu - 1
 
-    def single(self, cells):
-        """mu of the run at the case's own pressure, and what a first run on this mesh costs."""
-        row = self.meshes["even", cells]
-        return row["mu"][len(row["mu"]) // 2], row["seconds"][0]
+    def answer(self, cells, rule):
+        """rule: values on meshes of these numbers of cells -> bar."""
+        runs = [self.runs["even", n] for n in cells]
+        bar = rule([run["mu"] for run in runs])
+        return Answer(self.error("even", cells[-1]), None if bar is None else bar / self.promised.mu,
+                      sum(run["seconds"] for run in runs))
 
-    def by_values(self, cells, rule):
-        """The rule on one run a mesh."""
-        values, seconds = zip(*(self.single(n) for n in cells))
-        bar = rule(values)
-        return Answer(self.error(values[-1]), None if bar is None else bar / self.promised.mu, sum(seconds))
-
-    def by_means(self, cells, rule):
-        """The rule on the mean of all runs on each mesh."""
-        rows = [self.meshes["even", n] for n in cells]
-        values = [statistics.mean(row["mu"]) for row in rows]
-        bar = rule(values)
-        return Answer(self.error(values[-1]), None if bar is None else bar / self.promised.mu,
-                      sum(sum(row["seconds"]) for row in rows))
-
-    def by_fit(self, cells, single):
-        rows = [self.meshes["even", n] for n in cells]
-        runs = [[self.single(n)[0]] if single else row["mu"] for n, row in zip(cells, rows)]
-        seconds = sum(row["seconds"][0] if single else sum(row["seconds"]) for row in rows)
-        bar = estimates.fitted_line([row["nodes"] for row in rows], runs)
-        return Answer(self.error(statistics.mean(runs[-1])), bar / self.promised.mu, seconds)
+    def same_bar(self, cells):
+        return Answer(self.error("even", cells), SAME_BAR, self.runs["even", cells]["seconds"])
 
     def by_state(self, cells, power):
-        mu, seconds = self.single(cells)
-        return Answer(self.error(mu), self.states[cells]["relative"] ** power, seconds + self.states[cells]["seconds"])
+        state, seconds = self.states[cells], self.runs["even", cells]["seconds"]
+        if state is None:
+            return Answer(self.error("even", cells), None, seconds)
+        return Answer(self.error("even", cells), state["relative"] ** power, seconds + state["seconds"])
 
 
 def shown(cells):
@@ -101,30 +89,20 @@ def shown(cells):
 
 def rules(plan):
     """(name, cells, Found -> Answer)."""
-    coarse, every = plan.coarse, (*plan.coarse, *plan.fine)
-    triples = [every[k:k + 3] for k in range(len(every) - 2)]
-
-    def same(cells):
-        return lambda found: replace(found.by_values((cells,), lambda values: 0), bar=SAME_BAR)
-
-    def named(name, cells, method, *more):
-        return name, shown(cells), lambda found: getattr(found, method)(cells, *more)
-    rows = [(f"{100 * SAME_BAR:g} % for every case, no estimator", str(n), same(n)) for n in every[1:]]
-    rows += [named("difference, 1 run a mesh", pair, "by_values", estimates.difference) for pair in zip(every, every[1:])]
-    rows += [named("difference, 3 runs", coarse[-2:], "by_means", estimates.difference)]
-    rows += [named("Roache, only where an order is observed, 1 run", triple, "by_values", estimates.convergence_index)
-             for triple in triples]
-    rows += [named("Roache, else 3 differences, 1 run", triple, "by_values", estimates.convergence_index_or_blind)
-             for triple in triples]
-    rows += [named("Roache, else 3 differences, 3 runs", coarse, "by_means", estimates.convergence_index_or_blind)]
-    rows += [named("the program's fit, 1 run", triple, "by_fit", True) for triple in triples]
-    rows += [named("the program's fit, 3 runs", coarse, "by_fit", False)]
-    rows += [("the program, `--to 3%`", "its own", lambda found: found.promised.answers[0]),
-             ("the program, `--to 1%`", "its own", lambda found: found.promised.answers[1])]
-    for cells in coarse[1:]:
-        rows += [("indicator of the state", str(cells), lambda found, n=cells: found.by_state(n, 1)),
-                 ("indicator squared", str(cells), lambda found, n=cells: found.by_state(n, 2))]
-    return rows
+    pairs = [plan.cells[k:k + 2] for k in range(len(plan.cells) - 1)]
+    triples = [plan.cells[k:k + 3] for k in range(len(plan.cells) - 2)]
+    by_values = (("difference", pairs, estimates.difference),
+                 ("Roache, only where an order is observed", triples, estimates.convergence_index),
+                 ("Roache, else 3 differences", triples, estimates.convergence_index_or_blind))
+    rows = [(f"{100 * SAME_BAR:g} % for all, no estimator", str(n), lambda found, n=n: found.same_bar(n))
+            for n in plan.cells[1:]]
+    rows += [(name, shown(cells), lambda found, n=cells, rule=rule: found.answer(n, rule))
+             for name, groups, rule in by_values for cells in groups]
+    rows += [("fit", shown(cells), lambda found, n=cells: found.answer(
+        n, lambda values: estimates.fitted_line(values, [one + 1 for one in n]))) for cells in triples]
+    rows += [(f"`--to {wanted}%`", "its own", lambda found, k=k: found.promised.answers[k]) for k, wanted in enumerate((3, 1))]
+    return rows + [(name, str(n), lambda found, n=n, power=power: found.by_state(n, power))
+                   for n in plan.looked_at for power, name in ((1, "indicator"), (2, "indicator squared"))]
 
 
 def percent(part, digits=2):
@@ -145,32 +123,32 @@ def rule_table(judged):
 
 
 def mesh_table(everything, plan):
-    """Short cells where slip sets out against even ones: error of the mean over pressures."""
+    """Short cells where slip sets out against even ones."""
     rows = []
-    for cells in plan.coarse[1:]:
-        for kind, words in {"even": "even", **{kind: SHORTENED[kind] for kind in plan.shortened}}.items():
-            runs = [(found.error(statistics.mean(found.meshes[kind, cells]["mu"])), sum(found.meshes[kind, cells]["seconds"]))
-                    for found in everything]
-            errors, seconds = zip(*runs)
+    for cells in plan.looked_at:
+        both = [found for found in everything if found.runs["trailing", cells]]
+        for mesh, words in (("even", "even"), ("trailing", f"short at the trailing end, 1 to {GRADE}")) if both else ():
+            errors = [found.error(mesh, cells) for found in both]
             size = [abs(error) for error in errors]
-            better = sum(abs(error) < abs(found.error(statistics.mean(found.meshes["even", cells]["mu"])))
-                         for error, found in zip(errors, everything))
-            rows.append([f"{cells} x {cells}", words, percent(sure_error(size)), percent(statistics.median(size)),
-                         percent(statistics.mean(errors)), "" if kind == "even" else f"{better} of {len(errors)}",
-                         f"{statistics.median(seconds):.1f}"])
-    return markdown_table(["cells", "columns of cells", "19 of 20 err by less than, %", "median error, %", "mean, signed, %",
+            better = sum(error < abs(found.error("even", cells)) for error, found in zip(size, both))
+            rows.append([f"{cells} x {cells}", words, len(both), percent(sure_error(size)), percent(statistics.median(size)),
+                         percent(statistics.mean(errors)), "" if mesh == "even" else f"{better} of {len(both)}",
+                         f"{statistics.median(found.runs[mesh, cells]['seconds'] for found in both):.1f}"])
+    return markdown_table(["cells", "columns of cells", "cases", "19 of 20 err by less than, %", "median error, %", "mean, signed, %",
                            "closer than even cells", "cpu s, median"], rows)
 
 
-def state_table(everything, coarse):
+def state_table(everything, plan):
     rows = []
-    for cells in coarse:
-        states = [found.states[cells] for found in everything]
+    for cells in plan.looked_at:
+        states = [found.states[cells] for found in everything if found.states[cells]]
+        if not states:
+            continue
         relative = [state["relative"] for state in states]
-        rows.append([f"{cells} x {cells}", percent(statistics.median(relative), 1),
+        rows.append([f"{cells} x {cells}", len(states), percent(statistics.median(relative), 1),
                      f"{percent(min(relative), 1)} to {percent(max(relative), 1)}",
                      *(percent(statistics.median(state[key] for state in states), 0) for key in ("at_rod_face", "at_contact"))])
-    return markdown_table(["cells", "relative error, median, %", "all cases, %", "of it next to the rod's face, %",
+    return markdown_table(["cells", "cases", "relative error, median, %", "all cases, %", "of it next to the rod's face, %",
                            "next to the contact, %"], rows)
 
 
@@ -179,7 +157,8 @@ def draw(path, answers):
     curves = {}
     for name, every in answers.items():
         own = [one for one in every if one.bar is not None]
-        curves[name] = [one.bar for one in own], [abs(one.error) for one in own]
+        if own:
+            curves[name] = [one.bar for one in own], [abs(one.error) for one in own]
     bars = [bar for x, _ in curves.values() for bar in x]
     curves[GUIDE] = [min(bars), max(bars)], [min(bars), max(bars)]
     figure.draw(path, "Blocks of set A: do bars know of the error?", "bar of mu_M, relative", "error of mu_M, relative", curves,
@@ -191,18 +170,18 @@ def text_of(everything, plan, folder):
     judged = [(name, cells, estimates.verdict_of(answers)) for name, cells, answers in answered
               if any(one.bar is not None for one in answers)]
     draw(folder / "estimators", {DRAWN[name]: answers for name, cells, answers in answered
-                                 if name in DRAWN and cells.endswith(str(plan.coarse[-1]))})
+                                 if name in DRAWN and cells.endswith(str(plan.looked_at[-1]))})
     own = [found.promised.own_error for found in everything]
     return (f"## Which estimator's bars hold?\n\nVersion {commit()}. {len(everything)} blocks of set A, references from "
             f"promise.md (their own error: {percent(statistics.median(own))} % in the median, {percent(max(own))} % at most). "
-            "Errors and bars are relative, bars half their width. `1 run`: at the case's pressure; `3 runs`: mean of "
-            "pressures 0.5 % below, at and above, the mesh made and reduced once. `times wider`: what all bars of the rule "
-            "would have to be multiplied with; `median bar then` compares rules that hold equally often. `cells`: along and "
-            "up the block.\n\n" + rule_table(judged) + "\n\n![estimators](estimators.png)\n\n"
+            "One run a mesh, at the case's pressure; quads of order 1, `cells` along and up the block. Errors and bars are "
+            "relative, bars half their width. `fit`: the mesh part of the program's bar. `times wider`: what all bars of the "
+            "rule would have to be multiplied with; `median bar then` compares rules that hold equally often.\n\n"
+            + rule_table(judged) + "\n\n![estimators](estimators.png)\n\n"
             "### Error of the elastic state before the first rapid event\n\nBy recovery of stress, relative to the energy "
             "norm. Next to: within a tenth of length or height, parts of the error's energy.\n\n"
-            + state_table(everything, plan.coarse[1:]) + "\n\n### Short cells where slip sets out\n\n`trailing.geo` and "
-            "`grade_x` of block.geo; rows are even. 3 runs.\n\n" + mesh_table(everything, plan) + "\n")
+            + state_table(everything, plan) + "\n\n### Short cells where slip sets out\n\n"
+            "`trailing.geo` against `block.geo`, as many contact nodes.\n\n" + mesh_table(everything, plan) + "\n")
 
 
 def main():
@@ -210,6 +189,7 @@ def main():
     parser.add_argument("-o", "--output", type=Path, default=ROOT / "results/estimators")
     parser.add_argument("--promise", type=Path, default=ROOT / "results/promise", help="folder of what promise.py computed")
     parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--report", action="store_true", help="compute nothing, show what is there")
     options = parser.parse_args()
     options.output.mkdir(parents=True, exist_ok=True)
     plan = QUICK if options.quick else FULL
@@ -217,8 +197,9 @@ def main():
     table, everything = promised(HERE / "promise.md"), []
     blocks = [one for one in map(case, range(FIRST, FIRST + CASES)) if one.scene == BLOCK]
     for one in blocks[plan.cases]:
-        meshes, states = compute(one, kept, before, plan)
-        everything.append(Found(meshes, states, table[one.name]))
+        runs, states = compute(one, kept, before, plan, not options.report)
+        if all(runs["even", cells] for cells in plan.cells):
+            everything.append(Found(runs, states, table[one.name]))
         print(one.name, flush=True)
     (options.output / "estimators.md").write_text(text_of(everything, plan, options.output))
     print((options.output / "estimators.md").read_text())
