@@ -52,8 +52,8 @@ typedef struct ContactView {
 
 // One accepted step, as shown to the caller.
 typedef struct StepView {
-    double t, U;   // time, 0 when the rod starts; displacement of the rod, length
-    double mu;   // F_T / F_N
+    double t, U;   // time, 0 when the rod starts; displacement of its drive, length
+    double rod_way, mu;   // of the rod itself, length (U: rod.stiffness is not given); F_T / F_N
     double step_size;   // of this step, time
     double front;   // l, how far slip has grown from the trailing edge, length
     double max_slip_rate;   // largest |slip rate| on the interface, velocity

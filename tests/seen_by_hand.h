@@ -69,6 +69,7 @@ static inline const Observation *hand_seen(HandSeen *hand, double t, const doubl
     bool together = true;
     hand->state.time = hand->seen.t = t;
     hand->seen.U = t / 10;
+    hand->seen.rod_way = 0.6 * hand->seen.U;
     hand->seen.front = 0;
     hand->seen.max_slip_rate = 0;
     for (int32_t i = 0; i < SEEN_NODES; i++) {

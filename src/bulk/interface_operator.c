@@ -22,6 +22,7 @@ struct InterfaceOperator {
     double *inverse;   // reduced: [interior^2] A_qq^-1; owned
     double *map;   // reduced: [interior * interface] B; owned
     double *half;   // reduced: [interior] A_qq^-1 rhs_q; owned
+    MachineColumn machine;   // empty: the rod is rigid; owned
 };
 
 // The load is copied: later changes of `bulk` do not reach it. mass_total: of one direction, as
@@ -241,12 +242,15 @@ InterfaceOperator *interface_operator_create(BulkOperator *system, OperatorTerms
     condensed->system = system;
     condensed->schur = NEW_ARRAY(double, m *m, err);
     if (!condensed->schur) goto cleanup;
-    if (!system->bulk && take_viscous(condensed, terms)) return condensed;
+    bool taken = !system->bulk && take_viscous(condensed, terms);
     if (system->bulk)
         TRY(condense_sparse(condensed, terms, err));
-    else
+    else if (!taken)
         TRY(condense_dense(condensed, terms, err));
-    system->factorisations++;
+    system->factorisations += !taken;
+    if (system->machine.stiffness > 0)
+        TRY(machine_soften(&system->machine, terms.stiffness, (int32_t)m, condensed->schur,
+                           &condensed->machine, err));
 cleanup:
     if (error_is_clean(err)) return condensed;
     interface_operator_destroy(condensed);
@@ -261,6 +265,7 @@ void interface_operator_destroy(InterfaceOperator *condensed)
     memory_free(condensed->inverse);
     memory_free(condensed->map);
     memory_free(condensed->half);
+    machine_column_destroy(&condensed->machine);
     memory_free(condensed);
 }
 
@@ -273,13 +278,28 @@ const double *interface_operator_schur(const InterfaceOperator *condensed)
 bool interface_operator_condense(InterfaceOperator *condensed, const double *rhs, double *g,
                                  Error *err)
 {
-    if (condensed->factor) return sparse_condense(condensed->factor, rhs, g, err);
     const ReducedBulk *reduced = condensed->system->reduced;
-    int32_t m = reduced->interface_count, r = reduced->interior_count;
-    memcpy(g, rhs, (size_t)m * sizeof(double));
-    dense_apply_transposed((DenseView){condensed->map, r, m}, rhs + m, -1, 1, g);
-    dense_symmetric_apply(condensed->inverse, r, rhs + m, condensed->half);
-    return true;
+    if (condensed->factor) {
+        TRY(sparse_condense(condensed->factor, rhs, g, err));
+    } else {
+        int32_t m = reduced->interface_count, r = reduced->interior_count;
+        memcpy(g, rhs, (size_t)m * sizeof(double));
+        dense_apply_transposed((DenseView){condensed->map, r, m}, rhs + m, -1, 1, g);
+        dense_symmetric_apply(condensed->inverse, r, rhs + m, condensed->half);
+    }
+    if (condensed->machine.column) machine_refer(&condensed->machine, g);
+cleanup:
+    return error_is_clean(err);
+}
+
+void interface_operator_pull(InterfaceOperator *condensed, double force)
+{
+    condensed->machine.force = force;
+}
+
+double interface_operator_release(const InterfaceOperator *condensed, double *velocity)
+{
+    return condensed->machine.column ? machine_release(&condensed->machine, velocity) : 0;
 }
 
 bool interface_operator_expand(InterfaceOperator *condensed, const double *interface, double *v,

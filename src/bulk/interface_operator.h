@@ -13,6 +13,7 @@
 #include "base/archive.h"
 #include "base/hash.h"
 #include "bulk/assembly.h"
+#include "bulk/machine.h"
 #include "bulk/reduced_bulk.h"
 
 typedef enum BulkTerm { BULK_STIFFNESS, BULK_DAMPING, BULK_MASS } BulkTerm;
@@ -24,6 +25,7 @@ typedef struct BulkOperator {
     double *load;   // [dof_count] f, force/width; owned
     double *rotation;   // [dof_count] the unit rotation about the origin, (-z, x); owned
     double mass_total;   // of the block, mass/width
+    Machine machine;   // behind the rod; set before an operator is made, rigid at first
     const Bulk *bulk;   // full: K, C, M; not owned; NULL when reduced
     const ReducedBulk *reduced;   // reduced: likewise; not owned; NULL when full
     SparseAnalysis *analysis;   // full; owned
@@ -70,11 +72,17 @@ typedef struct InterfaceOperator InterfaceOperator;   // A, factored
 InterfaceOperator *interface_operator_create(BulkOperator *system, OperatorTerms terms, Error *err);
 void interface_operator_destroy(InterfaceOperator *condensed);   // NULL is fine
 
-// S: [interface_count^2], symmetric, column-major.
+// S: [interface_count^2], symmetric, column-major. Behind a rod on a spring (bulk/machine) it is S',
+// what is condensed is g', and a caller turns what it finds by interface_operator_release before
+// the expand.
 const double *interface_operator_schur(const InterfaceOperator *condensed);
 // rhs [dof_count] -> g [interface_count]; expand must follow before the next condense.
 bool interface_operator_condense(InterfaceOperator *condensed, const double *rhs, double *g,
                                  Error *err);
+// What pulls the rod at v_R = 0 in all that is condensed from here on, force/width.
+void interface_operator_pull(InterfaceOperator *condensed, double force);
+// y [interface_count], against the rod, becomes v_b; returns v_R (0, and v_b as it is: no spring).
+double interface_operator_release(const InterfaceOperator *condensed, double *velocity);
 // v_b [interface_count] -> v [dof_count]
 bool interface_operator_expand(InterfaceOperator *condensed, const double *interface, double *v,
                                Error *err);

@@ -59,6 +59,12 @@ double rod_bound(const Rod *rod, int32_t j, double position, double time, double
     return (way + rod->lag * rod->velocity) / (reach + rod->lag);
 }
 
+double rod_bound_on_spring(const Rod *rod, int32_t j, double position, double way, double reach)
+{
+    double lag = rod->softness[j] == 0 ? 0 : rod->lag;
+    return (rod->origin[j] + way - position) / (reach + lag);
+}
+
 // Force per width, positive when the rod pushes along +x.
 double rod_force(const Interface *interface, const double *reaction)
 {

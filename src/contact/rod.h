@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The rod that drives the block: node j of the strip is held at, or pushed to,
-// u_x = u_x,j(0) + U, U = V t, with no shear. Used by contact/contact_problem and stepping/.
+// u_x = u_x,j(0) + U, U = V t, with no shear. Behind a machine that yields (bulk/machine) the rod's
+// own way R stands in the place of U; it belongs to the state (stepping/state). Used by
+// contact/contact_problem and stepping/.
 //
 // The ends of the strip seldom stand half way between two nodes, and a mesh knows no other place
 // for an end: of whole nodes, the strip's width is off by up to a cell, and with it the force at
@@ -36,6 +38,7 @@ typedef struct Rod {
     RodKind kind;
     double velocity;   // V, velocity
     double since, way;   // it has this velocity since then, from this displacement on; time, length
+    double stiffness;   // of the spring that drives it, force/width over length; 0: rigid
     double *origin;   // [rod_count] u_x,j(0), length; owned
     double *softness;   // [rod_count] length per force/width, 0: rigid; owned
     double lag;   // of soft nodes, time
@@ -57,6 +60,8 @@ void rod_set_velocity(Rod *rod, double velocity, double time);
 // Where node j must go: the velocity bound of contact/contact_problem, from where it is without any
 // velocity (`position`), for a stage that ends at `time` and moves by `reach` times its velocity.
 double rod_bound(const Rod *rod, int32_t j, double position, double time, double reach);
+// The same against a rod on a spring that would be at `way` if it had no velocity (bulk/machine).
+double rod_bound_on_spring(const Rod *rod, int32_t j, double position, double way, double reach);
 
 // F_T, from the reactions on the interface [interface->count].
 double rod_force(const Interface *interface, const double *reaction);

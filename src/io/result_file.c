@@ -131,8 +131,10 @@ ArrayFile *result_file_create(const char *folder, const ResultHead *head, Error 
         TRY(add_row(file, &nodes_rows[k], 1, err));
         TRY(array_file_append(file, nodes_rows[k].name, head->nodes[k], head->contact_count, err));
     }
-    for (int32_t k = 0; k < RESULT_SERIES_COUNT; k++)
+    for (int32_t k = 0; k < RESULT_SERIES_COUNT; k++) {
+        if (k == SERIES_ROD_WAY && !head->rod_on_spring) continue;
         TRY(add_row(file, &series_rows[k], series_width(head, (ResultSeries)k), err));
+    }
     TRY(array_file_flush(file, err));   // from here on a killed run leaves a readable history
     return file;
 cleanup:
@@ -161,8 +163,10 @@ cleanup:
 
 bool result_file_cut(ArrayFile *file, int64_t rows, Error *err)
 {
-    for (int32_t k = 0; k < RESULT_SERIES_COUNT; k++)
+    for (int32_t k = 0; k < RESULT_SERIES_COUNT; k++) {
+        if (k == SERIES_ROD_WAY && !array_file_has(file, series_rows[k].name)) continue;
         TRY(array_file_cut(file, series_rows[k].name, rows, err));
+    }
 cleanup:
     return error_is_clean(err);
 }

@@ -17,13 +17,14 @@ const char *result_table_name(ResultTable table);
 const char *result_number_name(ResultNumber number);
 ResultColumns result_series_columns(ResultSeries series);
 
-// Writing: creates RESULT/history.h5(.part) with every series of the table, empty, and the fixed
+// Writing: creates RESULT/history.h5(.part) with the series of the table, empty, and the fixed
 // arrays. `nodes[k]`: [contact_count] for each ResultNodes; nodes[NODES_PAD] says how many pads.
 typedef struct ResultHead {
     const char *title, *units, *version;
     const char *pads;   // NULL: without names
     double numbers[RESULT_NUMBERS_COUNT];   // NaN: not known yet, not written
     bool goes_on;   // with the history that is there, finished or not: numbers and nodes are in it
+    bool rod_on_spring;   // SERIES_ROD_WAY is written, too
     int32_t contact_count;
     const double *nodes[RESULT_NODES_COUNT];
 } ResultHead;

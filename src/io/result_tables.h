@@ -15,6 +15,8 @@ typedef enum ResultColumns {
 #define RESULT_SERIES(X)                                                                           \
     X(SERIES_TIME, "series/time", ARRAY_FLOAT64, ONE, "time", "t, 0 when the rod starts")          \
     X(SERIES_ROD, "series/rod_displacement", ARRAY_FLOAT64, ONE, "length", "U = V t")              \
+    X(SERIES_ROD_WAY, "series/rod_way", ARRAY_FLOAT64, ONE, "length",                              \
+      "R, way of the rod itself, U - F_T / rod.stiffness; absent where the rod is rigid")          \
     X(SERIES_MU, "series/mu", ARRAY_FLOAT64, ONE, "1", "F_T / F_N, rod force over applied load")   \
     X(SERIES_ROD_FORCE, "series/rod_force", ARRAY_FLOAT64, ONE, "force/width",                     \
       "F_T, force of the rod on the block along x")                                                \

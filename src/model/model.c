@@ -32,6 +32,14 @@ double model_friction_slip(const Model *model)
     return friction_slip(&model->law, pressure, model->height, model->material.young);
 }
 
+// Slip times E L/H is the drop (mu_S - mu_K) F_N.
+double model_machine_yield(const Model *model)
+{
+    double stiffness = model_machine(model).stiffness;
+    double block = model->material.young * model->length / model->height;
+    return stiffness > 0 ? model_friction_slip(model) * block / stiffness : 0;
+}
+
 // 4 mu (lambda + mu)/(lambda + 2 mu) of sigma = D eps: what a half-plane sets against a pressure.
 static double half_plane(double d[3][3])
 {
@@ -44,8 +52,16 @@ bool model_build_rod(const Model *model, RodKind kind, Rod *rod, Error *err)
     material_elastic(&model->material, elastic);
     material_viscous(&model->material, viscous);
     if (!rod_build(&model->interface, kind, 0, rod, err)) return false;
+    rod->stiffness = model->scene->rod.stiffness;
     rod_soften(&model->interface, half_plane(elastic), half_plane(viscous), rod);
     return true;
+}
+
+Machine model_machine(const Model *model)
+{
+    const Interface *interface = &model->interface;
+    return (Machine){.stiffness = interface->rod_count > 0 ? model->scene->rod.stiffness : 0,
+                     .first = 2 * interface->contact_count};
 }
 
 void model_rod_strip(const Scene *scene, double height, double *middle, double *width)

@@ -46,9 +46,16 @@ Model model_of(const Scene *scene);
 // Tolerances of slip are measured by it, so that they hold for any load and any units.
 double model_friction_slip(const Model *model);
 
+// By how much the machine yields less when the load falls by that drop, length; 0: it is rigid.
+double model_machine_yield(const Model *model);
+
 // A rod of this kind at rest, its origin at 0, with the springs of its ends: soft ends get E* of
-// the elastic and of the viscous stiffness (contact/rod). Owned by the caller.
+// the elastic and of the viscous stiffness (contact/rod), and the machine's spring. Owned by the
+// caller.
 bool model_build_rod(const Model *model, RodKind kind, Rod *rod, Error *err);
+
+// What is behind the rod, for a BulkOperator of the model's interface.
+Machine model_machine(const Model *model);
 
 // Where the rod touches a block of this height: the centre of its strip over the plane and its
 // extent, length.

@@ -290,6 +290,7 @@ bool model_obtain(const Scene *scene, const StageNotice *notice, Model *model, E
         TRY(adopt_shape(model, &shape, err));
     else
         TRY(make_operator(model, key, err));
+    model->system.machine = model_machine(model);
     TRY(model_lay_laws(model, err));
     set_scales(model);
 cleanup:

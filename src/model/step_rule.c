@@ -6,7 +6,8 @@
 
 #include <math.h>
 
-static const double STEP_MAX_SLIP = 0.2;   // rung 0: the rod moves this part of that slip
+static const double STEP_MAX_SLIP = 0.2;   // rung 0: the drive moves this part of that slip, and
+    // of what the machine yields meanwhile
 static const double STEPS_AT_LEAST = 50;   // without a rod a run has at least so many
 static const double STEP_RANGE = 1e-10;   // step_min over step_max
 
@@ -40,7 +41,7 @@ StepControlDef step_rule(const Scene *scene, const StepSizes *sizes)
                           .energy_tolerance = scene->time.energy_tolerance,
                           .use_certificate = scene->time.certificate};
     if (driven) {
-        double longest = STEP_MAX_SLIP * sizes->slip / scene->rod.velocity;
+        double longest = STEP_MAX_SLIP * (sizes->slip + sizes->yield) / scene->rod.velocity;
         def.step_max = def.wave_step * exp2(ceil(log2(longest / def.wave_step)));
     }
     if (implicit && scene->time.step_max > 0) def.step_max = scene->time.step_max;

@@ -18,8 +18,10 @@ bool history_create(const char *folder, ResultHead *head, const Interface *inter
                     const ContactArrays *contact, History *history, Error *err)
 {
     int32_t count = interface->contact_count;
-    *history = (History){
-        .contact = contact, .flushed_at = clock_seconds(), .pad_count = interface->pad_count};
+    *history = (History){.contact = contact,
+                         .flushed_at = clock_seconds(),
+                         .pad_count = interface->pad_count,
+                         .rod_on_spring = head->rod_on_spring};
     history->row = NEW_ARRAY(double, count, err);
     history->pad = NEW_ARRAY(double, count, err);
     history->pad_sums = NEW_ARRAY(PadSum, interface->pad_count, err);
@@ -59,6 +61,8 @@ static double series_value(const Observation *seen, ResultSeries series)
         return seen->t;
     case SERIES_ROD:
         return seen->U;
+    case SERIES_ROD_WAY:
+        return seen->rod_way;
     case SERIES_MU:
         return seen->mu;
     case SERIES_ROD_FORCE:
@@ -150,8 +154,10 @@ bool history_record(void *self, const Observation *seen, Error *err)
     History *history = self;
     double started = clock_seconds();
     pad_sums(seen, history->pad_sums);
-    for (ResultSeries series = 0; series < RESULT_SERIES_COUNT; series++)
+    for (ResultSeries series = 0; series < RESULT_SERIES_COUNT; series++) {
+        if (series == SERIES_ROD_WAY && !history->rod_on_spring) continue;
         TRY(append(history, seen, series, err));
+    }
     history->rows++;
     double now = clock_seconds();
     history->seconds += now - started;

@@ -11,6 +11,7 @@
 typedef struct History {
     ArrayFile *file;   // NULL: no history is kept; owned
     int64_t rows;   // steps recorded
+    bool rod_on_spring;   // its own way is recorded
     double seconds;   // wall time spent
     double flushed_at;   // wall time of the last flush, s
     double *row;   // [contact_count] work; owned

@@ -58,11 +58,13 @@ Observation observe(const StepControl *control, const ObservationScales *scales)
                         .system = scheme->system,
                         .t = state->time,
                         .U = rod_displacement(scheme->rod, state->time),
+                        .rod_way = state->rod_way,
                         .step_size = control->counters.accepted > 0 ? control->last_step : 0,
                         .rod_force = rod_force(interface, state->reaction),
                         .front = slip_front(interface, state),
                         .certified = control->certified,
                         .grows = control->grows};
+    if (scheme->rod->stiffness == 0) seen.rod_way = seen.U;
     seen.mu = seen.rod_force / scales->load;
     for (int32_t i = 0; i < interface->contact_count; i++) {
         seen.normal_force += state->reaction[interface_normal(i)];

@@ -12,7 +12,8 @@ typedef struct Observation {
     const State *state;   // not owned
     const BulkOperator *system;   // not owned: where the interface stands in the state
     const Interface *interface;   // not owned
-    double t, U;   // time, length
+    double t, U;   // time, displacement of the drive, length
+    double rod_way;   // R: of the rod itself, less than U where it is driven by a spring; length
     double step_size;   // of the step that ended here; 0 at the start
     double rod_force;   // F_T, force/width
     double normal_force;   // resultant of the contact pressure, force/width

@@ -31,6 +31,7 @@ bool output_open_history(Simulation *simulation, Error *err)
         .units = scene->units == UNITS_SI ? "si" : "normalised",
         .version = AMONTONS_VERSION,
         .goes_on = simulation->goes_on,
+        .rod_on_spring = scene->rod.stiffness > 0 && scene->rod.kind != ROD_NONE,
         .numbers = {[NUMBER_LENGTH] = simulation->model.length,
                     [NUMBER_PRESSURE] = scene->load.pressure,
                     [NUMBER_LOAD] = simulation->model.scales.load,

@@ -25,6 +25,7 @@ bool start_prepare_steps(Simulation *simulation, Error *err)
     const Scene *scene = &simulation->scene;
     Model *model = &simulation->model;
     StepSizes sizes = {.slip = model_friction_slip(model),
+                       .yield = model_machine_yield(model),
                        .crossing = model->length / material_slip_speed(&model->material),
                        .tolerance = TOLERANCES[scene->time.accuracy]};
     StepControlDef def = step_rule(scene, &sizes);
@@ -49,6 +50,7 @@ static void touch_rod(Simulation *simulation)
     const Interface *interface = &simulation->model.interface;
     const BulkOperator *system = &simulation->model.system;
     const double *now = simulation->control.now.displacement;
+    simulation->control.now.rod_way = 0;
     for (int32_t j = 0; j < interface->rod_count; j++)
         simulation->rod.origin[j] = now[system->interface_dofs[interface_rod(interface, j)]];
 }

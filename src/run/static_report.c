@@ -15,8 +15,8 @@
 
 enum { PATH_SIZE = 1200 };
 
-static bool write_json(const char *folder, const Model *model, const StaticSummary *summary,
-                       Error *err)
+static bool write_json(const char *folder, const Model *model, const StaticSolution *solution,
+                       const StaticSummary *summary, Error *err)
 {
     char path[PATH_SIZE];
     snprintf(path, sizeof path, "%s/static.json", folder);
@@ -40,6 +40,7 @@ static bool write_json(const char *folder, const Model *model, const StaticSumma
     json_number(json, "pressure_moment", summary->pressure_moment);
     json_number(json, "rod_force", summary->rod_force);
     json_number(json, "rod_height", summary->rod_height);
+    if (model->scene->rod.stiffness > 0) json_number(json, "rod_way", solution->rod_way);
     json_number(json, "elastic_energy", summary->elastic_energy);
     json_number(json, "load_work", summary->load_work);
     json_integer(json, "iterations", summary->iterations);
@@ -148,7 +149,7 @@ bool static_report_write(const char *folder, const Model *model, StaticSolution 
     fields.material = &model->material;
     TRY(write_vtu(folder, solution, &fields, err));
     TRY(write_arrays(folder, model, solution, &fields.stress, err));
-    TRY(write_json(folder, model, summary, err));
+    TRY(write_json(folder, model, solution, summary, err));
 cleanup:
     fields_destroy(&fields);
     return error_is_clean(err);

@@ -47,8 +47,8 @@ static void static_solution_destroy(StaticSolution *solution)
     *solution = (StaticSolution){0};
 }
 
-// Where the nodes may go: the rod's displacement, and down to the substrate (bound [count]).
-static void fill_bounds(const Model *model, double *bound)
+// Where the nodes may go: as far as the rod, and down to the substrate (bound [count]).
+static void fill_bounds(const Model *model, const StaticSolution *solution, double *bound)
 {
     const Interface *interface = &model->interface;
     double radius = model->scene->contact.radius;
@@ -59,7 +59,7 @@ static void fill_bounds(const Model *model, double *bound)
         bound[interface_normal(i)] = -x * x / (2 * radius);
     }
     for (int32_t j = 0; j < interface->rod_count; j++)
-        bound[interface_rod(interface, j)] = model->scene->rod.displacement;
+        bound[interface_rod(interface, j)] = solution->rod_way;
 }
 
 // Bounds in [interface_count] `bound`, borrowed, like rod and law of the solution; S and g are the
@@ -67,7 +67,7 @@ static void fill_bounds(const Model *model, double *bound)
 static ContactProblem contact_problem(const Model *model, const StaticSolution *solution,
                                       double *bound)
 {
-    fill_bounds(model, bound);
+    fill_bounds(model, solution, bound);
     return (ContactProblem){.interface = &model->interface,
                             .law = &solution->law,
                             .rod_kind = solution->rod.kind,
@@ -157,11 +157,18 @@ static bool static_solve(Model *model, StaticSolution *solution, Error *err)
     TRY(model_hold_supports(model, err));
     TRY(bulk_operator_create(bulk, model->mesh.position, interface->dofs, interface->count, &system,
                              err));
+    system.machine = model_machine(model);
     OperatorTerms terms = {.stiffness = 1, .lift = true};
     stiffness = interface_operator_create(&system, terms, err);
     if (!stiffness) goto cleanup;
+    // A rod on a spring is found from the forces: displacements are against it until then.
+    bool rigid = scene->rod.stiffness == 0;
+    if (rigid) solution->rod_way = scene->rod.displacement;
+    interface_operator_pull(stiffness, scene->rod.stiffness * scene->rod.displacement);
     TRY(interface_operator_condense(stiffness, bulk->load, g, err));
     TRY(solve_contact(model, stiffness, g, bound, solution, err));
+    double way = interface_operator_release(stiffness, solution->contact_displacement);
+    if (!rigid) solution->rod_way = way;
     TRY(interface_operator_expand(stiffness, solution->contact_displacement, solution->displacement,
                                   err));
     for (int32_t k = 0; k < interface->count; k++)

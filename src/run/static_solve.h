@@ -25,6 +25,7 @@ typedef struct StaticSolution {
     uint8_t *rod_touches;   // [rod_count]
     double *work;   // [dof_count]
     Rod rod;
+    double rod_way;   // where it stands: rod.displacement, or less on a spring; length
     FrictionLaw *node_laws;   // [contact_count] Coulomb's with mu_static; owned
     FrictionLaw law;   // of them all
     int64_t iterations;

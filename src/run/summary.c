@@ -27,6 +27,7 @@ StepView step_view(const Observation *seen, const Events *events, const ContactA
     const int32_t *kinds = events->kinds;
     return (StepView){.t = seen->t,
                       .U = seen->U,
+                      .rod_way = seen->rod_way,
                       .mu = seen->mu,
                       .step_size = seen->step_size,
                       .front = seen->front,

@@ -78,7 +78,7 @@ static bool is_needed(const SceneKey *key, const Scene *scene)
     if (word && !key->standard) return friction_use(&scene->friction, word) == FRICTION_MUST;
     if (strcmp(key->name, "rod.velocity") == 0)
         return scene->rod.kind != ROD_NONE && !is_static(scene);
-    return !key->standard || (key->given_in_si && scene->units == UNITS_SI);
+    return (!key->standard && !key->may_lack) || (key->given_in_si && scene->units == UNITS_SI);
 }
 
 // Keys without a default, and in SI those whose default of 1 would be 1 Pa or 1 kg/m3.
@@ -164,6 +164,12 @@ static bool check_groups(const Check *check)
     return true;
 }
 
+static bool check_rod(const Check *check)
+{
+    if (check->scene->rod.kind != ROD_NONE || !is_given(check, "rod.stiffness")) return true;
+    return blame(check, "rod.stiffness", "the scene has no rod (rod.kind: none); leave it out");
+}
+
 // time.until: U needs a rod; a scene that is no static one must say when to stop; step_min is at
 // most step_max.
 static bool check_time(const Check *check)
@@ -207,5 +213,5 @@ bool scene_check(const Scene *scene, const SceneValue *sources, const YamlDocume
 {
     Check check = {.scene = scene, .sources = sources, .file = file, .err = err};
     return check_required(&check) && check_friction(&check) && check_load(&check) &&
-           check_groups(&check) && check_time(&check) && check_output(&check);
+           check_groups(&check) && check_rod(&check) && check_time(&check) && check_output(&check);
 }

@@ -135,6 +135,11 @@ static const SceneKey keys[] = {
     {"rod.velocity", KEY_NUMBER, offsetof(Scene, rod.velocity), "velocity", RANGE_POSITIVE, NULL,
      .sentence = "Speed V of the rod along x; not needed with kind `none`, nor by `amontons "
                  "static`."},
+    {"rod.stiffness", KEY_NUMBER, offsetof(Scene, rod.stiffness), "stress", RANGE_POSITIVE, NULL,
+     .may_lack = true,
+     .sentence = "Stiffness of the machine: a spring between the drive, which moves with "
+                 "`rod.velocity`, and the rod; force per width of the block over length. If not "
+                 "given, the rod itself moves with `rod.velocity`."},
     {"rod.displacement", KEY_NUMBER, offsetof(Scene, rod.displacement), "length", RANGE_ANY, "0",
      .sentence = "How far the rod stands inside the undeformed block; read by `amontons static` "
                  "only."},

@@ -62,6 +62,7 @@ typedef struct Scene {
     } load;
     struct {
         double velocity;
+        double stiffness;   // of the spring between drive and rod; 0, not given: rigid
         double displacement;   // of the rod in `amontons static`
         double height, width;   // of the strip's centre, and its extent; 0: H/2 and 0.1 H
         SceneRodKind kind;

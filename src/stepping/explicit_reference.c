@@ -90,6 +90,7 @@ void explicit_reference_start(ExplicitReference *scheme, const State *state)
     const Bulk *bulk = scheme->def.bulk;
     double *elastic = scheme->force, *viscous = scheme->force + bulk->dof_count;
     scheme->time = state->time;
+    scheme->rod_way = state->rod_way;
     scheme->steps = 0;
     sparse_apply(&bulk->pattern, bulk->stiffness, state->displacement, elastic);
     sparse_apply(&bulk->pattern, bulk->damping, state->velocity, viscous);
@@ -232,19 +233,63 @@ static double resolve_contact(ExplicitReference *scheme, int32_t i, State *state
            mean_power(state->reaction[n], before[1], v[1]);
 }
 
-// Rod node j, `time` that of the end of the step; returns the rod's power, and through
-// *dissipated what is lost where the face is hit.
-static double resolve_rod(ExplicitReference *scheme, int32_t j, double time, State *state,
-                          double *dissipated)
+static bool rod_holds(const Rod *rod, double velocity, double bound)
+{
+    return rod->kind == ROD_IS_BONDED || (rod->kind == ROD_PUSHES && velocity < bound);
+}
+
+// By how much node j yields to the rod: velocity per force/width.
+static double rod_yields(const ExplicitReference *scheme, int32_t j)
+{
+    const Rod *rod = scheme->def.rod;
+    return rod->softness[j] / (scheme->def.step + rod->lag);
+}
+
+// The bounds of the rod's nodes for a step that ends at `time`. Those of a rod on a spring are
+// moved by its own velocity w, at which sum_j r_j(w) + dt k w = k (U - R): the left side rises
+// piecewise linearly and is convex, so that Newton ends at the root with the set of nodes that it
+// met last.
+static void lead_rod(ExplicitReference *scheme, double time)
+{
+    const Interface *interface = scheme->def.interface;
+    const Rod *rod = scheme->def.rod;
+    double step = scheme->def.step, own = 0, *bound = scheme->bound;
+    for (int32_t j = 0; j < interface->rod_count; j++) {
+        double at = scheme->now[NODE_SIZE * interface->rod_node[j]];
+        bound[interface_rod(interface, j)] =
+            rod->stiffness > 0 ? rod_bound_on_spring(rod, j, at, scheme->rod_way, step)
+                               : rod_bound(rod, j, at, time, step);
+    }
+    if (rod->stiffness == 0) return;
+    double force = rod->stiffness * (rod_displacement(rod, time) - scheme->rod_way);
+    for (int32_t k = 0, before = -1, touching = -2;
+         before != touching && k < interface->rod_count + 2; k++) {
+        double given = force, resists = step * rod->stiffness;
+        before = touching;
+        touching = 0;
+        for (int32_t j = 0; j < interface->rod_count; j++) {
+            int32_t x = interface_rod(interface, j), node = interface->rod_node[j];
+            double velocity = scheme->next[NODE_SIZE * node + 2];
+            if (k > 0 && !rod_holds(rod, velocity, bound[x] + own)) continue;
+            double share = 1 / (scheme->kick[node] + rod_yields(scheme, j));
+            given -= share * (bound[x] - velocity);
+            resists += share;
+            touching++;
+        }
+        own = given / resists;
+    }
+    for (int32_t j = 0; j < interface->rod_count; j++) bound[interface_rod(interface, j)] += own;
+    scheme->rod_way += step * own;
+}
+
+// Rod node j; returns the rod's power, and through *dissipated what is lost where the face is hit.
+static double resolve_rod(ExplicitReference *scheme, int32_t j, State *state, double *dissipated)
 {
     const Interface *interface = scheme->def.interface;
     int32_t x = interface_rod(interface, j), node = interface->rod_node[j];
     double step = scheme->def.step, *u = scheme->next + NODE_SIZE * node, *v = u + 2;
-    const Rod *rod = scheme->def.rod;
-    double bound = rod_bound(rod, j, scheme->now[NODE_SIZE * node], time, step);
-    double yields = rod->softness[j] / (step + rod->lag);   // velocity per force/width
-    bool touches = rod->kind == ROD_IS_BONDED || (rod->kind == ROD_PUSHES && v[0] < bound);
-    scheme->bound[x] = bound;
+    double bound = scheme->bound[x], yields = rod_yields(scheme, j);
+    bool touches = rod_holds(scheme->def.rod, v[0], bound);
     state->rod_touches[j] = touches;
     // v' = v + kick r = bound - yields r.
     state->reaction[x] = touches ? (bound - v[0]) / (scheme->kick[node] + yields) : 0;
@@ -268,8 +313,9 @@ static void advance_once(ExplicitReference *scheme, State *state, EnergyLedger *
     for (int32_t i = 0; i < interface->contact_count; i++)
         frictional += resolve_contact(scheme, i, state);
     double end = scheme->time + step * (double)(scheme->steps + 1);
+    lead_rod(scheme, end);
     for (int32_t j = 0; j < interface->rod_count; j++)
-        pushed += resolve_rod(scheme, j, end, state, &frictional);
+        pushed += resolve_rod(scheme, j, state, &frictional);
     ledger->viscous += step * viscous;
     ledger->frictional += step * frictional;
     ledger->rod_work += step * pushed;
@@ -314,6 +360,7 @@ static double fill_state(ExplicitReference *scheme, State *state)
     }
     sparse_apply(&bulk->pattern, bulk->stiffness, state->displacement, state->elastic_force);
     state->time = scheme->time + scheme->def.step * (double)scheme->steps;
+    state->rod_way = scheme->rod_way;
     return load_work;
 }
 
@@ -341,6 +388,7 @@ void explicit_reference_archive(ExplicitReference *scheme, Archive *archive)
 {
     archive_section(archive, "explicit steps");
     archive_number(archive, &scheme->time);
+    archive_number(archive, &scheme->rod_way);
     archive_count(archive, &scheme->steps);
     archive_number(archive, &scheme->residual);
     archive_numbers(archive, scheme->now, NODE_SIZE * (int64_t)scheme->node_count);

@@ -15,6 +15,8 @@
 //     tangent    stick, or |v'_t| + (dt/m) mu(|v'_t|) r_n = |free v_t|,   friction against v'_t
 //     rod        v'_x >= (target(t_n+1) - u_n)/dt,  r_x >= 0, complementary; bonded: =
 //
+// A rod on a spring couples its nodes: first its own velocity is found, for which their forces and
+// the spring's are in balance at t_n+1.
 // Where weakening outruns the node's inertia, (dt/m) r_n |mu'| > 1, a node could both stick and
 // slip; then it goes on doing what it did. Called by run/explicit_loop.
 #ifndef AMONTONS_STEPPING_EXPLICIT_REFERENCE_H
@@ -43,6 +45,7 @@ typedef struct ExplicitReference {
     double *next;   // [node_count * 4] the same a step later
     double *force;   // [node_count * 4] work: K u, C v
     double *bound;   // [interface->count] of the last step, as in contact/contact_problem
+    double rod_way;   // R at t_n, of a rod on a spring, length
     double time;   // t_n at the start
     int64_t steps;   // since then
     double residual;   // of M a + C (v + v')/2 + K u = f + r in the last step, largest: the lag

@@ -6,7 +6,8 @@
 // and its eigenvalues are theta = 1/(lambda - s). Held unknowns are 0 throughout.
 //
 // A state's unknowns are [u; w/s], 2 dof_count of them: w is scaled by s so that both halves have
-// one unit. Of each shift's space only pairs whose residual is below the tolerance are believed;
+// one unit. Behind them stands the way R of a rod on a spring, which has no mass and hence no w: the
+// soft ends of its strip are led by it. Of each shift's space only pairs whose residual is below the tolerance are believed;
 // neighbouring shifts see some of them twice, and keep_rate drops the second.
 #include "stepping/growth.h"
 
@@ -18,11 +19,13 @@
 #include <string.h>
 
 static const double SAME_RATE = 1e-6;   // two shifts saw one rate, relative
+static const double NO_RATE = 1e-10;   // theta below it, in units of 1/s: 0, of the rod without mass
 
 struct Growth {
     GrowthDef def;
     BulkOperator *system;   // not owned, like the next
     const Interface *interface;
+    bool on_spring;   // the rod has a way of its own
     int32_t shift_count;
     double shift[GROWTH_SHIFTS_MAX];   // s, 1/time
     InterfaceOperator *at[GROWTH_SHIFTS_MAX];   // A; owned, like all that follows
@@ -32,13 +35,18 @@ struct Growth {
     double *step;   // [interface_count]
     double *g, *border;   // [interface_count]
     double *rhs, *image;   // [dof_count]
-    double *basis;   // [2 dof_count * (vectors + 1)] orthonormal
+    double *basis;   // [state_size * (vectors + 1)] orthonormal
     double *projected;   // [(vectors + 1) * vectors] Hessenberg
     double *square, *ritz;   // [vectors^2]
     double *theta_re, *theta_im, *dots;   // [vectors + 1]
     double *eigen_work;   // [dense_eigen_work(vectors)]
     double *mode_re, *mode_im, *real_mode, *candidate;   // [interface_count]
 };
+
+static int64_t state_size(const Growth *growth)
+{
+    return 2 * (int64_t)growth->system->dof_count + growth->on_spring;
+}
 
 // From the slowest oscillation of the block, a quarter wave over its length, to about c over the
 // distance of two nodes: length/contact_count.
@@ -63,7 +71,7 @@ static bool allocate(Growth *growth, Error *err)
     growth->border = NEW_ARRAY(double, m, err);
     growth->rhs = NEW_ARRAY(double, n, err);
     growth->image = NEW_ARRAY(double, n, err);
-    growth->basis = NEW_ARRAY(double, 2 * n * (k + 1), err);
+    growth->basis = NEW_ARRAY(double, state_size(growth) * (k + 1), err);
     growth->projected = NEW_ARRAY(double, (k + 1) * k, err);
     growth->square = NEW_ARRAY(double, k *k, err);
     growth->ritz = NEW_ARRAY(double, k *k, err);
@@ -87,6 +95,7 @@ Growth *growth_create(const Block *block, const GrowthDef *def, Error *err)
     growth->def = *def;
     growth->system = block->system;
     growth->interface = block->interface;
+    growth->on_spring = block->system->machine.stiffness > 0;
     TRY(moving_set_create(block, &growth->moving, err));
     TRY(allocate(growth, err));
     for (double s = def->slowest; growth->shift_count < GROWTH_SHIFTS_MAX; s *= 2) {
@@ -163,7 +172,7 @@ static bool factor_moving(Growth *growth, int32_t k)
     return dense_lu(growth->matrix, moving->count, growth->pivots);
 }
 
-// to = shifted inverse of from; both [2 dof_count].
+// to = shifted inverse of from; both [state_size].
 // to and from must be distinct. Held unknowns come out as 0: the border is set so.
 static bool apply_inverse(Growth *growth, int32_t k, const double *from, double *to, Error *err)
 {
@@ -176,16 +185,21 @@ static bool apply_inverse(Growth *growth, int32_t k, const double *from, double 
     bulk_operator_apply(system, BULK_DAMPING, a, growth->image);
     for (int32_t j = 0; j < n; j++) growth->rhs[j] = -growth->rhs[j] - growth->image[j] / s;
     TRY(interface_operator_condense(growth->at[k], growth->rhs, growth->g, err));
+    double rod = growth->on_spring ? from[2 * (int64_t)n] : 0;
     for (int32_t r = 0; r < growth->moving.count; r++) {
         const MovingUnknown *row = &growth->moving.list[r];
-        growth->step[r] = growth->g[row->unknown] + (row->weakening - row->damper) *
-                                                        a[system->interface_dofs[row->unknown]] / s;
+        double against = row->spring > 0 ? rod : 0;   // soft nodes are led by the rod
+        growth->step[r] = growth->g[row->unknown] +
+                          (row->weakening - row->damper) *
+                              (a[system->interface_dofs[row->unknown]] - against) / s;
         if (row->normal >= 0) growth->step[r] += row->friction * growth->g[row->normal];
     }
     dense_lu_solve(growth->matrix, growth->moving.count, growth->pivots, growth->step);
     memset(growth->border, 0, (size_t)growth->interface->count * sizeof(double));
     for (int32_t r = 0; r < growth->moving.count; r++)
         growth->border[growth->moving.list[r].unknown] = growth->step[r];
+    double own = interface_operator_release(growth->at[k], growth->border);
+    if (growth->on_spring) to[2 * (int64_t)n] = own;
     TRY(interface_operator_expand(growth->at[k], growth->border, to, err));
     for (int32_t j = 0; j < growth->interface->count; j++)
         to[system->interface_dofs[j]] = growth->border[j];
@@ -198,7 +212,7 @@ cleanup:
 // taken off. Returns what is left of its length, and scales it to 1.
 static double orthogonalise(const Growth *growth, int32_t count, double *x, double *dots)
 {
-    int32_t size = 2 * growth->system->dof_count;
+    int32_t size = (int32_t)state_size(growth);
     DenseView basis = {growth->basis, size, count};
     memset(dots, 0, (size_t)count * sizeof(double));
     for (int32_t pass = 0; pass < 2; pass++) {
@@ -215,8 +229,8 @@ static double orthogonalise(const Growth *growth, int32_t count, double *x, doub
 static bool start_basis(Growth *growth, int32_t k, Error *err)
 {
     int32_t n = growth->system->dof_count;
-    double *seed = growth->basis + 2 * (int64_t)n, *dots = growth->projected;
-    memset(seed, 0, 2 * (size_t)n * sizeof(double));
+    double *seed = growth->basis + state_size(growth), *dots = growth->projected;
+    memset(seed, 0, (size_t)state_size(growth) * sizeof(double));
     for (int32_t j = 0; j < n; j++) seed[j] = 1e-3 * (1 + 0.5 * cos(1.7 * j));
     for (int32_t j = 0; j < growth->interface->count; j++)
         seed[growth->system->interface_dofs[j]] = 0;
@@ -234,7 +248,7 @@ cleanup:
 // what was new.
 static bool build_basis(Growth *growth, int32_t k, int32_t *count, double *rest, Error *err)
 {
-    int64_t size = 2 * (int64_t)growth->system->dof_count, rows = growth->def.vectors + 1;
+    int64_t size = state_size(growth), rows = growth->def.vectors + 1;
     TRY(start_basis(growth, k, err));
     memset(growth->projected, 0, (size_t)(rows * (rows - 1)) * sizeof(double));
     for (*count = 0; *count < growth->def.vectors;) {
@@ -256,7 +270,7 @@ cleanup:
 // u on the interface of a Ritz vector, from one column of `ritz`.
 static void lift_mode(const Growth *growth, int32_t count, const double *column, double *mode)
 {
-    int64_t size = 2 * (int64_t)growth->system->dof_count;
+    int64_t size = state_size(growth);
     for (int32_t m = 0; m < growth->interface->count; m++) {
         const double *entry = growth->basis + growth->system->interface_dofs[m];
         double sum = 0;
@@ -347,6 +361,7 @@ static bool rates_near_shift(Growth *growth, int32_t k, GrowthRates *rates, Erro
         double last = hypot(re[count - 1], pair ? im[count - 1] : 0);
         if (pair) j++;
         if (!(rest * last <= growth->def.tolerance * sqrt(square))) continue;
+        if (growth->on_spring && s * sqrt(square) < NO_RATE) continue;
         // lambda = s + 1/theta; of a pair the one with im > 0 is kept, whose vector is conjugate.
         GrowthRate found = {.re = s + x / square, .im = fabs(y) / square};
         take_pair(growth, count, found, re, im, rates);

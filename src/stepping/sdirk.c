@@ -49,10 +49,20 @@ void sdirk_destroy(Sdirk *scheme)
     *scheme = (Sdirk){0};
 }
 
+// A step on its way: the rung's step and matrix, and where it starts and ends.
+typedef struct Trial {
+    double step, scaled;   // dt, gamma dt
+    int32_t rung;
+    const State *from;
+    State *to;
+    StepOutcome *outcome;
+} Trial;
+
 // Every so many steps the end state is put into the full equation, every term computed anew.
 enum { AUDIT_EVERY = 32 };
 
 // bound = (position to reach at `time` - u*) / (gamma dt): the plane for normals, the rod for rods.
+// Those of a rod on a spring are for velocities against it, until they are released.
 static void fill_bounds(Sdirk *scheme, const double *predictor, double time, double scaled_step)
 {
     const Interface *interface = scheme->interface;
@@ -64,14 +74,41 @@ static void fill_bounds(Sdirk *scheme, const double *predictor, double time, dou
     }
     for (int32_t j = 0; j < interface->rod_count; j++) {
         int32_t x = interface_rod(interface, j);
-        scheme->bound[x] = rod_bound(scheme->rod, j, predictor[dofs[x]], time, scaled_step);
+        double at = predictor[dofs[x]];
+        bool rigid = scheme->rod->stiffness == 0;
+        scheme->bound[x] =
+            rigid ? rod_bound(scheme->rod, j, at, time, scaled_step)
+                  : rod_bound_on_spring(scheme->rod, j, at, scheme->rod_start, scaled_step);
     }
 }
 
-// Solves A v = rhs + r with the interface's conditions. *solved says whether contact was settled.
-static bool solve_stage(Sdirk *scheme, int32_t rung, ContactSolution *contact, double *v,
-                        bool *solved, Error *err)
+// k (U - R*): the spring's force at the end of the stage, had the rod no velocity.
+static void pull_rod(const Sdirk *scheme, int32_t rung, double time)
 {
+    const Rod *rod = scheme->rod;
+    if (rod->stiffness == 0) return;
+    interface_operator_pull(scheme->ladder->rung[rung],
+                            rod->stiffness * (rod_displacement(rod, time) - scheme->rod_start));
+}
+
+// Velocities found against a rod on a spring, and their bounds, become those in space. Returns the
+// rod's own; 0 of one that goes where it is driven.
+static double release_rod(Sdirk *scheme, const InterfaceOperator *bulk, double *velocity)
+{
+    if (scheme->rod->stiffness == 0) return 0;
+    double own = interface_operator_release(bulk, velocity);
+    for (int32_t j = 0; j < scheme->interface->rod_count; j++)
+        scheme->bound[interface_rod(scheme->interface, j)] += own;
+    return own;
+}
+
+// Solves A v = rhs + r with the interface's conditions, stage i. *solved says whether contact was
+// settled.
+static bool solve_stage(Sdirk *scheme, const Trial *trial, int32_t i, ContactSolution *contact,
+                        double *v, Error *err)
+{
+    int32_t rung = trial->rung;
+    bool *solved = &trial->outcome->solved;
     InterfaceOperator *bulk = scheme->ladder->rung[rung];
     const Interface *interface = scheme->interface;
     TRY(interface_operator_condense(bulk, scheme->rhs, scheme->g, err));
@@ -85,6 +122,7 @@ static bool solve_stage(Sdirk *scheme, int32_t rung, ContactSolution *contact, d
                               .bound = scheme->bound};
     *solved = contact_solve(&scheme->solver, &problem, contact);
     if (!*solved) goto cleanup;
+    scheme->rod_rate[i] = release_rod(scheme, bulk, contact->velocity);
     TRY(interface_operator_expand(bulk, contact->velocity, v, err));
     // What is held is held exactly, not to the rounding of the substitution.
     for (int32_t k = 0; k < interface->count; k++)
@@ -153,15 +191,6 @@ static void guess_contact(const State *from, State *to)
     memcpy(to->reaction, from->reaction, bytes);
 }
 
-// A step on its way: the rung's step and matrix, and where it starts and ends.
-typedef struct Trial {
-    double step, scaled;   // dt, gamma dt
-    int32_t rung;
-    const State *from;
-    State *to;
-    StepOutcome *outcome;
-} Trial;
-
 // What stage i starts from: u_i* in scheme->predictor, K u_i* in scheme->force and M w_i in
 // to->inertia.
 static void start_stage(Sdirk *scheme, const Trial *trial, int32_t i)
@@ -172,6 +201,7 @@ static void start_stage(Sdirk *scheme, const Trial *trial, int32_t i)
     memcpy(scheme->predictor, from->displacement, bytes);
     memcpy(scheme->force, from->elastic_force, bytes);
     memcpy(trial->to->inertia, from->momentum, bytes);
+    scheme->rod_start = from->rod_way;
     for (int32_t j = 0; j < i; j++) {
         double weight = scheme->tableau.a[i][j];
         const double *velocity = scheme->stage_velocity + (int64_t)j * dofs;
@@ -180,6 +210,7 @@ static void start_stage(Sdirk *scheme, const Trial *trial, int32_t i)
         add_scaled(trial->step * weight, velocity, dofs, scheme->predictor);
         add_scaled(trial->step * weight, elastic, dofs, scheme->force);
         add_scaled(weight, impulse, dofs, trial->to->inertia);
+        scheme->rod_start += trial->step * weight * scheme->rod_rate[j];
     }
 }
 
@@ -192,6 +223,7 @@ static void end_step(Sdirk *scheme, const Trial *trial)
                             (int64_t)(scheme->tableau.stages - 1) * to->dof_count;
     double rate = 1 / trial->scaled;
     to->time = trial->from->time + trial->step;
+    to->rod_way = scheme->rod_start + trial->scaled * scheme->rod_rate[scheme->tableau.stages - 1];
     for (int32_t k = 0; k < to->dof_count; k++) {
         to->displacement[k] = scheme->predictor[k] + trial->scaled * to->velocity[k];
         to->elastic_force[k] = scheme->force[k] + trial->scaled * elastic[k];
@@ -219,9 +251,10 @@ static bool solve_one_stage(Sdirk *scheme, const Trial *trial, int32_t i, Error 
     start_stage(scheme, trial, i);
     for (int32_t k = 0; k < dofs; k++)
         scheme->rhs[k] = rate * to->inertia[k] + system->load[k] - scheme->force[k];
-    fill_bounds(scheme, scheme->predictor, trial->from->time + tableau->c[i] * trial->step,
-                trial->scaled);
-    TRY(solve_stage(scheme, trial->rung, &contact, velocity, &trial->outcome->solved, err));
+    double time = trial->from->time + tableau->c[i] * trial->step;
+    fill_bounds(scheme, scheme->predictor, time, trial->scaled);
+    pull_rod(scheme, trial->rung, time);
+    TRY(solve_stage(scheme, trial, i, &contact, velocity, err));
     if (!trial->outcome->solved) goto cleanup;
     bulk_operator_apply(system, BULK_MASS, velocity, momentum);
     bulk_operator_apply(system, BULK_STIFFNESS, velocity, elastic);

@@ -7,7 +7,8 @@
 //                w_i  = v_n + dt sum_j<i a_ij a_j,              a_j = (v_j - w_j)/(gamma dt)
 //
 // Contact, friction and rod hold at each stage, hence at the end of the step, which is the last
-// stage. Called by stepping/step_control.
+// stage. A rod on a spring has no mass: its way R follows as u does, R' = v_R (bulk/machine). Called
+// by stepping/step_control.
 #ifndef AMONTONS_STEPPING_SDIRK_H
 #define AMONTONS_STEPPING_SDIRK_H
 
@@ -32,6 +33,8 @@ typedef struct Sdirk {
     // interface_count].
     double *stage_velocity, *stage_impulse, *stage_reaction;
     double *stage_elastic;   // [stages, dof_count] K v_i
+    double rod_start;   // work: R* of the stage, where a rod on a spring would be without velocity
+    double rod_rate[TABLEAU_STAGES_MAX];   // v_R of the stages, velocity
     int64_t steps;   // tried
 } Sdirk;
 

@@ -48,6 +48,7 @@ void state_copy(const State *from, State *to)
     size_t bulk_bytes = (size_t)from->dof_count * sizeof(double);
     size_t interface_bytes = (size_t)from->interface_count * sizeof(double);
     to->time = from->time;
+    to->rod_way = from->rod_way;
     memcpy(to->displacement, from->displacement, bulk_bytes);
     memcpy(to->velocity, from->velocity, bulk_bytes);
     memcpy(to->elastic_force, from->elastic_force, bulk_bytes);
@@ -63,6 +64,7 @@ void state_archive(State *state, Archive *archive)
 {
     archive_section(archive, "state");
     archive_number(archive, &state->time);
+    archive_number(archive, &state->rod_way);
     archive_numbers(archive, state->displacement, state->dof_count);
     archive_numbers(archive, state->velocity, state->dof_count);
     archive_numbers(archive, state->elastic_force, state->dof_count);

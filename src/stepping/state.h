@@ -17,6 +17,7 @@ typedef struct Block {
 
 typedef struct State {
     double time;
+    double rod_way;   // R, of a rod on a spring; 0 of one that goes where it is driven; length
     int32_t dof_count;   // of the bulk
     int32_t interface_count;
     int32_t contact_count, rod_count;

@@ -33,6 +33,9 @@ static bool check_scene(const Scene *scene, Error *err)
              "%s: the 1D model is driven by a rod: rod.velocity must be above 0 and rod.kind push "
              "or bonded",
              path);
+    if (scene->rod.stiffness > 0)
+        FAIL(err, ERROR_INPUT, "%s: rod.stiffness: the 1D model's rod goes where it is driven",
+             path);
     if (!(friction_drop(&scene->friction) > 0))
         FAIL(err, ERROR_INPUT,
              "%s: the 1D model's slip starts from mu_kinetic and ends at mu_static: it needs a "

@@ -113,6 +113,7 @@ static bool open_path(StabilityPath *path, Error *err)
     path->U_start = before->rod.velocity * path->control.now.time;
     for (int32_t j = 0; j < interface->rod_count; j++)
         path->rod.origin[j] = before->rod.origin[j] + path->U_start;
+    if (path->rod.stiffness > 0) path->control.now.rod_way -= path->U_start;
     path->rod.velocity = slip / step;
     step_control_restart(&path->control);
     double speed = material_slip_speed(&model->material);

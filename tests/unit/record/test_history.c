@@ -57,6 +57,8 @@ static double wanted(ResultSeries series, int32_t k, int32_t i)
         return 0.5 * k;
     case SERIES_ROD:
         return 0.05 * k;
+    case SERIES_ROD_WAY:
+        return 0.03 * k;
     case SERIES_MU:
         return 0.01 * k;
     case SERIES_ROD_FORCE:
@@ -96,7 +98,8 @@ static void two_pads(void)
 
 static ResultHead head_of(const char *title)
 {
-    ResultHead head = {.title = title, .units = "normalised", .version = "test"};
+    ResultHead head = {
+        .title = title, .units = "normalised", .version = "test", .rod_on_spring = true};
     for (int32_t k = 0; k < RESULT_NUMBERS_COUNT; k++) head.numbers[k] = 100 + k;
     head.numbers[NUMBER_MU_M] = head.numbers[NUMBER_L_C] = NAN;
     return head;

@@ -48,7 +48,8 @@ static void compare_histories(const char *whole, const char *cut)
     ArrayFile *first = result_file_open(whole, &err), *second = result_file_open(cut, &err);
     if (!error_is_clean(&err)) fail_msg("%s", err.message);
     for (ResultSeries series = 0; series < RESULT_SERIES_COUNT; series++)
-        compare_series(first, second, series);
+        if (array_file_has(first, result_series_name(series)))
+            compare_series(first, second, series);
     for (ResultTable table = 0; table < RESULT_TABLES_COUNT; table++)
         compare_table(first, second, table);
     for (ResultNumber number = 0; number < RESULT_NUMBERS_COUNT; number++) {
@@ -154,10 +155,12 @@ static void compare_killed(const char *const *settings, int32_t steps, int32_t k
     place_remove(place);
 }
 
+// The rod's own way is part of the state.
 static void test_reduced(void **state)
 {
     (void)state;
-    compare_killed((const char *const[]){"time.until={U: 0.005}", NULL}, 70, 3);
+    compare_killed((const char *const[]){"time.until={U: 0.008}", "rod.stiffness=1", NULL}, 70,
+                   3);
 }
 
 // Strong friction lets corners open; a scheme of three stages.
@@ -225,7 +228,8 @@ static void test_put_back_explicit(void **state)
 {
     (void)state;
     Scene *scene = small_scene(
-        (const char *const[]){"mesh.set.nx=4", "mesh.set.nz=4", "time.scheme=explicit", NULL});
+        (const char *const[]){"mesh.set.nx=4", "mesh.set.nz=4", "time.scheme=explicit",
+                              "rod.stiffness=0.3", NULL});
     expect_put_back(scene, 40, false);
     amontons_scene_destroy(scene);
 }
