@@ -72,9 +72,9 @@ typedef struct InterfaceOperator InterfaceOperator;   // A, factored
 InterfaceOperator *interface_operator_create(BulkOperator *system, OperatorTerms terms, Error *err);
 void interface_operator_destroy(InterfaceOperator *condensed);   // NULL is fine
 
-// S: [interface_count^2], symmetric, column-major. Behind a rod on a spring (bulk/machine) it is S',
-// what is condensed is g', and a caller turns what it finds by interface_operator_release before
-// the expand.
+// S: [interface_count^2], symmetric, column-major. Behind a rod on a spring (bulk/machine) it is
+// S', what is condensed is g', and a caller turns what it finds by interface_operator_release
+// before the expand.
 const double *interface_operator_schur(const InterfaceOperator *condensed);
 // rhs [dof_count] -> g [interface_count]; expand must follow before the next condense.
 bool interface_operator_condense(InterfaceOperator *condensed, const double *rhs, double *g,

@@ -6,9 +6,10 @@
 // and its eigenvalues are theta = 1/(lambda - s). Held unknowns are 0 throughout.
 //
 // A state's unknowns are [u; w/s], 2 dof_count of them: w is scaled by s so that both halves have
-// one unit. Behind them stands the way R of a rod on a spring, which has no mass and hence no w: the
-// soft ends of its strip are led by it. Of each shift's space only pairs whose residual is below the tolerance are believed;
-// neighbouring shifts see some of them twice, and keep_rate drops the second.
+// one unit. Behind them stands the way R of a rod on a spring, which has no mass and hence no w:
+// the soft ends of its strip are led by it. Of each shift's space only pairs whose residual is
+// below the tolerance are believed; neighbouring shifts see some of them twice, and keep_rate drops
+// the second.
 #include "stepping/growth.h"
 
 #include "base/dense.h"
@@ -19,7 +20,7 @@
 #include <string.h>
 
 static const double SAME_RATE = 1e-6;   // two shifts saw one rate, relative
-static const double NO_RATE = 1e-10;   // theta below it, in units of 1/s: 0, of the rod without mass
+static const double NO_RATE = 1e-10;   // |theta| s below it is 0: of the rod, which has no mass
 
 struct Growth {
     GrowthDef def;

@@ -207,6 +207,8 @@ NOT_A_CHOICE = {
     "record/observation.h": {"RECORDERS_MAX": SIZE},
     "model/basis_cache.c": {"WAIT_MAX": "seconds for another run's basis", "COUNTS": "stored"},
     "model/assemble.c": {"NODE_BYTES": "memory"},
+    "stepping/growth.c": {"NO_RATE": "rounding, with room: 0 that is not 0"},
+    "bulk/machine.c": {"LOOSE": "rounding, with room: a matrix that must not be singular"},
     "contact/contact_matrix.c": {"SWEEPS_KEPT": SIZE},
     "model/shape_cache.c": {"NAME_NUMBERS": "stored", "BASIS_NUMBERS": "stored", "COUNTS": "stored"},
     "model/model.c": {

@@ -24,8 +24,8 @@ static void fill_schur(Random *random, double *schur)
         }
 }
 
-// Unknowns: v [COUNT] with the reactions of rod nodes that touch in their place, and v_R. Nodes that
-// touch have v = bound + v_R, all others no reaction; sum r + kappa v_R = force.
+// Unknowns: v [COUNT] with the reactions of rod nodes that touch in their place, and v_R. Nodes
+// that touch have v = bound + v_R, all others no reaction; sum r + kappa v_R = force.
 static void solve_all(const double *schur, const double *g, const double *bound, double kappa,
                       double force, double *v)
 {
@@ -88,8 +88,7 @@ static void test_at_once(void **state)
         assert_near("v_R", own, wanted[COUNT], 1e-10 * (1 + fabs(wanted[COUNT])));
         assert_all_near("v", y, wanted, COUNT, 1e-10);
         for (int32_t a = 0; a < COUNT; a++)
-            for (int32_t b = 0; b < a; b++)
-                assert_true(soft[b * COUNT + a] == soft[a * COUNT + b]);
+            for (int32_t b = 0; b < a; b++) assert_true(soft[b * COUNT + a] == soft[a * COUNT + b]);
         machine_column_destroy(&column);
     }
 }

@@ -159,8 +159,7 @@ static void compare_killed(const char *const *settings, int32_t steps, int32_t k
 static void test_reduced(void **state)
 {
     (void)state;
-    compare_killed((const char *const[]){"time.until={U: 0.008}", "rod.stiffness=1", NULL}, 70,
-                   3);
+    compare_killed((const char *const[]){"time.until={U: 0.008}", "rod.stiffness=1", NULL}, 70, 3);
 }
 
 // Strong friction lets corners open; a scheme of three stages.
@@ -227,9 +226,8 @@ static void test_put_back(void **state)
 static void test_put_back_explicit(void **state)
 {
     (void)state;
-    Scene *scene = small_scene(
-        (const char *const[]){"mesh.set.nx=4", "mesh.set.nz=4", "time.scheme=explicit",
-                              "rod.stiffness=0.3", NULL});
+    Scene *scene = small_scene((const char *const[]){
+        "mesh.set.nx=4", "mesh.set.nz=4", "time.scheme=explicit", "rod.stiffness=0.3", NULL});
     expect_put_back(scene, 40, false);
     amontons_scene_destroy(scene);
 }
