@@ -126,6 +126,7 @@ class Result(unittest.TestCase):
         with h5py.File(self.result / "history.h5") as history:
             stored = {f"{group}/{name}": item for group in history
                       for name, item in history[group].items()}
+            rows = [row for row in rows if row[0] != "series/rod_way"]   # test_machine.py
             self.assertEqual(set(stored), {name for name, *_ in rows})
             sizes = {"steps": len(history["series/time"]), "nodes": len(history["nodes/x"]),
                      "pads": int(max(history["nodes/pad"][:])) + 1,
