@@ -40,6 +40,14 @@ static double value_of(const Level *level, AnswerKind kind)
     return kind == ANSWER_MU_HOLD ? lowest_of(level, kind) : mean_of(level, kind);
 }
 
+int32_t levels_known(const Levels *levels, AnswerKind kind)
+{
+    int32_t known = 0;
+    for (int32_t l = 0; l < levels->count; l++)
+        known += !isnan(mean_of(&levels->list[l], kind));
+    return known;
+}
+
 // Of single runs about their level's mean, from all levels together; NaN: one run on each.
 static double spread_of_runs(const Levels *levels, AnswerKind kind)
 {
@@ -48,6 +56,7 @@ static double spread_of_runs(const Levels *levels, AnswerKind kind)
     for (int32_t l = 0; l < levels->count; l++) {
         const Level *level = &levels->list[l];
         double mean = mean_of(level, kind);
+        if (isnan(mean)) continue;
         for (int32_t k = 0; k < level->run_count; k++) {
             double off = level->runs[k].answer[kind].value - mean;
             square += off * off;
@@ -97,6 +106,7 @@ static Line fit_line(const Levels *levels, AnswerKind kind)
         const Level *level = &levels->list[l];
         double h = (double)levels->list[levels->count - 1].contact_nodes / level->contact_nodes;
         double v = value_of(level, kind) - origin, w = 1 / (h * h);
+        if (isnan(v)) continue;
         S += w, Sh += w * h, Sv += w * v;
         Shh += w * h * h, Shv += w * h * v, Svv += w * v * v;
     }
@@ -104,15 +114,24 @@ static Line fit_line(const Levels *levels, AnswerKind kind)
     return (Line){slope, fmax(Svv - Sv * Sv / S - slope * (Shv - Sh * Sv / S), 0)};
 }
 
-// NaN: one level, or two of one size.
+// Contact nodes of the coarsest level that has such an answer.
+static int32_t coarsest_nodes(const Levels *levels, AnswerKind kind)
+{
+    int32_t l = 0;
+    while (isnan(value_of(&levels->list[l], kind))) l++;
+    return levels->list[l].contact_nodes;
+}
+
+// Of a last level that has a value. NaN: it alone has one, or all are of one size.
 static double mesh_part(const Levels *levels, AnswerKind kind)
 {
-    int32_t last = levels->count - 1, freedoms = levels->count - 2 + SCATTER_LEVELS;
-    if (last < 1 || levels->list[last].contact_nodes == levels->list[0].contact_nodes) return NAN;
+    const Level *last = &levels->list[levels->count - 1];
+    int32_t freedoms = levels_known(levels, kind) - 2 + SCATTER_LEVELS;
+    if (last->contact_nodes == coarsest_nodes(levels, kind)) return NAN;
     Line line = fit_line(levels, kind);
-    double value = value_of(&levels->list[last], kind);
-    double per_cell = levels->list[last].pads > 1 ? SCATTER_PADS : SCATTER;
-    double usual = per_cell / levels->list[last].contact_nodes * value;
+    double value = value_of(last, kind);
+    double per_cell = last->pads > 1 ? SCATTER_PADS : SCATTER;
+    double usual = per_cell / last->contact_nodes * value;
     double scatter = sqrt((line.square + SCATTER_LEVELS * usual * usual) / freedoms);
     return fmax(hypot(SLOPE * line.slope, student(freedoms) * scatter), STEPS * value);
 }

@@ -30,7 +30,7 @@ typedef struct LevelRun {
     int64_t steps;
 } LevelRun;
 
-// parts.mesh is NaN on the first level.
+// parts.mesh is NaN where fewer than two levels have such an answer.
 typedef struct ErrorBar {
     double value, bar;   // bar: of the parts that are known
     ErrorParts parts;
@@ -64,6 +64,9 @@ void levels_add_run(Levels *levels, double pressure, const Answers *answers, int
 // level has it, else mu_hold.
 void levels_estimate(Levels *levels);
 const ErrorBar *levels_answer(const Levels *levels, AnswerKind kind);   // of the last level; NULL
+
+// Levels whose runs all have such an answer; the others have no part in a bar.
+int32_t levels_known(const Levels *levels, AnswerKind kind);
 
 // Puts value, error and parts of both answers in the place of those of one run.
 void levels_answer_for(const Levels *levels, Answers *answers);

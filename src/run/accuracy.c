@@ -241,7 +241,8 @@ static const ErrorBar *asked(const Accuracy *accuracy)
 static bool is_met(const Accuracy *accuracy)
 {
     const ErrorBar *answer = asked(accuracy);
-    return accuracy->levels.count >= LEVELS_LEAST && !isnan(answer->parts.mesh) &&
+    return levels_known(&accuracy->levels, accuracy->levels.asked) >= LEVELS_LEAST &&
+           !isnan(answer->parts.mesh) &&
            answer->bar <= accuracy->levels.wanted * answer->value;
 }
 

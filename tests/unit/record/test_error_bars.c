@@ -107,6 +107,32 @@ static void test_without_mu_M(void **state)
     assert_near("lowest", levels_answer(&levels, ANSWER_MU_HOLD)->value, 0.2, 1e-15);
 }
 
+// A mesh on which the block never slid as a whole says nothing of mu_M: the bar is that of the other
+// two, and they are two.
+static void test_a_level_without_an_answer(void **state)
+{
+    (void)state;
+    Levels levels = {0};
+    begin(&levels, 1, 20);
+    add(&levels, 0.29, 0.2, NAN);
+    add(&levels, 0.31, 0.2, NAN);
+    begin(&levels, 1.5, 30);
+    add(&levels, NAN, 0.2, NAN);
+    add(&levels, 0.2, 0.2, NAN);
+    assert_true(levels.asked == ANSWER_MU_HOLD);
+    begin(&levels, 2, 40);
+    add(&levels, 0.30, 0.2, NAN);
+    add(&levels, 0.34, 0.2, NAN);
+    const ErrorBar *mu_M = levels_answer(&levels, ANSWER_MU_M);
+    assert_near("mesh", mu_M->parts.mesh, hypot(0.01, 2.78 * 0.12 / 40 * 0.32), 1e-15);
+    assert_near("branches", mu_M->parts.branches, 2 * sqrt((2e-4 + 8e-4) / 2) / sqrt(2), 1e-15);
+    assert_int_equal(levels_known(&levels, ANSWER_MU_M), 2);
+    assert_int_equal(levels_known(&levels, ANSWER_MU_HOLD), 3);
+    levels.list[0].runs[0].answer[ANSWER_MU_M].value = NAN;   // one is left: nothing is known
+    levels_estimate(&levels);
+    assert_true(isnan(levels_answer(&levels, ANSWER_MU_M)->parts.mesh));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -114,6 +140,7 @@ int main(void)
         cmocka_unit_test(test_two_levels),
         cmocka_unit_test(test_three_levels),
         cmocka_unit_test(test_without_mu_M),
+        cmocka_unit_test(test_a_level_without_an_answer),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
