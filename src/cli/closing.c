@@ -17,10 +17,14 @@ static void print_estimate(const char *name, double value, double error)
 }
 
 // Of a bar: mesh, branches, drops.
-static void print_parts(const double parts[3])
+static void print_parts(double error, const double parts[3])
 {
     static const char *const names[] = {"mesh", "branches", "drops"};
     const char *separator = " (";
+    if (isnan(error)) {
+        printf(" (its error is not known)");
+        return;
+    }
     for (int32_t k = 0; k < 3; k++) {
         if (isnan(parts[k])) continue;
         printf("%s%s %.2g", separator, names[k], parts[k]);
@@ -40,7 +44,7 @@ static void print_mu_M(const RunSummary *summary)
     }
     print_estimate("mu_M", summary->mu_M, summary->mu_M_error);
     if (summary->bar_runs > 0) {
-        print_parts(summary->mu_M_parts);
+        print_parts(summary->mu_M_error, summary->mu_M_parts);
         printf(": static friction\n");
         return;
     }
@@ -67,7 +71,7 @@ static void print_mu_hold(const RunSummary *summary)
         return;
     }
     print_estimate("mu_hold", summary->mu_hold, summary->mu_hold_error);
-    if (summary->bar_runs > 0) print_parts(summary->mu_hold_parts);
+    if (summary->bar_runs > 0) print_parts(summary->mu_hold_error, summary->mu_hold_parts);
     printf("%s: what the contact holds, the %s of %d load ratios at which the load dropped\n",
            summary->drops_enough ? "" : " so far",
            summary->drop_period > 0 ? "lowest" : "lowest tenth", summary->drops);
@@ -97,8 +101,12 @@ static void print_bar(const RunSummary *summary)
     bool slides = !isnan(summary->mu_M);
     double part = slides ? summary->mu_M_error / summary->mu_M
                          : summary->mu_hold_error / summary->mu_hold;
-    printf("  error bar       %.1f %% of %s, %.1f %% asked for: %s\n", 100 * part,
-           slides ? "mu_M" : "mu_hold", 100 * summary->bar_wanted, summary->bar_ended);
+    if (isnan(part))
+        printf("  error bar       not known, %.1f %% asked for: %s\n", 100 * summary->bar_wanted,
+               summary->bar_ended);
+    else
+        printf("  error bar       %.1f %% of %s, %.1f %% asked for: %s\n", 100 * part,
+               slides ? "mu_M" : "mu_hold", 100 * summary->bar_wanted, summary->bar_ended);
     printf("                  from %d runs on %d contact nodes, at pressures within %g %%\n",
            summary->bar_runs, summary->bar_nodes, 100 * summary->bar_window);
 }

@@ -40,11 +40,15 @@ static double value_of(const Level *level, AnswerKind kind)
     return kind == ANSWER_MU_HOLD ? lowest_of(level, kind) : mean_of(level, kind);
 }
 
+static bool is_known(const Level *level, AnswerKind kind)
+{
+    return !level->undamped && !isnan(mean_of(level, kind));
+}
+
 int32_t levels_known(const Levels *levels, AnswerKind kind)
 {
     int32_t known = 0;
-    for (int32_t l = 0; l < levels->count; l++)
-        known += !isnan(mean_of(&levels->list[l], kind));
+    for (int32_t l = 0; l < levels->count; l++) known += is_known(&levels->list[l], kind);
     return known;
 }
 
@@ -56,7 +60,7 @@ static double spread_of_runs(const Levels *levels, AnswerKind kind)
     for (int32_t l = 0; l < levels->count; l++) {
         const Level *level = &levels->list[l];
         double mean = mean_of(level, kind);
-        if (isnan(mean)) continue;
+        if (!is_known(level, kind)) continue;
         for (int32_t k = 0; k < level->run_count; k++) {
             double off = level->runs[k].answer[kind].value - mean;
             square += off * off;
@@ -106,7 +110,7 @@ static Line fit_line(const Levels *levels, AnswerKind kind)
         const Level *level = &levels->list[l];
         double h = (double)levels->list[levels->count - 1].contact_nodes / level->contact_nodes;
         double v = value_of(level, kind) - origin, w = 1 / (h * h);
-        if (isnan(v)) continue;
+        if (!is_known(level, kind)) continue;
         S += w, Sh += w * h, Sv += w * v;
         Shh += w * h * h, Shv += w * h * v, Svv += w * v * v;
     }
@@ -114,20 +118,21 @@ static Line fit_line(const Levels *levels, AnswerKind kind)
     return (Line){slope, fmax(Svv - Sv * Sv / S - slope * (Shv - Sh * Sv / S), 0)};
 }
 
-// Contact nodes of the coarsest level that has such an answer.
+// Contact nodes of the coarsest level that has such an answer; 0: none has.
 static int32_t coarsest_nodes(const Levels *levels, AnswerKind kind)
 {
-    int32_t l = 0;
-    while (isnan(value_of(&levels->list[l], kind))) l++;
-    return levels->list[l].contact_nodes;
+    for (int32_t l = 0; l < levels->count; l++)
+        if (is_known(&levels->list[l], kind)) return levels->list[l].contact_nodes;
+    return 0;
 }
 
-// Of a last level that has a value. NaN: it alone has one, or all are of one size.
+// NaN: not known, as the last level alone has an answer, or one that does not count.
 static double mesh_part(const Levels *levels, AnswerKind kind)
 {
     const Level *last = &levels->list[levels->count - 1];
     int32_t freedoms = levels_known(levels, kind) - 2 + SCATTER_LEVELS;
-    if (last->contact_nodes == coarsest_nodes(levels, kind)) return NAN;
+    bool alone = last->contact_nodes == coarsest_nodes(levels, kind);
+    if (alone || last->waits || !is_known(last, kind)) return NAN;
     Line line = fit_line(levels, kind);
     double value = value_of(last, kind);
     double per_cell = last->pads > 1 ? SCATTER_PADS : SCATTER;
@@ -150,7 +155,7 @@ static ErrorBar bar_of(const Levels *levels, AnswerKind kind)
                     .parts = {.mesh = mesh_part(levels, kind),
                               .branches = ERROR_BAR * spread / sqrt(last->run_count),
                               .drops = drops_part(last, kind)}};
-    bar.bar = hypot(hypot(known(bar.parts.mesh), known(bar.parts.branches)), bar.parts.drops);
+    bar.bar = hypot(hypot(bar.parts.mesh, known(bar.parts.branches)), bar.parts.drops);
     return bar;
 }
 

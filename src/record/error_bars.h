@@ -12,6 +12,8 @@
 //              the scatter about it. Values scatter from mesh to mesh, as slip stops at nodes; the
 //              scatter is taken to fall with the cell size. Few levels may agree by chance, so a
 //              usual scatter counts as some levels more. At least what steps and reduction leave.
+//              Levels whose cells are too long for slip (`undamped`) have no part in it, and it is
+//              not known while bulk sliding waits for the last nodes of the contact (`waits`).
 //
 // How often bars hold, and by how much, is measured by validation/benchmark/promise.py.
 #ifndef AMONTONS_RECORD_ERROR_BARS_H
@@ -30,9 +32,9 @@ typedef struct LevelRun {
     int64_t steps;
 } LevelRun;
 
-// parts.mesh is NaN where fewer than two levels have such an answer.
+// parts.mesh is NaN where it is not known, and the bar with it.
 typedef struct ErrorBar {
-    double value, bar;   // bar: of the parts that are known
+    double value, bar;
     ErrorParts parts;
 } ErrorBar;
 
@@ -40,6 +42,8 @@ typedef struct Level {
     double refine;   // mesh.set.refine
     int32_t contact_nodes;
     int32_t pads;   // pieces of the contact, at least 1
+    bool undamped;   // friction weakens faster than viscosity can damp on a cell: no answer
+    bool waits;   // the last cells of the contact decide when the block slides, on any mesh so far
     int32_t run_count;
     LevelRun runs[LEVEL_RUNS_MAX];
     ErrorBar answer[ANSWER_KINDS];
@@ -65,7 +69,7 @@ void levels_add_run(Levels *levels, double pressure, const Answers *answers, int
 void levels_estimate(Levels *levels);
 const ErrorBar *levels_answer(const Levels *levels, AnswerKind kind);   // of the last level; NULL
 
-// Levels whose runs all have such an answer; the others have no part in a bar.
+// Damped levels whose runs all have such an answer; the others have no part in a bar.
 int32_t levels_known(const Levels *levels, AnswerKind kind);
 
 // Puts value, error and parts of both answers in the place of those of one run.

@@ -31,32 +31,38 @@ void warnings_add(RunWarnings *warnings, const char *format, ...)
     va_end(arguments);
 }
 
-void warnings_of_resolution(const Certificate *certificate, double load, RunWarnings *warnings)
+int32_t undamped_nodes(const Certificate *certificate, double load, double *worst)
 {
     const Interface *interface = certificate->moving.interface;
     const FrictionLaw *law = certificate->moving.law;
     double length = 0;
-    if (!(friction_drop(law) > 0) || !certificate->damping)
-        return;   // no damping: the scene was warned of
+    *worst = 0;
+    if (!(friction_drop(law) > 0) || !certificate->damping) return 0;   // the scene was warned of
     const double *schur = interface_operator_schur(certificate->damping);
-    int32_t unstable = 0;
-    double worst = 0;
+    int32_t count = 0;
     for (int32_t i = 0; i < interface->contact_count; i++) length += interface->weight[i];
     for (int32_t i = 0; i < interface->contact_count; i++) {
         int64_t t = interface_tangent(i);
         double slope = friction_steepest(friction_at(law, i));
         double ratio = slope * load / length * interface->weight[i] /
                        schur[t * interface->count + t];
-        unstable += ratio > 1;
-        worst = ratio > worst ? ratio : worst;
+        count += ratio > 1;
+        *worst = ratio > *worst ? ratio : *worst;
     }
-    if (unstable > 0)
+    return count;
+}
+
+void warnings_of_resolution(const Certificate *certificate, double load, RunWarnings *warnings)
+{
+    double worst = 0;
+    int32_t undamped = undamped_nodes(certificate, load, &worst);
+    if (undamped > 0)
         warnings_add(warnings,
                      "slip is not resolved: friction weakens faster than viscosity can damp at %d "
                      "of %d contact nodes, each taken alone; slip turns unstable on less than an "
                      "element, and what comes out depends on the mesh; elements %.2g times as "
                      "long would do",
-                     unstable, interface->contact_count, 1 / worst);
+                     undamped, certificate->moving.interface->contact_count, 1 / worst);
 }
 
 // How to get a mesh with contact cells of half the size, from the parameters that the scene gives.

@@ -14,8 +14,12 @@
 #include "scene/scene.h"
 #include "stepping/certificate.h"
 
-// Looks at law, damping and interface; load: F_N, force/width, taken as evenly spread.
-// Appends to `warnings`.
+// Contact nodes at which friction, each node taken alone, weakens faster than viscosity can damp:
+// their cells are too long. *worst: the largest ratio of the two. load: F_N, force/width, taken as
+// evenly spread. 0 without damping.
+int32_t undamped_nodes(const Certificate *certificate, double load, double *worst);
+
+// Says so. Appends to `warnings`.
 void warnings_of_resolution(const Certificate *certificate, double load, RunWarnings *warnings);
 
 // The rod's strip against the extent of its face; height: H, length.
