@@ -256,6 +256,7 @@ EndIf
 
 is_free = StrCmp(layout, "free") == 0 || (StrCmp(layout, "auto") == 0 && fillet > 0);
 surfaces[] = {};
+feet[] = {};
 tops[] = {};
 
 // --- rows and columns ---------------------------------------------------------------------------
@@ -317,6 +318,7 @@ If (!is_free)
                                     -(21 * bank + k)};
             Plane Surface(bank + k) = {bank + k};
             surfaces[] += bank + k;
+            feet[] += bank + k;
             Physical Curve(Sprintf("contact_%g", number)) = {11 * bank + k};
         EndIf
     EndFor
@@ -415,6 +417,10 @@ If (is_free)
 EndIf
 
 Physical Surface("body") = surfaces[];
+If (#feet[] > 0)        // rows and columns: the pads are a surface of their own
+    Physical Surface("body") -= feet[];
+    Physical Surface("pads") = feet[];
+EndIf
 Physical Curve("top") = tops[];
 If (StrCmp(shape, "quad") == 0)
     Recombine Surface{surfaces[]};

@@ -115,7 +115,7 @@ static void add_element(const Mesh *mesh, int32_t e, const ElementMatrices *matr
 }
 
 // Of a checked mesh (bulk/mesh_build) every determinant is positive: no element can fail here.
-bool bulk_assemble(const Mesh *mesh, const Material *material, Bulk *bulk, Error *err)
+bool bulk_assemble(const Mesh *mesh, const Material *materials, Bulk *bulk, Error *err)
 {
     *bulk = (Bulk){.dof_count = 2 * mesh->node_count};
     TRY(build_pattern(mesh, &bulk->pattern, err));
@@ -134,7 +134,8 @@ bool bulk_assemble(const Mesh *mesh, const Material *material, Bulk *bulk, Error
             memcpy(position[a], mesh->position + 2 * mesh->element_nodes[first + a],
                    sizeof position[a]);
         ElementMatrices matrices;
-        element_matrices(mesh->kind[e], (const double(*)[2])position, material, &matrices);
+        element_matrices(mesh->kind[e], (const double(*)[2])position,
+                         &materials[mesh_region(mesh, e)], &matrices);
         add_element(mesh, e, &matrices, bulk);
     }
 cleanup:

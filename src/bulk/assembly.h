@@ -19,7 +19,8 @@ typedef struct Bulk {
     double area;
 } Bulk;
 
-bool bulk_assemble(const Mesh *mesh, const Material *material, Bulk *bulk, Error *err);
+// materials: one, or as many as the mesh has regions, by their numbers.
+bool bulk_assemble(const Mesh *mesh, const Material *materials, Bulk *bulk, Error *err);
 void bulk_destroy(Bulk *bulk);
 
 // load += int_curve N_a (traction_x, traction_z) ds. A pressure P on top is (0, -P).

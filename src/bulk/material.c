@@ -79,3 +79,84 @@ double material_slip_speed(const Material *material)
     WaveSpeeds speeds = material_speeds(material);
     return fmin(speeds.longitudinal, 2 * speeds.shear);
 }
+
+// --- several ------------------------------------------------------------------------------------
+
+Materials materials_of(const Material *material)
+{
+    return (Materials){.count = 1, .list = {*material}, .mean = *material};
+}
+
+static bool is_used(const Materials *materials, int32_t k)
+{
+    return materials->count == 1 || materials->area[k] > 0;
+}
+
+void materials_find_mean(Materials *materials)
+{
+    Material sum = {.plane_strain = materials->list[0].plane_strain};
+    double area = 0, compliance = 0;
+    materials->mean = materials->list[0];
+    if (materials->count == 1) return;
+    for (int32_t k = 0; k < materials->count; k++) {
+        const Material *one = &materials->list[k];
+        double part = materials->area[k];
+        area += part;
+        compliance += part / one->young;
+        sum.poisson += part * one->poisson;
+        sum.density += part * one->density;
+        sum.eta1 += part * one->eta1;
+        sum.eta2 += part * one->eta2;
+    }
+    sum.young = area / compliance;
+    sum.poisson /= area;
+    sum.density /= area;
+    sum.eta1 /= area;
+    sum.eta2 /= area;
+    materials->mean = sum;
+}
+
+double materials_slip_speed(const Materials *materials)
+{
+    double fastest = 0;
+    for (int32_t k = 0; k < materials->count; k++)
+        if (is_used(materials, k))
+            fastest = fmax(fastest, material_slip_speed(&materials->list[k]));
+    return fastest;
+}
+
+double materials_viscous_time(const Materials *materials)
+{
+    double longest = 0;
+    for (int32_t k = 0; k < materials->count; k++) {
+        const Material *one = &materials->list[k];
+        if (is_used(materials, k)) longest = fmax(longest, (one->eta1 + one->eta2) / one->young);
+    }
+    return longest;
+}
+
+static ViscousTimes viscous_times(const Material *material)
+{
+    double elastic[3][3], viscous[3][3];
+    material_elastic(material, elastic);
+    material_viscous(material, viscous);
+    return (ViscousTimes){.volume = (viscous[0][0] + viscous[0][1]) /
+                                    (elastic[0][0] + elastic[0][1]),
+                          .shear = viscous[2][2] / elastic[2][2]};
+}
+
+ViscousTimes materials_viscous_range(const Materials *materials)
+{
+    ViscousTimes range = viscous_times(&materials->list[0]);
+    bool first = true;
+    if (materials->count == 1) return range;
+    for (int32_t k = 0; k < materials->count; k++) {
+        if (!is_used(materials, k)) continue;
+        ViscousTimes own = viscous_times(&materials->list[k]);
+        double low = fmin(own.volume, own.shear), high = fmax(own.volume, own.shear);
+        range.volume = first ? low : fmin(range.volume, low);
+        range.shear = first ? high : fmax(range.shear, high);
+        first = false;
+    }
+    return range;
+}

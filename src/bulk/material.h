@@ -9,6 +9,7 @@
 #define AMONTONS_BULK_MATERIAL_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 typedef struct Material {
     double young;   // E, stress
@@ -35,5 +36,34 @@ WaveSpeeds material_speeds(const Material *material);
 // For the time scales of slip: c_L, but at most 2 c_S. (c_L grows without bound towards nu = 1/2 in
 // plane strain, while slip does not get faster.)
 double material_slip_speed(const Material *material);
+
+enum { MATERIALS_MAX = 17 };
+
+// What a block is made of: one material, or one in each region of its mesh (Mesh.region).
+typedef struct Materials {
+    int32_t count;
+    Material list[MATERIALS_MAX];   // [count] by number of the region
+    double area[MATERIALS_MAX];   // [count] of the region, length^2; 0: of no element; of one
+        // material it need not be known
+    Material mean;   // what scales are measured with; the material itself, where there is one
+} Materials;
+
+Materials materials_of(const Material *material);   // a block of one
+// Sets the mean: by area of density, Poisson's ratio and viscosities, of E that of regions one above
+// the other, 1/E = mean of 1/E.
+void materials_find_mean(Materials *materials);
+
+// Over the regions that there are: the fastest material_slip_speed, and the longest viscous time
+// (eta1 + eta2)/E.
+double materials_slip_speed(const Materials *materials);
+double materials_viscous_time(const Materials *materials);
+
+// Viscous over elastic modulus of a material: of the plane's volume, and of shear.
+typedef struct ViscousTimes {
+    double volume, shear;
+} ViscousTimes;
+// Of all regions together the shortest and the longest of these times; of one material its own, in
+// that order.
+ViscousTimes materials_viscous_range(const Materials *materials);
 
 #endif

@@ -25,11 +25,20 @@ typedef struct Mesh {
     uint8_t *kind;   // [element_count] ElementKind; owned
     int32_t *first_node;   // [element_count + 1] offsets into element_nodes; owned
     int32_t *element_nodes;   // [first_node[element_count]] corners, mid-sides, centre; owned
+    uint8_t
+        *region;   // [element_count] which of the materials it is made of (model/regions); NULL:
+    // there is one; owned
     int32_t group_count;
     MeshGroup *groups;   // [group_count]; nodes of curves by ascending x, then z; owned
     double x_min, x_max;   // extent, length
     double z_min, z_max;
 } Mesh;
+
+// Which of a list of materials element e is made of.
+static inline int32_t mesh_region(const Mesh *mesh, int32_t e)
+{
+    return mesh->region ? mesh->region[e] : 0;
+}
 
 // Puts nodes [count] in order of ascending x, then z.
 void mesh_sort_nodes(const Mesh *mesh, int32_t *nodes, int32_t count);
@@ -82,5 +91,6 @@ typedef struct MeshSummary {
     int32_t aspect_worst;   // the element that has it
 } MeshSummary;
 MeshSummary mesh_summarise(const Mesh *mesh);
+double mesh_element_area(const Mesh *mesh, int32_t e);   // length^2
 
 #endif

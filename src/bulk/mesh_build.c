@@ -27,6 +27,7 @@ void mesh_destroy(Mesh *mesh)
                      .group_count = mesh->group_count,
                      .groups = mesh->groups};
     mesh_file_destroy(&file);
+    memory_free(mesh->region);
     *mesh = (Mesh){0};
 }
 

@@ -8,7 +8,7 @@
 #include <stddef.h>
 
 // By the element's own quadrature: exact where sides are straight.
-static double element_area(const Mesh *mesh, int32_t e)
+double mesh_element_area(const Mesh *mesh, int32_t e)
 {
     double position[ELEMENT_NODES_MAX][2], area = 0;
     ElementKind kind = mesh->kind[e];
@@ -43,7 +43,7 @@ MeshSummary mesh_summarise(const Mesh *mesh)
             longest = fmax(longest, length);
         }
         summary.element_counts[kind]++;
-        summary.area += element_area(mesh, e);
+        summary.area += mesh_element_area(mesh, e);
         summary.edge_min = fmin(summary.edge_min, shortest);
         summary.edge_max = fmax(summary.edge_max, longest);
         if (longest / shortest > summary.aspect_max) {

@@ -71,12 +71,10 @@ static double von_mises(const double stress[3], double out_of_plane)
 // Von Mises is that of the mean stress, not the mean of the elements' von Mises.
 // displacement, velocity: [2 * nodes] of the full mesh. stress->total has the viscous part, C's
 // stress at this velocity, stress->elastic has not.
-void nodal_stress_recover(const Mesh *mesh, const Material *material, const double *displacement,
+void nodal_stress_recover(const Mesh *mesh, const Material *materials, const double *displacement,
                           const double *velocity, NodalStress *stress)
 {
     double elastic[3][3], viscous[3][3];
-    material_elastic(material, elastic);
-    material_viscous(material, viscous);
     size_t nodes = (size_t)stress->node_count;
     memset(stress->elastic, 0, 3 * nodes * sizeof(double));
     memset(stress->total, 0, 3 * nodes * sizeof(double));
@@ -85,6 +83,9 @@ void nodal_stress_recover(const Mesh *mesh, const Material *material, const doub
     for (int32_t e = 0; e < mesh->element_count; e++) {
         const int32_t *element = mesh->element_nodes + mesh->first_node[e];
         int32_t count = mesh->first_node[e + 1] - mesh->first_node[e];
+        const Material *material = &materials[mesh_region(mesh, e)];
+        material_elastic(material, elastic);
+        material_viscous(material, viscous);
         for (int32_t a = 0; a < count; a++) {
             double point[2];
             shape_node(mesh->kind[e], a, &point[0], &point[1]);

@@ -20,7 +20,7 @@ bool nodal_stress_create(const Mesh *mesh, NodalStress *stress, Error *err);
 void nodal_stress_destroy(NodalStress *stress);
 
 // displacement, velocity: [2 * node_count]
-void nodal_stress_recover(const Mesh *mesh, const Material *material, const double *displacement,
+void nodal_stress_recover(const Mesh *mesh, const Material *materials, const double *displacement,
                           const double *velocity, NodalStress *stress);
 
 #endif

@@ -30,7 +30,7 @@
 typedef struct ReductionDef {
     double tolerance;   // of responses, relative, in the energy norm
     BulkScales scales;   // of the bulk to reduce
-    Material material;   // likewise
+    Materials materials;   // likewise
 } ReductionDef;
 
 // interface_dofs: [interface_count] unknowns of `bulk` that stay.

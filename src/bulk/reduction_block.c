@@ -17,6 +17,37 @@ static double put_on_grid(double value)
     return round(value * GRID) / GRID + 0.0;   // never -0
 }
 
+// Likewise by 30 bits: a region may be softer than the mean by any factor.
+static double keep_bits(double value)
+{
+    int power;
+    double part = frexp(value, &power);
+    return ldexp(put_on_grid(part), power);
+}
+
+// E, eta1 + eta2 and rho over those of the mean.
+static Materials normalise(const Materials *given)
+{
+    Materials made = *given;
+    const Material *mean = &given->mean;
+    double eta = mean->eta1 + mean->eta2;
+    double share = put_on_grid(mean->eta1 / eta);
+    made.mean.young = made.mean.density = 1;
+    made.mean.eta1 = share;
+    made.mean.eta2 = 1 - share;
+    made.list[0] = made.mean;
+    for (int32_t k = 0; made.count > 1 && k < made.count; k++) {
+        const Material *from = &given->list[k];
+        made.list[k] = (Material){.young = keep_bits(from->young / mean->young),
+                                  .poisson = from->poisson,
+                                  .density = keep_bits(from->density / mean->density),
+                                  .eta1 = keep_bits(from->eta1 / eta),
+                                  .eta2 = keep_bits(from->eta2 / eta),
+                                  .plane_strain = from->plane_strain};
+    }
+    return made;
+}
+
 void reduction_block_destroy(ReductionBlock *block)
 {
     memory_free(block->position);
@@ -27,15 +58,11 @@ void reduction_block_destroy(ReductionBlock *block)
 // Assembled from the rounded positions and viscosities: M, C and K are exactly those of one block,
 // in which a rigid motion has no energy. The load is the scene's nodal load over its largest,
 // rounded.
-bool reduction_block_create(const Mesh *mesh, const Bulk *bulk, const Material *material,
+bool reduction_block_create(const Mesh *mesh, const Bulk *bulk, const Materials *materials,
                             double load_size, ReductionBlock *block, Error *err)
 {
     double length = mesh->x_max - mesh->x_min;
-    double share = put_on_grid(material->eta1 / (material->eta1 + material->eta2));
-    *block = (ReductionBlock){.material = *material};
-    block->material.young = block->material.density = 1;
-    block->material.eta1 = share;
-    block->material.eta2 = 1 - share;
+    *block = (ReductionBlock){.materials = normalise(materials)};
     block->position = NEW_ARRAY(double, 2 * (int64_t)mesh->node_count, err);
     if (!block->position) goto cleanup;
     for (int32_t i = 0; i < mesh->node_count; i++) {
@@ -45,13 +72,31 @@ bool reduction_block_create(const Mesh *mesh, const Bulk *bulk, const Material *
     }
     Mesh scaled = *mesh;   // borrows all but the positions
     scaled.position = block->position;
-    TRY(bulk_assemble(&scaled, &block->material, &block->bulk, err));
+    TRY(bulk_assemble(&scaled, block->materials.list, &block->bulk, err));
     for (int32_t dof = 0; dof < bulk->dof_count; dof++) {
         if (bulk->held[dof]) bulk_hold(dof, &block->bulk);
         block->bulk.load[dof] = load_size > 0 ? put_on_grid(bulk->load[dof] / load_size) : 0;
     }
 cleanup:
     return error_is_clean(err);
+}
+
+// Of several materials all numbers, and where each is.
+static void hash_materials(const Materials *materials, const Mesh *mesh, Hash *hash)
+{
+    hash_number(hash, materials->list[0].poisson);
+    hash_number(hash, materials->list[0].plane_strain);
+    hash_number(hash, materials->list[0].eta1);
+    if (materials->count == 1) return;
+    for (int32_t k = 0; k < materials->count; k++) {
+        const Material *one = &materials->list[k];
+        hash_number(hash, one->young);
+        hash_number(hash, one->poisson);
+        hash_number(hash, one->density);
+        hash_number(hash, one->eta1);
+        hash_number(hash, one->eta2);
+    }
+    hash_bytes(hash, mesh->region, (size_t)mesh->element_count);
 }
 
 // All that K, C, M, f and the split into interface and interior follow from; not gmsh's node and
@@ -61,9 +106,7 @@ void reduction_block_hash(const ReductionBlock *block, const Mesh *mesh, const i
 {
     const Bulk *bulk = &block->bulk;
     size_t unknowns = (size_t)bulk->dof_count, elements = (size_t)mesh->element_count;
-    hash_number(hash, block->material.poisson);
-    hash_number(hash, block->material.plane_strain);
-    hash_number(hash, block->material.eta1);
+    hash_materials(&block->materials, mesh, hash);
     hash_bytes(hash, block->position, unknowns * sizeof *block->position);
     hash_bytes(hash, mesh->kind, elements);
     hash_bytes(hash, mesh->first_node, (elements + 1) * sizeof *mesh->first_node);

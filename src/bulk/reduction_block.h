@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The block that a basis is made of: a scene's block, its lengths over L, in units in which
-// E = eta1 + eta2 = rho = 1 and the largest nodal load is 1. Blocks that are geometrically similar
+// E = eta1 + eta2 = rho = 1 (their means, of several materials) and the largest nodal load is 1. Blocks that are geometrically similar
 // give the same one, to the last bit, as its numbers are rounded. So a basis depends on its name
 // alone, not on the length that asked for it first. Called by model/obtain.
 #ifndef AMONTONS_BULK_REDUCTION_BLOCK_H
@@ -11,13 +11,13 @@
 
 typedef struct ReductionBlock {
     double *position;   // [nodes * 2] over L, from the trailing end on; owned
-    Material material;   // normalised
+    Materials materials;   // normalised: means of 1
     Bulk bulk;   // M / (rho L^2), C / (eta1 + eta2), K / E, f / load_size; owned
 } ReductionBlock;
 
-// bulk: assembled on `mesh` with `material`; its load and held unknowns are taken over.
+// bulk: assembled on `mesh` with `materials`; its load and held unknowns are taken over.
 // load_size: its largest nodal load.
-bool reduction_block_create(const Mesh *mesh, const Bulk *bulk, const Material *material,
+bool reduction_block_create(const Mesh *mesh, const Bulk *bulk, const Materials *materials,
                             double load_size, ReductionBlock *block, Error *err);
 void reduction_block_destroy(ReductionBlock *block);
 

@@ -284,8 +284,49 @@ cleanup:
     return error_is_clean(err);
 }
 
-// One group: its name (or its number in decimal), and its edges and nodes unless it is a surface,
-// whose elements are in the mesh already.
+// The element with gmsh's number, which ascend; -1: none, a copy that was dropped.
+static int32_t find_element(const MeshFile *mesh, int64_t number)
+{
+    int32_t low = 0, high = mesh->element_count - 1;
+    while (low <= high) {
+        int32_t middle = low + (high - low) / 2;
+        if (mesh->element_number[middle] == number) return middle;
+        if (mesh->element_number[middle] < number)
+            low = middle + 1;
+        else
+            high = middle - 1;
+    }
+    return -1;
+}
+
+// The elements of a surface, by the entities that it is made of: copies of an element are on the
+// same entity as the one that was kept. surface: [mesh->element_count] as they were picked.
+static bool store_group_elements(const MeshRaw *raw, const RawGroup *from,
+                                 const RawElements *surface, const MeshFile *mesh, MeshGroup *group,
+                                 Error *err)
+{
+    int32_t most = 0;
+    for (int32_t k = 0; k < raw->block_count; k++)
+        if (raw_group_holds(from, &raw->blocks[k])) most += (int32_t)raw->blocks[k].count;
+    if (!(group->elements = NEW_ARRAY(int32_t, most, err))) goto cleanup;
+    for (int32_t k = 0; k < raw->block_count; k++) {
+        const RawBlock *block = &raw->blocks[k];
+        for (int64_t i = 0; raw_group_holds(from, block) && i < block->count; i++) {
+            int32_t e = find_element(mesh, block->number[i]);
+            if (e < 0) continue;
+            const RawElement *item = &surface->items[e];
+            group->elements[group->element_count++] = e;
+            if (raw->version > 0 && raw->version < 4 && item->copies < item->groups)
+                group->blurred = true;
+        }
+    }
+    qsort(group->elements, (size_t)group->element_count, sizeof(int32_t), compare_indices);
+cleanup:
+    return error_is_clean(err);
+}
+
+// One group: its name (or its number in decimal), and its edges and nodes; of a surface its
+// elements.
 static bool convert_group(const MeshRaw *raw, const char *path, const NodeTable *table,
                           const RawGroup *from, MeshGroup *group, Error *err)
 {
@@ -308,12 +349,14 @@ cleanup:
 
 // All groups. Each name is there once, whatever the dimension.
 static bool convert_groups(const MeshRaw *raw, const char *path, const NodeTable *table,
-                           MeshFile *mesh, Error *err)
+                           const RawElements *surface, MeshFile *mesh, Error *err)
 {
     if (!(mesh->groups = NEW_ARRAY(MeshGroup, raw->group_count, err))) goto cleanup;
     for (int32_t k = 0; k < raw->group_count; k++) {
         MeshGroup *group = &mesh->groups[mesh->group_count++];
         TRY(convert_group(raw, path, table, &raw->groups[k], group, err));
+        if (group->dimension == 2)
+            TRY(store_group_elements(raw, &raw->groups[k], surface, mesh, group, err));
         for (const MeshGroup *other = mesh->groups; other < group; other++)
             if (strcmp(other->name, group->name) == 0)
                 FAIL(err, ERROR_INPUT,
@@ -339,7 +382,7 @@ bool mesh_raw_convert(const MeshRaw *raw, const char *path, MeshFile *mesh, Erro
     mark_curves(raw, &table);
     TRY(number_nodes(raw, path, &table, mesh, err));
     TRY(store_elements(&surface, &table, mesh, err));
-    TRY(convert_groups(raw, path, &table, mesh, err));
+    TRY(convert_groups(raw, path, &table, &surface, mesh, err));
 cleanup:
     table_destroy(&table);
     memory_free(surface.items);

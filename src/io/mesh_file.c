@@ -43,6 +43,7 @@ void mesh_file_destroy(MeshFile *mesh)
     for (int32_t k = 0; k < mesh->group_count; k++) {
         memory_free(mesh->groups[k].edge_nodes);
         memory_free(mesh->groups[k].nodes);
+        memory_free(mesh->groups[k].elements);
     }
     memory_free(mesh->position);
     memory_free(mesh->node_number);

@@ -24,8 +24,7 @@ typedef enum ElementKind {
 
 enum { GROUP_NAME_SIZE = 64, ELEMENT_NODES_MAX = 9, EDGE_NODES_MAX = 3 };
 
-// One physical group: of curves (dimension 1) or of points (dimension 0). Surfaces (dimension 2)
-// are listed, but without their elements.
+// One physical group: of surfaces (dimension 2), of curves (1) or of points (0).
 typedef struct MeshGroup {
     char name[GROUP_NAME_SIZE];   // where the mesh gives none: the physical number in decimal
     int32_t dimension;   // 0, 1 or 2
@@ -35,6 +34,11 @@ typedef struct MeshGroup {
     int32_t *edge_nodes;   // [edge_count * nodes_per_edge] node indices; owned
     int32_t node_count;
     int32_t *nodes;   // [node_count] ascending, each once; empty for surfaces; owned
+    int32_t element_count;   // 0 unless dimension is 2
+    int32_t *elements;   // [element_count] of the mesh, ascending; owned
+    bool
+        blurred;   // a surface of a file of format 2.2 that shares its entity's number with another
+        // group: which of the two an element belongs to is not known
 } MeshGroup;
 
 typedef struct MeshFile {

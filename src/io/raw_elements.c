@@ -23,7 +23,7 @@ static int32_t kind_of_type(int32_t gmsh_type)
 }
 
 // Tags of entities are signed in some files: the sign is the orientation.
-static bool raw_group_holds(const RawGroup *group, const RawBlock *block)
+bool raw_group_holds(const RawGroup *group, const RawBlock *block)
 {
     if (group->dimension != block->dimension) return false;
     for (int32_t k = 0; k < group->entity_count; k++)

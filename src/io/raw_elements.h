@@ -24,6 +24,8 @@ typedef struct RawElements {
     RawElement *items;   // [count]; owned
 } RawElements;
 
+// The block's entity is in the group.
+bool raw_group_holds(const RawGroup *group, const RawBlock *block);
 // In how many groups of its dimension a block's entity is.
 int32_t raw_block_groups(const MeshRaw *raw, const RawBlock *block);
 

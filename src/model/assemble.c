@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "base/dense.h"
+#include "model/regions.h"
 #include "model/shape_cache.h"
 
 #include <math.h>
@@ -45,6 +46,7 @@ bool model_read_mesh(Model *model, Error *err)
     model->length = mesh->x_max - mesh->x_min;
     model->height = mesh->z_max - mesh->z_min;
     model->elements = mesh->element_count;
+    TRY(model_mark_regions(model, err));
 cleanup:
     mesh_file_destroy(&file);
     model->seconds_mesh = clock_seconds() - started;
@@ -55,7 +57,7 @@ cleanup:
 // Force per width: of an impact, the stress rho c_L v over the length.
 static double free_scale(const Model *model, double load)
 {
-    const Material *material = &model->material;
+    const Material *material = &model->materials.mean;
     double impedance = material->density * material_speeds(material).longitudinal;
     double impact = impedance * fabs(model->scene->start.velocity_z) * model->length;
     if (impact > 0) return impact;
@@ -116,7 +118,7 @@ bool model_build_bulk(Model *model, Error *err)
     const Scene *scene = model->scene;
     double middle = 0, width = 0;
     model_rod_strip(scene, model->height, &middle, &width);
-    TRY(bulk_assemble(&model->mesh, &model->material, &model->bulk, err));
+    TRY(bulk_assemble(&model->mesh, model->materials.list, &model->bulk, err));
     TRY(add_loads(model, err));
     InterfaceDef def = {.contact_name_count = scene->groups.contact.count,
                         .contact_names = scene->groups.contact.name,
@@ -131,6 +133,8 @@ bool model_build_bulk(Model *model, Error *err)
                        : interface->contact_count == 0 ? "groups.contact"
                                                        : "groups.rod";
     TRY(scene_blame(scene, last, done, err));
+    done = model_place_regions(model, middle - 0.5 * width, middle + 0.5 * width, err);
+    TRY(scene_blame(scene, "materials", done, err));
     model->full_dofs = model->bulk.dof_count;
 cleanup:
     return error_is_clean(err);

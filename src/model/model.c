@@ -2,6 +2,7 @@
 #include "model/model.h"
 
 #include "base/memory.h"
+#include "model/regions.h"
 
 void model_destroy(Model *model)
 {
@@ -16,20 +17,13 @@ void model_destroy(Model *model)
 
 Model model_of(const Scene *scene)
 {
-    return (Model){.scene = scene,
-                   .material = {.young = scene->material.young,
-                                .poisson = scene->material.poisson,
-                                .density = scene->material.density,
-                                .eta1 = scene->material.eta1,
-                                .eta2 = scene->material.eta2,
-                                .plane_strain = scene->material.plane == PLANE_STRAIN},
-                   .law = scene->friction};
+    return (Model){.scene = scene, .materials = regions_of_scene(scene), .law = scene->friction};
 }
 
 double model_friction_slip(const Model *model)
 {
     double pressure = model->scales.load / model->length;
-    return friction_slip(&model->law, pressure, model->height, model->material.young);
+    return friction_slip(&model->law, pressure, model->height, model->materials.mean.young);
 }
 
 // Slip times E L/H is the drop (mu_S - mu_K) F_N.
@@ -49,8 +43,9 @@ static double half_plane(double d[3][3])
 bool model_build_rod(const Model *model, RodKind kind, Rod *rod, Error *err)
 {
     double elastic[3][3], viscous[3][3];
-    material_elastic(&model->material, elastic);
-    material_viscous(&model->material, viscous);
+    const Material *face = &model->materials.list[model->rod_region];
+    material_elastic(face, elastic);
+    material_viscous(face, viscous);
     if (!rod_build(&model->interface, kind, 0, rod, err)) return false;
     rod->stiffness = model->scene->rod.stiffness;
     rod_soften(&model->interface, half_plane(elastic), half_plane(viscous), rod);

@@ -15,7 +15,8 @@
 
 typedef struct Model {
     const Scene *scene;   // not owned; outlives the model
-    Material material;
+    Materials materials;
+    int32_t rod_region, contact_region;   // of which of them rod and contact (its first pad) are
     FrictionLaw law;
     FrictionLaw *node_laws;   // [contact_count] where they differ (model/contact_laws); owned
     Mesh mesh;   // empty: the shape came from the cache, and no fields are asked for; owned, like
@@ -38,10 +39,11 @@ typedef struct Model {
 
 void model_destroy(Model *model);   // zeroed and half-built too
 
-// An empty model of `scene`, with its material and law: the same numbers, other structs.
+// An empty model of `scene`, with its materials and law: the same numbers, other structs.
 Model model_of(const Scene *scene);
 
-// The slip that the drop of friction can drive, (mu_S - mu_K) p H / E with p the mean pressure,
+// The slip that the drop of friction can drive, (mu_S - mu_K) p H / E with p the mean pressure and
+// E that of the mean material,
 // length. For Coulomb friction, which has no drop, mu_S stands in its place; without friction 1.
 // Tolerances of slip are measured by it, so that they hold for any load and any units.
 double model_friction_slip(const Model *model);

@@ -12,9 +12,11 @@
 #include "model/basis_cache.h"
 #include "model/contact_laws.h"
 #include "model/shape_cache.h"
+#include "scene/materials.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 // Of the interior's responses, in the energy norm.
 static const double REDUCTION_TOLERANCES[] = {
@@ -42,7 +44,7 @@ static bool starts_at_interface(const Scene *scene)
 // E, eta, rho L^2 and the size of the load: what the reduced matrices are normalised with.
 static BulkScales bulk_scales(const Model *model, double load)
 {
-    const Material *material = &model->material;
+    const Material *material = &model->materials.mean;
     double length = model->length;
     return (BulkScales){.stiffness = material->young,
                         .damping = material->eta1 + material->eta2,
@@ -69,10 +71,15 @@ static bool adopt_shape(Model *model, Shape *shape, Error *err)
     model->height = shape->sizes.height;
     model->elements = (int32_t)shape->sizes.elements;
     model->full_dofs = (int32_t)shape->sizes.full_dofs;
+    model->rod_region = (int32_t)shape->sizes.rod_region;
+    model->contact_region = (int32_t)shape->sizes.contact_region;
+    memcpy(model->materials.area, shape->sizes.region_area, sizeof shape->sizes.region_area);
+    materials_find_mean(&model->materials);
     model->reduced.scales = bulk_scales(model, load);
     return model_set_load(model, shape->sizes.load_resultant, err) &&
            bulk_operator_reduce(&model->reduced, shape->rotation,
-                                shape->sizes.area * model->material.density, &model->system, err);
+                                shape->sizes.area * model->materials.mean.density, &model->system,
+                                err);
 }
 
 // What the unit rotation about the trailing end does to the interface's unknowns.
@@ -95,7 +102,7 @@ static bool obtain_basis(Model *model, const ReductionBlock *block, Shape *shape
     const Scene *scene = model->scene;
     const Interface *interface = &shape->interface;
     ReductionDef def = {.tolerance = reduction_tolerance(scene),
-                        .material = block->material,
+                        .materials = block->materials,
                         .scales = {.stiffness = 1, .damping = 1, .mass = 1, .load = 1}};
     bool *found = &model->from_cache;
     bool with_modes = wants_mesh(scene);
@@ -145,10 +152,13 @@ static bool reduce_bulk(Model *model, const char *key, Error *err)
                              .full_dofs = bulk->dof_count,
                              .load_size = model->unit_load.size,
                              .load_resultant = model->unit_load.resultant,
-                             .rod_reach = rod_reach(model)}};
+                             .rod_reach = rod_reach(model),
+                             .rod_region = model->rod_region,
+                             .contact_region = model->contact_region}};
+    memcpy(shape.sizes.region_area, model->materials.area, sizeof shape.sizes.region_area);
     shape.interface = model->interface;
     model->interface = (Interface){0};
-    TRY(reduction_block_create(&model->mesh, bulk, &model->material, load, &block, err));
+    TRY(reduction_block_create(&model->mesh, bulk, &model->materials, load, &block, err));
     TRY(list_rotation(model, &block, &shape, err));
     TRY(obtain_basis(model, &block, &shape, err));
     if (shape.basis[0]) shape_cache_store(key, &shape, model->cache_note);
@@ -159,12 +169,23 @@ cleanup:
     return error_is_clean(err);
 }
 
+// In every region: else the basis would have to answer for a block that nothing holds together, as
+// it does for all that is between elastic and viscous.
+static bool is_viscous(const Scene *scene)
+{
+    bool viscous = scene->material.eta1 > 0;
+    for (int32_t i = 0; i < scene->materials.count; i++)
+        viscous = viscous &&
+                  scene_material_number(scene, &scene->materials.region[i], MATERIAL_ETA1) > 0;
+    return viscous;
+}
+
 // The scene's bulk can be reduced: stepped implicitly, with viscosity, from states the interface
 // made.
 static bool is_reducible(const Scene *scene)
 {
     bool implicit = scene->time.scheme != SCHEME_EXPLICIT;   // explicit steps are those of the mesh
-    return scene->reduction.use != REDUCE_NEVER && implicit && scene->material.eta1 > 0 &&
+    return scene->reduction.use != REDUCE_NEVER && implicit && is_viscous(scene) &&
            starts_at_interface(scene);
 }
 
@@ -255,11 +276,11 @@ cleanup:
 static void set_scales(Model *model)
 {
     const Scene *scene = model->scene;
-    const Material *material = &model->material;
+    const Material *material = &model->materials.mean;
     double length = model->length;
     model->scales.length = length;
     model->scales.time = length / material_speeds(material).longitudinal +
-                         (material->eta1 + material->eta2) / material->young;
+                         materials_viscous_time(&model->materials);
     model->scales.slip_velocity = scene->rod.velocity > 0 ? scene->rod.velocity
                                                           : scene->friction.critical_velocity;
     // Nothing gives a velocity: that with which the load would deform the block in that time.

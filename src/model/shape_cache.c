@@ -11,6 +11,7 @@
 #include "io/cache_file.h"
 #include "io/mesh_source.h"
 #include "model/basis_cache.h"
+#include "scene/materials.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -19,7 +20,7 @@
 enum { COUNTS = 3 };
 
 // Stands in every key, beside the basis's: a new meaning of the arrays below needs a new number.
-static const char FORMAT[] = "shape 8";
+static const char FORMAT[] = "shape 9";
 
 // Names travel as the bytes of doubles, filled up with zeros.
 enum {
@@ -66,6 +67,20 @@ static void hash_boundary(const Scene *scene, Hash *hash)
     }
 }
 
+// A region's numbers over those of `material`, which a basis and the place of the mean depend on.
+static void hash_regions(const Scene *scene, Hash *hash)
+{
+    double eta = scene->material.eta1 + scene->material.eta2;
+    const double scales[SCENE_MATERIAL_NUMBERS] = {scene->material.young, 1,
+                                                   scene->material.density, eta, eta};
+    for (int32_t i = 0; i < scene->materials.count; i++) {
+        const SceneMaterial *region = &scene->materials.region[i];
+        hash_text(hash, region->group);
+        for (int32_t k = 0; k < SCENE_MATERIAL_NUMBERS; k++)
+            hash_number(hash, scene_material_number(scene, region, k) / scales[k]);
+    }
+}
+
 // The lengths are in it, by the mesh's parameters: another length has another interface (x,
 // weights) and shares the basis only, which goes by the block's content (bulk/reduction_block).
 bool shape_key(const Scene *scene, double tolerance, char key[HASH_TEXT_SIZE], Error *err)
@@ -83,6 +98,7 @@ bool shape_key(const Scene *scene, double tolerance, char key[HASH_TEXT_SIZE], E
     hash_number(&hash, scene->material.poisson);
     hash_number(&hash, scene->material.plane);
     hash_number(&hash, scene->material.eta2 / eta);
+    hash_regions(scene, &hash);
     hash_number(&hash, tolerance);
     hash_number(&hash, scene->reduction.use);   // or auto would take what always alone makes
     if (whole) hash_write(&hash, key);

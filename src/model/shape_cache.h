@@ -10,6 +10,7 @@
 #define AMONTONS_MODEL_SHAPE_CACHE_H
 
 #include "base/hash.h"
+#include "bulk/material.h"
 #include "contact/interface.h"
 #include "io/cache_file.h"
 #include "scene/scene.h"
@@ -22,6 +23,8 @@ typedef struct ShapeSizes {
     double full_dofs;   // unknowns of the mesh
     double load_size;   // largest nodal load per unit of load_reference()
     double load_resultant;   // of the loads towards the plane, per unit of load_reference()
+    double rod_region, contact_region;   // numbers of their materials
+    double region_area[MATERIALS_MAX];   // of one material 0, length^2
     double rod_reach;   // greatest x of a rod node from the trailing end, over L; 0: no rod
 } ShapeSizes;
 

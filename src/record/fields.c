@@ -73,7 +73,7 @@ static bool fill_line_grid(Fields *fields, const Interface *interface, Error *er
 }
 
 // What one state needs, without a folder: for `amontons static`, which calls fields_write_bulk
-// itself. mesh is borrowed; material is the caller's to set.
+// itself. mesh is borrowed; materials are the caller's to set.
 bool fields_prepare(const Mesh *mesh, const Interface *interface, Fields *fields, Error *err)
 {
     *fields = (Fields){.mesh = mesh};
@@ -134,7 +134,7 @@ bool fields_write_bulk(Fields *fields, const FieldState *state, const char *path
             velocity[3 * i + d] = state->velocity[2 * i + d];
         }
     }
-    nodal_stress_recover(mesh, fields->material, state->displacement, state->velocity,
+    nodal_stress_recover(mesh, fields->materials, state->displacement, state->velocity,
                          &fields->stress);
     FieldArray arrays[] = {
         {.name = "displacement", .components = 3, .values = displacement},

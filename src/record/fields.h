@@ -20,7 +20,7 @@ typedef struct Fields {
     FieldsDef def;
     const char *folder;   // of the result; not owned, like the next four
     const Mesh *mesh;
-    const Material *material;
+    const Material *materials;
     const FrictionLaw *law;
     const Events *events;
     NodalStress stress;   // owned, like all that follows
@@ -48,7 +48,7 @@ typedef struct FieldState {
     double time;
 } FieldState;
 
-// For single files: no folder, no series. `material` is set by the caller, also after create.
+// For single files: no folder, no series. `materials` are set by the caller, also after create.
 bool fields_prepare(const Mesh *mesh, const Interface *interface, Fields *fields, Error *err);
 // Writes one .vtu; the stresses stay in fields->stress.
 bool fields_write_bulk(Fields *fields, const FieldState *state, const char *path, Error *err);

@@ -40,6 +40,15 @@ static void write_curve(const Mesh *mesh, const MeshGroup *group, FILE *out)
             group->node_count, length, group->edge_count ? shortest : 0, longest);
 }
 
+// Cells and area: what `materials` of a scene may name.
+static void write_surface(const Mesh *mesh, const MeshGroup *group, FILE *out)
+{
+    double area = 0;
+    for (int32_t k = 0; k < group->element_count; k++)
+        area += mesh_element_area(mesh, group->elements[k]);
+    fprintf(out, "%6d cells                area %.6g", group->element_count, area);
+}
+
 static void write_groups(const Mesh *mesh, FILE *out)
 {
     fprintf(out, "  groups\n");
@@ -47,6 +56,7 @@ static void write_groups(const Mesh *mesh, FILE *out)
         const MeshGroup *group = &mesh->groups[g];
         fprintf(out, "    %-16s %-7s", group->name, dimension_name(group->dimension));
         if (group->dimension == 1) write_curve(mesh, group, out);
+        if (group->dimension == 2) write_surface(mesh, group, out);
         if (group->dimension == 0) fprintf(out, "%6d nodes", group->node_count);
         fprintf(out, "\n");
     }

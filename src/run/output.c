@@ -25,7 +25,8 @@ static char *join_pad_names(const Interface *interface, Error *err)
 bool output_open_history(Simulation *simulation, Error *err)
 {
     const Scene *scene = &simulation->scene;
-    WaveSpeeds speeds = material_speeds(&simulation->model.material);
+    const Model *model = &simulation->model;
+    WaveSpeeds speeds = material_speeds(&model->materials.list[model->contact_region]);
     ResultHead head = {
         .title = scene->title,
         .units = scene->units == UNITS_SI ? "si" : "normalised",
@@ -76,7 +77,7 @@ bool output_open_fields(Simulation *simulation, Error *err)
                      .at_events = scene->output.fields_at_events};
     TRY(fields_create(&def, simulation->folder.path, &simulation->model.mesh,
                       &simulation->model.interface, &simulation->fields, err));
-    simulation->fields.material = &simulation->model.material;
+    simulation->fields.materials = simulation->model.materials.list;
     simulation->fields.law = &simulation->model.law;
     simulation->fields.events = &simulation->events;
     recorders_add(&simulation->recorders, &simulation->fields, fields_record);

@@ -63,7 +63,7 @@ static void write_timing(JsonWriter *json, const Model *model, const RunTiming *
 
 static void write_model(JsonWriter *json, const Model *model, int64_t relaxation_steps)
 {
-    WaveSpeeds speeds = material_speeds(&model->material);
+    WaveSpeeds speeds = material_speeds(&model->materials.list[model->contact_region]);
     json_begin_object(json, "model");
     json_integer(json, "contact_nodes", model->interface.contact_count);
     json_integer(json, "rod_nodes", model->interface.rod_count);

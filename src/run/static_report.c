@@ -146,7 +146,7 @@ bool static_report_write(const char *folder, const Model *model, StaticSolution 
     Fields fields = {0};
     for (int32_t k = 0; k < model->bulk.dof_count; k++) solution->work[k] = 0;
     TRY(fields_prepare(&model->mesh, &model->interface, &fields, err));
-    fields.material = &model->material;
+    fields.materials = model->materials.list;
     TRY(write_vtu(folder, solution, &fields, err));
     TRY(write_arrays(folder, model, solution, &fields.stress, err));
     TRY(write_json(folder, model, solution, summary, err));

@@ -119,7 +119,8 @@ static void find_reactions(const Model *model, StaticSolution *solution)
         for (int32_t a = 0; a < nodes; a++)
             memcpy(position[a], mesh->position + 2 * element[a], sizeof position[a]);
         ElementMatrices matrices;
-        element_matrices(mesh->kind[e], (const double(*)[2])position, &model->material, &matrices);
+        element_matrices(mesh->kind[e], (const double(*)[2])position,
+                         &model->materials.list[mesh_region(mesh, e)], &matrices);
         for (int32_t row = 0; row < 2 * nodes; row++) {
             double force = 0;
             for (int32_t column = 0; column < 2 * nodes; column++)

@@ -4,6 +4,7 @@
 #include "scene/check.h"
 
 #include "amontons.h"
+#include "scene/materials.h"
 
 #include <stdarg.h>
 #include <string.h>
@@ -134,6 +135,20 @@ static bool check_friction(const Check *check)
     return true;
 }
 
+// Of the region, or of `material`.
+static bool check_materials(const Check *check)
+{
+    const Scene *scene = check->scene;
+    for (int32_t i = 0; i < scene->materials.count; i++) {
+        const SceneMaterial *region = &scene->materials.region[i];
+        double poisson = scene_material_number(scene, region, MATERIAL_POISSON);
+        if (scene->material.plane == PLANE_STRAIN && poisson >= 0.5)
+            return blame(check, "materials", "%s.poisson: %g; plane strain needs less than 0.5",
+                         region->group, poisson);
+    }
+    return true;
+}
+
 // Something must press the block down, hold it, or send it down: else there is no contact to look
 // at.
 static bool check_load(const Check *check)
@@ -200,7 +215,14 @@ static bool check_output(const Check *check)
 
 const char *amontons_scene_warning(const Scene *scene)
 {
-    if (!(friction_drop(&scene->friction) > 0) || scene->material.eta1 > 0) return NULL;
+    if (!(friction_drop(&scene->friction) > 0)) return NULL;
+    for (int32_t i = 0; i < scene->materials.count; i++)
+        if (!(scene_material_number(scene, &scene->materials.region[i], MATERIAL_ETA1) > 0))
+            return "eta1 is 0 in one of the regions of `materials`: where friction that weakens "
+                   "acts "
+                   "on it, the shortest wave that the mesh can hold grows fastest, so the answer "
+                   "has no limit as the mesh gets finer (an ill-posed problem)";
+    if (scene->material.eta1 > 0) return NULL;
     return "material.eta1 is 0: with friction that weakens, the shortest wave that the mesh can "
            "hold "
            "grows fastest, so the answer has no limit as the mesh gets finer (an ill-posed "
@@ -213,5 +235,6 @@ bool scene_check(const Scene *scene, const SceneValue *sources, const YamlDocume
 {
     Check check = {.scene = scene, .sources = sources, .file = file, .err = err};
     return check_required(&check) && check_friction(&check) && check_load(&check) &&
-           check_groups(&check) && check_rod(&check) && check_time(&check) && check_output(&check);
+           check_materials(&check) && check_groups(&check) && check_rod(&check) &&
+           check_time(&check) && check_output(&check);
 }

@@ -5,6 +5,7 @@
 #include "scene/keys.h"
 
 #include "io/folder.h"
+#include "scene/materials.h"
 
 #include <string.h>
 
@@ -78,6 +79,19 @@ static void write_contact_laws(const SceneContactLaws *laws, JsonWriter *json, c
     json_end(json);
 }
 
+static void write_materials(const SceneMaterials *materials, JsonWriter *json, const char *name)
+{
+    json_begin_object(json, name);
+    for (int32_t i = 0; i < materials->count; i++) {
+        const SceneMaterial *region = &materials->region[i];
+        json_begin_object(json, region->group);
+        for (int32_t k = 0; k < SCENE_MATERIAL_NUMBERS; k++)
+            if (region->given[k]) json_number(json, scene_material_word(k), region->number[k]);
+        json_end(json);
+    }
+    json_end(json);
+}
+
 static void write_names(const SceneNames *names, JsonWriter *json, const char *name)
 {
     json_begin_list(json, name);
@@ -129,6 +143,9 @@ static void write_value(const SceneKey *key, const Scene *scene, JsonWriter *jso
         return;
     case KEY_CONTACT_LAWS:
         write_contact_laws(field, json, name);
+        return;
+    case KEY_MATERIALS:
+        write_materials(field, json, name);
         return;
     case KEY_FIELDS:
         json_text(json, name, "none");

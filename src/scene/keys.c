@@ -69,6 +69,9 @@ static const SceneKey keys[] = {
     {"material.plane", KEY_CHOICE, offsetof(Scene, material.plane), "1", RANGE_ANY, "stress",
      .sentence = "Plane stress (a thin plate) or plane strain (a wide block).",
      .choices = plane_choices},
+    {"materials", KEY_MATERIALS, offsetof(Scene, materials), "1", RANGE_ANY, NULL, .may_lack = true,
+     .sentence = "Materials of regions, by the names of physical surfaces of the mesh: those of "
+                 "young, poisson, density, eta1, eta2 that differ there from `material`."},
     {"friction.law", KEY_CHOICE, offsetof(Scene, friction.kind), "1", RANGE_ANY, "linear-weakening",
      .sentence =
          "How the local coefficient changes with slip rate; `table`, `formula` and `plugin` "
@@ -283,6 +286,18 @@ int32_t scene_key_index(const char *name)
     return -1;
 }
 
+int32_t scene_key_above(const char *name, const char **part)
+{
+    for (int32_t k = 0; k < KEY_COUNT; k++) {
+        size_t length = strlen(keys[k].name);
+        bool open = keys[k].type == KEY_PARAMETERS || keys[k].type == KEY_MATERIALS;
+        if (!open || strncmp(name, keys[k].name, length) != 0 || name[length] != '.') continue;
+        *part = name + length + 1;
+        return k;
+    }
+    return -1;
+}
+
 // A group is what stands before a dot in some key.
 bool scene_key_is_group(const char *name)
 {
@@ -357,6 +372,7 @@ void scene_key_allowed(const SceneKey *key, char *words, int32_t size)
         [KEY_TRACTIONS] = "a list of at most 32 maps {group: NAME, x: STRESS, z: STRESS}",
         [KEY_SUPPORTS] = "a list of at most 32 maps {group: NAME, direction: x, z or both}",
         [KEY_CONTACT_LAWS] = "a list of at most 16 maps {group: NAME, mu_static: NUMBER, ...}",
+        [KEY_MATERIALS] = "a map of at most 16 maps, as in {pads: {young: 0.01, eta1: 0.1}}",
         [KEY_FIELDS] = "none, or a map of every_U, every_t, at_events",
     };
     const char *text = key->type == KEY_NUMBER ? ranges[key->range].words : by_type[key->type];

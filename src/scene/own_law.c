@@ -2,13 +2,23 @@
 #include "scene/own_law.h"
 
 #include "contact/friction_look.h"
+#include "scene/materials.h"
 
 #include <math.h>
 
+// The speed of sound, the fastest of all regions.
 double scene_fastest_slip(const Scene *scene)
 {
     double given = scene->own_friction.velocity_max;
-    return given > 0 ? given : sqrt(scene->material.young / scene->material.density);
+    double fastest = sqrt(scene->material.young / scene->material.density);
+    if (given > 0) return given;
+    for (int32_t i = 0; i < scene->materials.count; i++) {
+        const SceneMaterial *region = &scene->materials.region[i];
+        double young = scene_material_number(scene, region, MATERIAL_YOUNG);
+        double density = scene_material_number(scene, region, MATERIAL_DENSITY);
+        fastest = fmax(fastest, sqrt(young / density));
+    }
+    return fastest;
 }
 
 bool scene_own_law(Scene *scene, const char **key, Error *err)

@@ -47,6 +47,7 @@ typedef struct Scene {
         double young, poisson, density, eta1, eta2;
         ScenePlane plane;
     } material;
+    SceneMaterials materials;   // of single regions
     FrictionLaw friction;   // made of what follows, where it is one's own
     SceneOwnFriction own_friction;
     SceneContactLaws contact_laws;   // friction.contacts

@@ -14,6 +14,7 @@
 #include "scene/check.h"
 #include "scene/contact_laws.h"
 #include "scene/keys.h"
+#include "scene/materials.h"
 #include "scene/own_law.h"
 #include "scene/value.h"
 
@@ -103,16 +104,15 @@ cleanup:
     return error_is_clean(err);
 }
 
-// A value given for `name` from outside of the file; `mesh.set.NAME` sets a single parameter.
+// A value given for `name` from outside of the file; `mesh.set.NAME` sets a single parameter,
+// `materials.NAME.young` a single number.
 static bool gather_outside(Reader *reader, const char *name, const SceneValue *value, Error *err)
 {
-    static const char parameter[] = "mesh.set.";
     Setting setting = {.key = -1, .value = *value};
     if (strlen(name) >= KEY_NAME_SIZE)
         FAIL(err, ERROR_INPUT, "%.80s...: unknown key (`amontons info keys` lists them all)", name);
-    if (strncmp(name, parameter, strlen(parameter)) == 0) {
-        setting.key = scene_key_index("mesh.set");
-        setting.value.part = name + strlen(parameter);
+    setting.key = scene_key_above(name, &setting.value.part);
+    if (setting.key >= 0) {
         snprintf(setting.group, sizeof setting.group, "%s", setting.value.part);
         TRY(add_setting(reader, &setting, err));
         goto cleanup;
@@ -192,7 +192,10 @@ static bool store_setting(Reader *reader, const Setting *setting, Scene *scene, 
     SceneValue value = setting->value;
     if (value.part) value.part = setting->group;
     if (key->type == KEY_FIELDS) TRY(store_defaults(reader, fields, scene, err));
-    TRY(scene_value_set(key, &value, scene, err));
+    if (key->type == KEY_MATERIALS)
+        TRY(scene_materials_set(&value, scene, err));
+    else
+        TRY(scene_value_set(key, &value, scene, err));
     bool is_part_of_fields = strncmp(key->name, fields, strlen(fields)) == 0 &&
                              key->type != KEY_FIELDS;
     if (is_part_of_fields) {

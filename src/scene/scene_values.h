@@ -10,7 +10,8 @@ enum {
     SCENE_TEXT_SIZE = 512,
     SCENE_LIST_MAX = 32,
     SCENE_NUMBERS_MAX = 64,
-    SCENE_CONTACT_LAWS_MAX = 16
+    SCENE_CONTACT_LAWS_MAX = 16,
+    SCENE_MATERIALS_MAX = 16
 };
 
 typedef struct SceneNames {
@@ -33,6 +34,28 @@ typedef struct SceneSupport {
     char group[GROUP_NAME_SIZE];
     bool x, z;
 } SceneSupport;
+
+// The numbers of a material, in the order of scene/materials.
+enum {
+    MATERIAL_YOUNG,
+    MATERIAL_POISSON,
+    MATERIAL_DENSITY,
+    MATERIAL_ETA1,
+    MATERIAL_ETA2,
+    SCENE_MATERIAL_NUMBERS
+};
+
+// What differs from `material` in a region, an entry of `materials` (scene/materials).
+typedef struct SceneMaterial {
+    char group[GROUP_NAME_SIZE];   // a physical surface
+    bool given[SCENE_MATERIAL_NUMBERS];
+    double number[SCENE_MATERIAL_NUMBERS];   // where given
+} SceneMaterial;
+
+typedef struct SceneMaterials {
+    int32_t count;
+    SceneMaterial region[SCENE_MATERIALS_MAX];
+} SceneMaterials;
 
 typedef enum SceneInterpolation { INTERPOLATION_CUBIC, INTERPOLATION_LINEAR } SceneInterpolation;
 

@@ -2,6 +2,8 @@
 // Values of a scene as text, and the reference of all keys.
 #include "scene/keys.h"
 
+#include "scene/materials.h"
+
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -116,6 +118,24 @@ static void add_contact_laws(Line *line, const SceneContactLaws *laws)
     add(line, "]");
 }
 
+static void add_materials(Line *line, const SceneMaterials *materials)
+{
+    add(line, "{");
+    for (int32_t i = 0; i < materials->count; i++) {
+        const SceneMaterial *region = &materials->region[i];
+        const char *between = "";
+        add(line, "%s%s: {", i ? ", " : "", region->group);
+        for (int32_t k = 0; k < SCENE_MATERIAL_NUMBERS; k++) {
+            if (!region->given[k]) continue;
+            add(line, "%s%s: ", between, scene_material_word(k));
+            add_number(line, region->number[k]);
+            between = ", ";
+        }
+        add(line, "}");
+    }
+    add(line, "}");
+}
+
 static void add_names(Line *line, const SceneNames *names)
 {
     add(line, "[");
@@ -162,6 +182,9 @@ void scene_key_value(const SceneKey *key, const Scene *scene, char *words, int32
         return;
     case KEY_CONTACT_LAWS:
         add_contact_laws(&line, field);
+        return;
+    case KEY_MATERIALS:
+        add_materials(&line, field);
         return;
     case KEY_FIELDS:
         add(&line, "%s", scene->output.fields ? "as below" : "none");

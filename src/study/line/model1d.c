@@ -46,6 +46,12 @@ static bool check_scene(const Scene *scene, Error *err)
         FAIL(err, ERROR_INPUT,
              "%s: friction.contacts, friction.along: the 1D model has one law along its line",
              path);
+    if (scene->materials.count > 0)
+        FAIL(
+            err, ERROR_INPUT,
+            "%s: materials: the 1D model's line is of one material (`amontons stability` and `run` "
+            "take regions)",
+            path);
     if (friction_strengthens(&scene->friction))
         FAIL(
             err, ERROR_INPUT,

@@ -116,9 +116,10 @@ static bool open_path(StabilityPath *path, Error *err)
     if (path->rod.stiffness > 0) path->control.now.rod_way -= path->U_start;
     path->rod.velocity = slip / step;
     step_control_restart(&path->control);
-    double speed = material_slip_speed(&model->material);
+    double speed = materials_slip_speed(&model->materials);
+    double mean = material_slip_speed(&model->materials.mean);   // with soft regions it is slower
     GrowthDef growth = growth_def(model->length, speed, interface->contact_count);
-    growth.slowest = fmin(growth.slowest, speed / (4 * model->height));   // a tall one
+    growth.slowest = fmin(growth.slowest * (mean / speed), mean / (4 * model->height));   // if tall
     path->growth = growth_create(&block, &growth, err);
     path->room = interface->contact_count + 2;
     path->points = NEW_ARRAY(StabilityPoint, path->room, err);

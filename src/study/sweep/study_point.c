@@ -6,6 +6,7 @@
 #include "base/formula.h"
 #include "base/memory.h"
 #include "scene/keys.h"
+#include "scene/materials.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -42,6 +43,7 @@ static bool look_up(const void *context, const char *name, double *value)
         *value = parameter->value;
         return !*parameter->text;
     }
+    if (scene_materials_find(scene, name, value)) return true;
     if (index < 0 || keys[index].type != KEY_NUMBER) return false;
     memcpy(value, (const char *)scene + keys[index].offset, sizeof *value);
     return true;

@@ -35,9 +35,9 @@ cleanup:
 // Whether the key can be set is known here; whether its value is right when a scene is made.
 static bool check_key(const Study *study, YamlNode item, Error *err)
 {
-    const char *key = yaml_key(study->file, item), *nearest = scene_key_nearest(key);
+    const char *key = yaml_key(study->file, item), *nearest = scene_key_nearest(key), *part;
     bool is_known = scene_key_index(key) >= 0 || scene_key_is_group(key) ||
-                    strncmp(key, "mesh.set.", 9) == 0;
+                    scene_key_above(key, &part) >= 0;
     if (strlen(key) >= STUDY_NAME_SIZE)
         yaml_key_error(study->file, item, err, "a key of more than %d bytes", STUDY_NAME_SIZE - 1);
     else if (!is_known && nearest)

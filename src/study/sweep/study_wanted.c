@@ -264,7 +264,9 @@ static bool read_axis(Study *study, const WantedKey *key, StudyAxisData *axis, E
     axis->index = study_column(study, yaml_text(study->file, key->node));
     axis->is_record = axis->index < 0;
     const char *name = yaml_text(study->file, key->node);
-    if (axis->is_record && (scene_key_index(name) >= 0 || strncmp(name, "mesh.set.", 9) == 0)) {
+    const char *part;
+    bool is_key = scene_key_index(name) >= 0 || scene_key_above(name, &part) >= 0;
+    if (axis->is_record && is_key) {
         yaml_error(study->file, key->node, err, "%s: `%.60s` does not vary", key->name, name);
         return false;
     }

@@ -50,7 +50,7 @@ static inline void reduced_block_build(const BlockDef *shape, const Material *ma
     block->dofs[block->interface_count - 1] = 2 * rod.nodes[rod.node_count / 2];
     double largest = dense_max_abs(block->bulk.load, block->bulk.dof_count);
     block->def = (ReductionDef){.tolerance = tolerance,
-                                .material = *material,
+                                .materials = materials_of(material),
                                 .scales = block_scales(&block->mesh, material, largest)};
     if (tolerance > 0 && !reduction_build(&block->bulk, block->dofs, block->interface_count,
                                           &block->def, &block->reduced, &err))

@@ -41,7 +41,8 @@ static void build(Case what, Mesh *mesh, ReductionBlock *block, char name[HASH_T
     if (what.held >= 0) bulk_hold(what.held, &bulk);
     double largest = 0;
     for (int32_t k = 0; k < bulk.dof_count; k++) largest = fmax(largest, fabs(bulk.load[k]));
-    if (!reduction_block_create(mesh, &bulk, &what.material, largest, block, &err))
+    Materials materials = materials_of(&what.material);
+    if (!reduction_block_create(mesh, &bulk, &materials, largest, block, &err))
         fail_msg("%s", err.message);
     for (int32_t k = 0; k < what.interface; k++) dofs[k] = k;
     Hash hash = hash_start();
@@ -144,10 +145,11 @@ static void test_memory_faults(void **state)
     assert_true(bulk_assemble(&mesh, &MATERIAL, &bulk, &err));
     int64_t live = memory_counters().live;
     bool done = false;
+    Materials materials = materials_of(&MATERIAL);
     for (int32_t k = 0; !done; k++) {
         err = (Error){0};
         memory_fail_after(k);
-        done = reduction_block_create(&mesh, &bulk, &MATERIAL, 1, &block, &err);
+        done = reduction_block_create(&mesh, &bulk, &materials, 1, &block, &err);
         memory_fail_after(-1);
         assert_int_equal(err.code, done ? ERROR_NONE : ERROR_MEMORY);
         reduction_block_destroy(&block);

@@ -46,7 +46,7 @@ static void start(FieldsDef def)
 {
     Error err = {0};
     assert_true(fields_create(&def, place, &rig.mesh, &rig.interface, &fields, &err));
-    fields.material = &material;
+    fields.materials = &material;
     fields.law = &rig.law;
     fields.events = &events;
 }

@@ -119,7 +119,7 @@ static void test_material(void **state)
     Simulation *simulation = simulation_of((const char *const[]){
         "material={young: 2, poisson: 0.3, density: 3, eta1: 0.5, eta2: 0.7, plane: strain}",
         "start.friction=off", "reduction.use=never", NULL});
-    const Material *material = &simulation->model.material;
+    const Material *material = &simulation->model.materials.mean;
     assert_true(material->young == 2 && material->poisson == 0.3 && material->plane_strain);
     assert_true(material->density == 3 && material->eta1 == 0.5 && material->eta2 == 0.7);
     const Mesh *mesh = &simulation->model.mesh;

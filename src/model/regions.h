@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Which element is made of which material: the physical surfaces that the map `materials` of a scene
+// names. Called by model/assemble when mesh and interface are there, and by model/obtain.
+#ifndef AMONTONS_MODEL_REGIONS_H
+#define AMONTONS_MODEL_REGIONS_H
+
+#include "model/model.h"
+
+// Those of the scene: 0 its `material`, then the regions in their order. Areas are not known yet.
+Materials regions_of_scene(const Scene *scene);
+
+// Marks the elements of model->mesh with their materials and measures these. ERROR_INPUT: no such
+// surface, or two that share an element.
+bool model_mark_regions(Model *model, Error *err);
+
+// Sets the materials that rod and contact lie on. ERROR_INPUT: soft ends of the rod's strip (which
+// reaches from low to high) in different materials.
+bool model_place_regions(Model *model, double low, double high, Error *err);
+
+#endif

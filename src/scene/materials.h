@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The map `materials`: what differs from `material` in regions of the mesh. Read by
+// scene/scene_read, shown by scene/json and scene/text, made into materials by model/regions.
+#ifndef AMONTONS_SCENE_MATERIALS_H
+#define AMONTONS_SCENE_MATERIALS_H
+
+#include "scene/value.h"
+
+// The word of number k of a region, "young"; its range and unit are those of `material`.
+const char *scene_material_word(int32_t k);
+
+// Number k of a region: its own, or else that of `material`.
+double scene_material_number(const Scene *scene, const SceneMaterial *region, int32_t k);
+
+// Fills scene->materials from the map `value`; or, where value->part is the rest of the path of a
+// --set ("pads", "pads.young"), the one region or number that it names. ERROR_INPUT shows the
+// place.
+bool scene_materials_set(const SceneValue *value, Scene *scene, Error *err);
+
+// The number at a path of keys ("materials.pads.young"). false: none is given there.
+bool scene_materials_find(const Scene *scene, const char *path, double *number);
+
+#endif
