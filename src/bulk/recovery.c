@@ -12,15 +12,66 @@
 #include <math.h>
 #include <string.h>
 
+// The point of a node in a material, a new one where there is none yet; next: [points] the following
+// point of a node, -1: none; region: [points].
+static int32_t find_point(NodalStress *stress, int32_t node, int32_t own, int32_t *next,
+                          int32_t *region, int32_t nodes)
+{
+    int32_t point = node;
+    while (region[point] != own && next[point] >= 0) point = next[point];
+    if (region[point] == own) return point;
+    int32_t made = stress->point_count++;
+    stress->extra_node[made - nodes] = node;
+    region[made] = own;
+    next[made] = -1;
+    next[point] = made;
+    return made;
+}
+
+// At most one point for each node of each element.
+static bool split_nodes(const Mesh *mesh, NodalStress *stress, Error *err)
+{
+    int32_t nodes = mesh->node_count, places = mesh->first_node[mesh->element_count];
+    int32_t *next = NEW_ARRAY(int32_t, (int64_t)nodes + places, err);
+    int32_t *region = NEW_ARRAY(int32_t, (int64_t)nodes + places, err);
+    stress->points = NEW_ARRAY(int32_t, places, err);
+    stress->extra_node = NEW_ARRAY(int32_t, places, err);
+    if (!error_is_clean(err)) goto cleanup;
+    for (int32_t i = 0; i < nodes; i++) {
+        region[i] = INT32_MAX;
+        next[i] = -1;
+    }
+    for (int32_t e = 0; e < mesh->element_count; e++)
+        for (int32_t a = mesh->first_node[e]; a < mesh->first_node[e + 1]; a++) {
+            int32_t *lowest = &region[mesh->element_nodes[a]], own = mesh_region(mesh, e);
+            if (own < *lowest) *lowest = own;
+        }
+    for (int32_t e = 0; e < mesh->element_count; e++)
+        for (int32_t a = mesh->first_node[e]; a < mesh->first_node[e + 1]; a++)
+            stress->points[a] = find_point(stress, mesh->element_nodes[a], mesh_region(mesh, e),
+                                           next, region, nodes);
+cleanup:
+    memory_free(next);
+    memory_free(region);
+    return error_is_clean(err);
+}
+
+const int32_t *nodal_stress_points(const NodalStress *stress, const Mesh *mesh, int32_t e)
+{
+    return (stress->points ? stress->points : mesh->element_nodes) + mesh->first_node[e];
+}
+
 // Kept over a run and filled anew at each time that is written.
 bool nodal_stress_create(const Mesh *mesh, NodalStress *stress, Error *err)
 {
-    int64_t count = mesh->node_count;
-    *stress = (NodalStress){.node_count = mesh->node_count};
+    *stress = (NodalStress){.point_count = mesh->node_count};
+    if (mesh->region) TRY(split_nodes(mesh, stress, err));
+    int64_t count = stress->point_count;
     stress->elastic = NEW_ARRAY(double, 3 * count, err);
     stress->total = NEW_ARRAY(double, 3 * count, err);
     stress->von_mises = NEW_ARRAY(double, count, err);
     stress->shares = NEW_ARRAY(int32_t, count, err);
+cleanup:
     return error_is_clean(err);
 }
 
@@ -30,6 +81,8 @@ void nodal_stress_destroy(NodalStress *stress)
     memory_free(stress->total);
     memory_free(stress->von_mises);
     memory_free(stress->shares);
+    memory_free(stress->points);
+    memory_free(stress->extra_node);
     *stress = (NodalStress){0};
 }
 
@@ -75,13 +128,13 @@ void nodal_stress_recover(const Mesh *mesh, const Material *materials, const dou
                           const double *velocity, NodalStress *stress)
 {
     double elastic[3][3], viscous[3][3];
-    size_t nodes = (size_t)stress->node_count;
-    memset(stress->elastic, 0, 3 * nodes * sizeof(double));
-    memset(stress->total, 0, 3 * nodes * sizeof(double));
-    memset(stress->von_mises, 0, nodes * sizeof(double));
-    memset(stress->shares, 0, nodes * sizeof(int32_t));
+    size_t points = (size_t)stress->point_count;
+    memset(stress->elastic, 0, 3 * points * sizeof(double));
+    memset(stress->total, 0, 3 * points * sizeof(double));
+    memset(stress->von_mises, 0, points * sizeof(double));
+    memset(stress->shares, 0, points * sizeof(int32_t));
     for (int32_t e = 0; e < mesh->element_count; e++) {
-        const int32_t *element = mesh->element_nodes + mesh->first_node[e];
+        const int32_t *element = nodal_stress_points(stress, mesh, e);
         int32_t count = mesh->first_node[e + 1] - mesh->first_node[e];
         const Material *material = &materials[mesh_region(mesh, e)];
         material_elastic(material, elastic);
@@ -105,7 +158,7 @@ void nodal_stress_recover(const Mesh *mesh, const Material *materials, const dou
             stress->shares[node]++;
         }
     }
-    for (int32_t node = 0; node < stress->node_count; node++) {
+    for (int32_t node = 0; node < stress->point_count; node++) {
         double share = 1.0 / stress->shares[node];
         for (int r = 0; r < 3; r++) {
             stress->elastic[3 * node + r] *= share;

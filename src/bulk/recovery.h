@@ -7,14 +7,22 @@
 #include "bulk/material.h"
 #include "bulk/mesh.h"
 
-// Components in the order xx, zz, xz.
+// Components in the order xx, zz, xz. Where materials meet, stress jumps: a node there is a point
+// in each of them. The first points are the nodes of the mesh, each with the lowest number of its
+// materials; the others follow.
 typedef struct NodalStress {
-    double *elastic;   // [node_count * 3] stress; owned
-    double *total;   // [node_count * 3] elastic and viscous, stress; owned
-    double *von_mises;   // [node_count] of the total stress, stress; owned
-    int32_t *shares;   // [node_count] work: elements that met at the node; owned
-    int32_t node_count;
+    double *elastic;   // [point_count * 3] stress; owned
+    double *total;   // [point_count * 3] elastic and viscous, stress; owned
+    double *von_mises;   // [point_count] of the total stress, stress; owned
+    int32_t *shares;   // [point_count] work: elements that met at the point; owned
+    int32_t point_count;   // from the mesh's nodes on
+    int32_t *points;   // [mesh->first_node[elements]] in the place of element_nodes; owned; NULL:
+        // points are nodes
+    int32_t *extra_node;   // [point_count - nodes] of the points that follow; owned
 } NodalStress;
+
+// The points of an element: [its nodes].
+const int32_t *nodal_stress_points(const NodalStress *stress, const Mesh *mesh, int32_t e);
 
 bool nodal_stress_create(const Mesh *mesh, NodalStress *stress, Error *err);
 void nodal_stress_destroy(NodalStress *stress);

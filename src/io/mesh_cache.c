@@ -11,11 +11,11 @@
 #include <string.h>
 
 // Stands in every key: a new meaning of the arrays, or another way to mesh, needs a new number.
-static const char FORMAT[] = "mesh 1";
+static const char FORMAT[] = "mesh 2";
 
 // COUNTS: nodes, elements, nodes of all elements, groups, nodes of all edges of groups, nodes of
-// all groups. HEADS: numbers of a group beside its name and nodes.
-enum { COUNTS = 6, HEADS = 5, ARRAYS = 10, NAME_NUMBERS = GROUP_NAME_SIZE / sizeof(double) };
+// all groups, elements of all groups. HEADS: numbers of a group beside its name and lists.
+enum { COUNTS = 7, HEADS = 7, ARRAYS = 11, NAME_NUMBERS = GROUP_NAME_SIZE / sizeof(double) };
 static const double EXACT_LIMIT = 9007199254740992.0;   // 2^53
 
 bool mesh_cache_key(const char *path, const MeshParameter *parameters, int32_t parameter_count,
@@ -69,13 +69,13 @@ static bool read_elements(const CacheFile *file, MeshFile *mesh, int32_t count, 
            cache_file_whole(file, "element_nodes", count, mesh->node_count, mesh->element_nodes);
 }
 
-// Copies `count` node indices from `values`.
-static bool take_nodes(const double *values, int32_t count, int32_t node_count, int32_t **out,
-                       Error *err)
+// Copies `count` indices below `limit` from `values`.
+static bool take_indices(const double *values, int32_t count, int32_t limit, int32_t **out,
+                         Error *err)
 {
     if (!(*out = NEW_ARRAY(int32_t, count, err))) return false;
     for (int32_t k = 0; k < count; k++) {
-        if (!(values[k] >= 0 && values[k] < node_count)) return false;
+        if (!(values[k] >= 0 && values[k] < limit)) return false;
         (*out)[k] = (int32_t)values[k];
     }
     return true;
@@ -83,26 +83,34 @@ static bool take_nodes(const double *values, int32_t count, int32_t node_count, 
 
 static bool take_head(const double *head, MeshGroup *group)
 {
-    int32_t *fields[HEADS] = {&group->dimension, &group->number, &group->edge_count,
-                              &group->nodes_per_edge, &group->node_count};
+    int32_t blurred = 0;
+    int32_t *fields[HEADS] = {&group->dimension,
+                              &group->number,
+                              &group->edge_count,
+                              &group->nodes_per_edge,
+                              &group->node_count,
+                              &group->element_count,
+                              &blurred};
     for (int32_t k = 0; k < HEADS; k++) {
         if (!(head[k] >= 0 && head[k] < CACHE_COUNT_LIMIT)) return false;
         *fields[k] = (int32_t)head[k];
     }
+    group->blurred = blurred;
     return group->dimension <= 2 && group->nodes_per_edge <= EDGE_NODES_MAX;
 }
 
-// edge_count, node_count: of all groups together.
-static bool read_groups(const CacheFile *file, MeshFile *mesh, int64_t edge_count,
-                        int64_t node_count, Error *err)
+// left: [3] ends of edges, nodes and elements of all groups together.
+static bool read_groups(const CacheFile *file, MeshFile *mesh, const int32_t *left, Error *err)
 {
+    int64_t edge_count = left[0], node_count = left[1], element_count = left[2];
     int32_t count = mesh->group_count;
     const double *names = cache_file_array(file, "group_names", (int64_t)count * NAME_NUMBERS);
     const double *heads = cache_file_array(file, "group_heads", (int64_t)count * HEADS);
     const double *edges = cache_file_array(file, "group_edges", edge_count);
     const double *nodes = cache_file_array(file, "group_nodes", node_count);
+    const double *elements = cache_file_array(file, "group_elements", element_count);
     mesh->group_count = 0;   // until there is memory for them
-    if (!names || !heads || !edges || !nodes) return false;
+    if (!names || !heads || !edges || !nodes || !elements) return false;
     if (!(mesh->groups = NEW_ARRAY(MeshGroup, count, err))) return false;
     mesh->group_count = count;
     for (int32_t k = 0; k < count; k++) {
@@ -111,16 +119,22 @@ static bool read_groups(const CacheFile *file, MeshFile *mesh, int64_t edge_coun
         group->name[GROUP_NAME_SIZE - 1] = 0;
         if (!take_head(heads + (int64_t)k * HEADS, group)) return false;
         int64_t ends = (int64_t)group->edge_count * group->nodes_per_edge;
-        if (ends > edge_count || group->node_count > node_count) return false;
-        if (!take_nodes(edges, (int32_t)ends, mesh->node_count, &group->edge_nodes, err) ||
-            !take_nodes(nodes, group->node_count, mesh->node_count, &group->nodes, err))
+        if (ends > edge_count || group->node_count > node_count ||
+            group->element_count > element_count)
+            return false;
+        if (!take_indices(edges, (int32_t)ends, mesh->node_count, &group->edge_nodes, err) ||
+            !take_indices(nodes, group->node_count, mesh->node_count, &group->nodes, err) ||
+            !take_indices(elements, group->element_count, mesh->element_count, &group->elements,
+                          err))
             return false;
         edges += ends;
         nodes += group->node_count;
+        elements += group->element_count;
+        element_count -= group->element_count;
         edge_count -= ends;
         node_count -= group->node_count;
     }
-    return edge_count == 0 && node_count == 0;
+    return edge_count == 0 && node_count == 0 && element_count == 0;
 }
 
 static bool read_mesh(const CacheFile *file, MeshFile *mesh, Error *err)
@@ -136,7 +150,7 @@ static bool read_mesh(const CacheFile *file, MeshFile *mesh, Error *err)
         return false;
     }
     memcpy(mesh->position, position, 2 * (size_t)counts[0] * sizeof(double));
-    return read_groups(file, mesh, counts[4], counts[5], err) &&
+    return read_groups(file, mesh, counts + 4, err) &&
            read_tags(file, "node_number", counts[0], &mesh->node_number, err) &&
            read_tags(file, "element_number", counts[1], &mesh->element_number, err) &&
            read_elements(file, mesh, counts[2], err);
@@ -193,8 +207,9 @@ static void copy_groups(const MeshFile *mesh, Copies *copies)
     begin(copies, "group_heads");
     for (int32_t k = 0; k < count; k++) {
         const MeshGroup *group = &mesh->groups[k];
-        const int32_t head[HEADS] = {group->dimension, group->number, group->edge_count,
-                                     group->nodes_per_edge, group->node_count};
+        const int32_t head[HEADS] = {group->dimension,      group->number,     group->edge_count,
+                                     group->nodes_per_edge, group->node_count, group->element_count,
+                                     group->blurred};
         APPEND(copies, head, HEADS);
     }
     begin(copies, "group_edges");
@@ -204,6 +219,9 @@ static void copy_groups(const MeshFile *mesh, Copies *copies)
     begin(copies, "group_nodes");
     for (int32_t k = 0; k < count; k++)
         APPEND(copies, mesh->groups[k].nodes, mesh->groups[k].node_count);
+    begin(copies, "group_elements");
+    for (int32_t k = 0; k < count; k++)
+        APPEND(copies, mesh->groups[k].elements, mesh->groups[k].element_count);
 }
 
 static void copy_mesh(const MeshFile *mesh, const int64_t counts[COUNTS], Copies *copies)
@@ -228,18 +246,19 @@ void mesh_cache_store(const char *key, const MeshFile *mesh)
     char path[CACHE_PATH_SIZE];
     Error err = {0};
     Copies copies = {0};
-    int64_t edges = 0, nodes = 0, ends = mesh->first_node[mesh->element_count];
+    int64_t edges = 0, nodes = 0, elements = 0, ends = mesh->first_node[mesh->element_count];
     if (!key[0] || !cache_file_path(key, "mesh", path)) return;
     for (int32_t k = 0; k < mesh->group_count; k++) {
         edges += (int64_t)mesh->groups[k].edge_count * mesh->groups[k].nodes_per_edge;
         nodes += mesh->groups[k].node_count;
+        elements += mesh->groups[k].element_count;
     }
     int64_t group_numbers = (int64_t)mesh->group_count * (HEADS + NAME_NUMBERS);
     const int64_t counts[COUNTS] = {
-        mesh->node_count, mesh->element_count, ends, mesh->group_count, edges, nodes};
+        mesh->node_count, mesh->element_count, ends, mesh->group_count, edges, nodes, elements};
     copies.room = NEW_ARRAY(double,
                             COUNTS + 3 * (int64_t)mesh->node_count +
-                                2 * (int64_t)mesh->element_count + ends + edges + nodes +
+                                2 * (int64_t)mesh->element_count + ends + edges + nodes + elements +
                                 group_numbers,
                             &err);
     if (!copies.room) return;

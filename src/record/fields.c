@@ -26,26 +26,35 @@ static uint8_t vtk_cell_type(ElementKind kind)
     return types[kind];
 }
 
+// Of a point: points that follow the nodes stand where materials meet (bulk/recovery).
+static int64_t node_of(const Fields *fields, int64_t point)
+{
+    int64_t nodes = fields->mesh->node_count;
+    return point < nodes ? point : fields->stress.extra_node[point - nodes];
+}
+
 // VTK's cells: offsets [cells + 1] into connectivity, and a type each. Third coordinates stay 0.
 static bool fill_bulk_grid(Fields *fields, Error *err)
 {
     const Mesh *mesh = fields->mesh;
     int64_t nodes = mesh->node_count, cells = mesh->element_count;
-    int64_t corners = mesh->first_node[cells];
-    fields->points = NEW_ARRAY(double, 3 * nodes, err);
-    fields->vectors = NEW_ARRAY(double, 6 * nodes, err);
+    int64_t corners = mesh->first_node[cells], points = fields->stress.point_count;
+    fields->points = NEW_ARRAY(double, 3 * points, err);
+    fields->vectors = NEW_ARRAY(double, 6 * points, err);
     fields->displacement = NEW_ARRAY(double, 2 * nodes, err);
     fields->velocity = NEW_ARRAY(double, 2 * nodes, err);
     fields->offsets = NEW_ARRAY(int64_t, cells + 1, err);
     fields->connectivity = NEW_ARRAY(int64_t, corners, err);
     fields->cell_types = NEW_ARRAY(uint8_t, cells, err);
     if (!error_is_clean(err)) return false;
-    for (int64_t i = 0; i < nodes; i++) {
-        fields->points[3 * i] = mesh->position[2 * i];
-        fields->points[3 * i + 1] = mesh->position[2 * i + 1];
+    for (int64_t i = 0; i < points; i++) {
+        int64_t node = node_of(fields, i);
+        fields->points[3 * i] = mesh->position[2 * node];
+        fields->points[3 * i + 1] = mesh->position[2 * node + 1];
     }
+    const int32_t *all = nodal_stress_points(&fields->stress, mesh, 0);
     for (int64_t e = 0; e <= cells; e++) fields->offsets[e] = mesh->first_node[e];
-    for (int64_t k = 0; k < corners; k++) fields->connectivity[k] = mesh->element_nodes[k];
+    for (int64_t k = 0; k < corners; k++) fields->connectivity[k] = all[k];
     for (int64_t e = 0; e < cells; e++) fields->cell_types[e] = vtk_cell_type(mesh->kind[e]);
     return true;
 }
@@ -126,12 +135,13 @@ void fields_destroy(Fields *fields)
 bool fields_write_bulk(Fields *fields, const FieldState *state, const char *path, Error *err)
 {
     const Mesh *mesh = fields->mesh;
-    int64_t nodes = mesh->node_count;
-    double *displacement = fields->vectors, *velocity = fields->vectors + 3 * nodes;
-    for (int64_t i = 0; i < nodes; i++) {
+    int64_t points = fields->stress.point_count;
+    double *displacement = fields->vectors, *velocity = fields->vectors + 3 * points;
+    for (int64_t i = 0; i < points; i++) {
+        int64_t node = node_of(fields, i);
         for (int d = 0; d < 2; d++) {
-            displacement[3 * i + d] = state->displacement[2 * i + d];
-            velocity[3 * i + d] = state->velocity[2 * i + d];
+            displacement[3 * i + d] = state->displacement[2 * node + d];
+            velocity[3 * i + d] = state->velocity[2 * node + d];
         }
     }
     nodal_stress_recover(mesh, fields->materials, state->displacement, state->velocity,
@@ -142,7 +152,7 @@ bool fields_write_bulk(Fields *fields, const FieldState *state, const char *path
         {.name = "stress_elastic", .components = 3, .values = fields->stress.elastic},
         {.name = "stress", .components = 3, .values = fields->stress.total},
         {.name = "von_mises", .components = 1, .values = fields->stress.von_mises}};
-    FieldGrid grid = {.point_count = nodes,
+    FieldGrid grid = {.point_count = points,
                       .points = fields->points,
                       .cell_count = mesh->element_count,
                       .offsets = fields->offsets,

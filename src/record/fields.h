@@ -24,8 +24,8 @@ typedef struct Fields {
     const FrictionLaw *law;
     const Events *events;
     NodalStress stress;   // owned, like all that follows
-    double *points;   // [nodes * 3]
-    double *vectors;   // [nodes * 6] displacement, velocity
+    double *points;   // [stress.point_count * 3]
+    double *vectors;   // [stress.point_count * 6] displacement, velocity
     double *displacement, *velocity;   // [nodes * 2] of the whole mesh
     int64_t *offsets, *connectivity;
     uint8_t *cell_types;

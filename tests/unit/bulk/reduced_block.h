@@ -27,10 +27,27 @@ static inline BulkScales block_scales(const Mesh *mesh, const Material *material
                         .load = load};
 }
 
+// Of two materials: elements whose first node is below `layer` are of the second. Sets areas and
+// mean.
+static inline void mark_layer(Mesh *mesh, double layer, Materials *materials)
+{
+    Error err = {0};
+    if (materials->count == 1) return;
+    mesh->region = NEW_ARRAY(uint8_t, mesh->element_count, &err);
+    for (int32_t e = 0; e < mesh->element_count; e++) {
+        double lowest = INFINITY;
+        for (int32_t a = mesh->first_node[e]; a < mesh->first_node[e + 1]; a++)
+            lowest = fmin(lowest, mesh->position[2 * mesh->element_nodes[a] + 1]);
+        mesh->region[e] = lowest < layer - 1e-9;
+        materials->area[mesh->region[e]] += mesh_element_area(mesh, e);
+    }
+    materials_find_mean(materials);
+}
+
 // Assembles, loads the top with `load` per length along -z and a quarter of it along x; reduces
 // unless tolerance is 0.
-static inline void reduced_block_build(const BlockDef *shape, const Material *material, double load,
-                                       double tolerance, ReducedBlock *block)
+static inline void reduced_block_build_of(const BlockDef *shape, Materials materials, double layer,
+                                          double load, double tolerance, ReducedBlock *block)
 {
     Error err = {0};
     MeshCurve contact, rod, top;
@@ -38,7 +55,8 @@ static inline void reduced_block_build(const BlockDef *shape, const Material *ma
     dense_use_one_thread();
     memset(block, 0, sizeof *block);
     block_build(shape, &block->mesh);
-    assert_true(bulk_assemble(&block->mesh, material, &block->bulk, &err));
+    mark_layer(&block->mesh, layer, &materials);
+    assert_true(bulk_assemble(&block->mesh, materials.list, &block->bulk, &err));
     assert_true(mesh_curve(&block->mesh, "contact", &contact, &err));
     assert_true(mesh_curve(&block->mesh, "rod", &rod, &err));
     assert_true(mesh_curve(&block->mesh, "top", &top, &err));
@@ -50,11 +68,17 @@ static inline void reduced_block_build(const BlockDef *shape, const Material *ma
     block->dofs[block->interface_count - 1] = 2 * rod.nodes[rod.node_count / 2];
     double largest = dense_max_abs(block->bulk.load, block->bulk.dof_count);
     block->def = (ReductionDef){.tolerance = tolerance,
-                                .materials = materials_of(material),
-                                .scales = block_scales(&block->mesh, material, largest)};
+                                .materials = materials,
+                                .scales = block_scales(&block->mesh, &materials.mean, largest)};
     if (tolerance > 0 && !reduction_build(&block->bulk, block->dofs, block->interface_count,
                                           &block->def, &block->reduced, &err))
         fail_msg("%s", err.message);
+}
+
+static inline void reduced_block_build(const BlockDef *shape, const Material *material, double load,
+                                       double tolerance, ReducedBlock *block)
+{
+    reduced_block_build_of(shape, materials_of(material), 0, load, tolerance, block);
 }
 
 static inline void reduced_block_destroy(ReducedBlock *block)

@@ -50,11 +50,12 @@ static void assert_said(const ReducedBlock *block, OperatorTerms terms, double s
 // Anywhere on the strip, between the levels of the build and between all elastic and all viscous,
 // S is off by no more than the basis says of that inertia, and than the tolerance allows at the
 // next level. Two of three points lie where damping hardly, or almost alone, counts.
-static void check_error(const BlockDef *shape, const Material *material, double tolerance,
-                        Random *random)
+static void check_error_of(const BlockDef *shape, const Materials *materials, double layer,
+                           double tolerance, Random *random)
 {
     ReducedBlock block;
-    reduced_block_build(shape, material, 0.003, tolerance, &block);
+    const Material *material = &materials->list[0];
+    reduced_block_build_of(shape, *materials, layer, 0.003, tolerance, &block);
     const ReductionErrors *errors = &block.reduced.errors;
     double element = errors->inertia[errors->count - 2], lowest = errors->inertia[0];
     double worst = 0;
@@ -80,6 +81,13 @@ static void check_error(const BlockDef *shape, const Material *material, double 
                   block.reduced.count, block.bulk.dof_count, worst);
     assert_true(worst > 0.1);   // nothing is added that is not needed
     reduced_block_destroy(&block);
+}
+
+static void check_error(const BlockDef *shape, const Material *material, double tolerance,
+                        Random *random)
+{
+    Materials one = materials_of(material);
+    check_error_of(shape, &one, 0, tolerance, random);
 }
 
 static void test_error_is_known(void **state)
@@ -114,6 +122,23 @@ static void test_error_of_unlike_damping(void **state)
     for (int32_t k = 0; k < 4; k++)
         for (int32_t t = 0; t < 2; t++)
             check_error(&shape, &materials[k], t ? 2e-3 : 2e-2, &random);
+}
+
+// A block on a layer of another material, softer or stiffer, and of another viscous time.
+static void test_error_of_regions(void **state)
+{
+    (void)state;
+    const BlockDef shape = {.kind = ELEMENT_Q4, .nx = 10, .nz = 6, .length = 1, .height = 0.3};
+    const Material layers[] = {
+        {.young = 0.01, .poisson = 0.45, .density = 0.5, .eta1 = 0.01, .eta2 = 0.02},
+        {.young = 20, .poisson = 0.3, .density = 3, .eta1 = 0.5, .eta2 = 0.5},
+        {.young = 1, .poisson = 0.34, .density = 1, .eta1 = 1e-4, .eta2 = 1e-4},
+        {.young = 1e-2, .poisson = 0.34, .density = 1, .eta1 = 1, .eta2 = 1}};
+    Random random = {.state = 19};
+    for (int32_t k = 0; k < 4; k++) {
+        Materials two = {.count = 2, .list = {MATERIAL, layers[k]}};
+        check_error_of(&shape, &two, 0.1, k % 2 ? 2e-3 : 2e-2, &random);
+    }
 }
 
 // Beyond the inertia of an element S is worse, and the basis says so.
@@ -259,9 +284,13 @@ static void test_viscous(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_error_is_known), cmocka_unit_test(test_error_of_unlike_damping),
-        cmocka_unit_test(test_shortest_steps), cmocka_unit_test(test_units),
-        cmocka_unit_test(test_another_length), cmocka_unit_test(test_viscous),
+        cmocka_unit_test(test_error_is_known),
+        cmocka_unit_test(test_error_of_unlike_damping),
+        cmocka_unit_test(test_error_of_regions),
+        cmocka_unit_test(test_shortest_steps),
+        cmocka_unit_test(test_units),
+        cmocka_unit_test(test_another_length),
+        cmocka_unit_test(test_viscous),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -49,6 +49,7 @@ static uint8_t kind[] = {ELEMENT_T3, ELEMENT_T3, ELEMENT_Q8};
 static int32_t first_node[] = {0, 3, 6, 14};
 static int32_t element_nodes[] = {0, 1, 2, 0, 2, 3, 1, 4, 5, 2, 6, 7, 8, 9};
 static int32_t bottom[] = {0, 1, 1, 4}, bottom_nodes[] = {0, 1, 4}, corner[] = {3};
+static int32_t part[] = {0, 2};
 
 static MeshFile known_mesh(MeshGroup groups[3])
 {
@@ -61,7 +62,12 @@ static MeshFile known_mesh(MeshGroup groups[3])
                             .edge_nodes = bottom,
                             .node_count = 3,
                             .nodes = bottom_nodes};
-    groups[2] = (MeshGroup){.name = "body", .dimension = 2, .number = 2};
+    groups[2] = (MeshGroup){.name = "body",
+                            .dimension = 2,
+                            .number = 2,
+                            .element_count = 2,
+                            .elements = part,
+                            .blurred = true};
     return (MeshFile){.node_count = 10,
                       .position = position,
                       .node_number = node_number,
@@ -107,10 +113,13 @@ static void test_back_to_the_bit(void **state)
         assert_int_equal(seen->edge_count, groups[k].edge_count);
         assert_int_equal(seen->nodes_per_edge, groups[k].nodes_per_edge);
         assert_int_equal(seen->node_count, groups[k].node_count);
+        assert_int_equal(seen->element_count, groups[k].element_count);
+        assert_int_equal(seen->blurred, groups[k].blurred);
     }
     assert_memory_equal(mesh.groups[0].nodes, corner, sizeof corner);
     assert_memory_equal(mesh.groups[1].edge_nodes, bottom, sizeof bottom);
     assert_memory_equal(mesh.groups[1].nodes, bottom_nodes, sizeof bottom_nodes);
+    assert_memory_equal(mesh.groups[2].elements, part, sizeof part);
     mesh_file_destroy(&mesh);
 }
 
@@ -146,9 +155,10 @@ static bool believed_with(const char *name, int32_t at, double value)
 static void test_what_cannot_be_is_not_believed(void **state)
 {
     (void)state;
-    static const char *const names[] = {
-        "counts",        "position",    "node_number", "element_number", "kind",
-        "element_nodes", "group_names", "group_heads", "group_edges",    "group_nodes"};
+    static const char *const names[] = {"counts",         "position",      "node_number",
+                                        "element_number", "kind",          "element_nodes",
+                                        "group_names",    "group_heads",   "group_edges",
+                                        "group_nodes",    "group_elements"};
     for (size_t k = 0; k < sizeof names / sizeof *names; k++)
         assert_false(believed_with(names[k], -1, 0));
     assert_true(believed_with("position", 3, 0.25));   // a change that a mesh may have
@@ -168,8 +178,10 @@ static void test_what_cannot_be_is_not_believed(void **state)
     assert_false(believed_with("group_edges", 3, 10));
     assert_false(believed_with("group_nodes", 0, 10));
     assert_false(believed_with("group_heads", 0, 3));   // dimension
-    assert_false(believed_with("group_heads", 5 + 2, 1e8));   // edges
-    assert_false(believed_with("group_heads", 5 + 3, 4));   // nodes of an edge
+    assert_false(believed_with("group_elements", 0, 3));
+    assert_false(believed_with("group_heads", 7 + 2, 1e8));   // edges
+    assert_false(believed_with("group_heads", 7 + 3, 4));   // nodes of an edge
+    assert_false(believed_with("group_heads", 14 + 5, 3));   // elements, more than there are
     assert_false(believed_with("group_heads", 4, 2));   // nodes of a group, more than are left
     assert_false(believed_with("node_number", 9, 1e300));
 }
