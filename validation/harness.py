@@ -265,13 +265,13 @@ def schemes():
 
 
 def make_mesh(path, geo, parameters, order=1):
-    """gmsh meshes meshes/GEO.geo into msh 2.2; gives the physical numbers of its curves."""
+    """gmsh meshes meshes/GEO.geo into msh 2.2; gives the physical numbers of its curves and surfaces."""
     words = ["gmsh", "-2", "-v", "1", SOURCE / "meshes" / f"{geo}.geo", "-format", "msh22", "-o", path]
     for key, value in {**parameters, "order": order}.items():
         words += ["-setstring" if isinstance(value, str) else "-setnumber", key, value]
     call(words)
     return dict((name, number) for number, name in
-                re.findall(r'^1 (\d+) "(\w+)"', Path(path).read_text(), re.M))
+                re.findall(r'^[12] (\d+) "(\w+)"', Path(path).read_text(), re.M))
 
 
 def freefem(script, order, mesh, curves, out):

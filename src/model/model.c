@@ -30,7 +30,7 @@ double model_friction_slip(const Model *model)
 double model_machine_yield(const Model *model)
 {
     double stiffness = model_machine(model).stiffness;
-    double block = model->material.young * model->length / model->height;
+    double block = model->materials.mean.young * model->length / model->height;
     return stiffness > 0 ? model_friction_slip(model) * block / stiffness : 0;
 }
 

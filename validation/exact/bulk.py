@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
+from exact import layers
 from harness import ELEMENTS, Chart, Run, Static, mesh_set, observed_order, relative
 
 HERE = Path(__file__).resolve().parent
@@ -140,4 +141,5 @@ def run(study):
     patch(study)
     creep(study)
     waves(study)
+    layers.column(study, GROUP)
     controls(study)
