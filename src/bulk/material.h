@@ -49,8 +49,8 @@ typedef struct Materials {
 } Materials;
 
 Materials materials_of(const Material *material);   // a block of one
-// Sets the mean: by area of density, Poisson's ratio and viscosities, of E that of regions one above
-// the other, 1/E = mean of 1/E.
+// Sets the mean: by area of density, Poisson's ratio and viscosities; of E that of regions one
+// above the other, 1/E = mean of 1/E.
 void materials_find_mean(Materials *materials);
 
 // Over the regions that there are: the fastest material_slip_speed, and the longest viscous time

@@ -12,8 +12,8 @@
 #include <math.h>
 #include <string.h>
 
-// The point of a node in a material, a new one where there is none yet; next: [points] the following
-// point of a node, -1: none; region: [points].
+// The point of a node in a material, a new one where there is none yet; next: [points] the
+// following point of a node, -1: none; region: [points].
 static int32_t find_point(NodalStress *stress, int32_t node, int32_t own, int32_t *next,
                           int32_t *region, int32_t nodes)
 {

@@ -27,11 +27,12 @@ static const double LEVEL_RATIO = 10, LEVEL_LOWEST = 0.1, LEVEL_BEYOND = 1e6;
 enum { SLOWEST_ITERATIONS = 10, VISCOSITIES_MAX = 12 };
 
 // K and C are isotropic, so the static answer at a viscosity depends on the quotients of A's areal
-// and shear moduli alone, of all regions. With v its modulus over its elastic one is 1 - v + v t, t
-// its viscous time, and no quotient changes more than that of the longest and the shortest time. The
-// basis is built at viscosities where that quotient differs by this factor at most: then the error in between stays below those measured (a test asks at random, up
-// to eta2 = 10 eta1; at 100 it was 1.4 times as large). With eta2 = eta1 in plane stress the two
-// ends suffice.
+// and shear moduli alone, of all regions. At a viscosity v each is its elastic value times
+// 1 - v + v t, t its viscous time, and no quotient changes more than that of the longest and the
+// shortest time. The basis is built at viscosities where that quotient differs by this factor at
+// most: then the error in between stays below those measured (a test asks at random, of one
+// material up to eta2 = 10 eta1; at 100 it was 1.4 times as large; of two up to times that differ
+// by 1e4). With eta2 = eta1 in plane stress the two ends suffice.
 static const double VISCOSITY_RATIO = 2;
 
 // Where inertia acts within an element the mesh itself has an error, of about a quarter of

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The block that a basis is made of: a scene's block, its lengths over L, in units in which
-// E = eta1 + eta2 = rho = 1 (their means, of several materials) and the largest nodal load is 1. Blocks that are geometrically similar
-// give the same one, to the last bit, as its numbers are rounded. So a basis depends on its name
-// alone, not on the length that asked for it first. Called by model/obtain.
+// E = eta1 + eta2 = rho = 1 (their means, of several materials) and the largest nodal load is 1.
+// Blocks that are geometrically similar give the same one, to the last bit, as its numbers are
+// rounded. So a basis depends on its name alone, not on the length that asked for it first. Called
+// by model/obtain.
 #ifndef AMONTONS_BULK_REDUCTION_BLOCK_H
 #define AMONTONS_BULK_REDUCTION_BLOCK_H
 

@@ -38,7 +38,7 @@ typedef struct MeshGroup {
     int32_t *elements;   // [element_count] of the mesh, ascending; owned
     bool
         blurred;   // a surface of a file of format 2.2 that shares its entity's number with another
-        // group: which of the two an element belongs to is not known
+    // group: which of the two an element belongs to is not known
 } MeshGroup;
 
 typedef struct MeshFile {

@@ -2,7 +2,7 @@
 #include "model/model.h"
 
 #include "base/memory.h"
-#include "model/regions.h"
+#include "scene/materials.h"
 
 void model_destroy(Model *model)
 {
@@ -15,9 +15,45 @@ void model_destroy(Model *model)
     *model = (Model){0};
 }
 
+_Static_assert(MATERIALS_MAX == SCENE_MATERIALS_MAX + 1, "a material for each region, and one");
+
+static bool is_alike(const Material *a, const Material *b)
+{
+    return a->young == b->young && a->poisson == b->poisson && a->density == b->density &&
+           a->eta1 == b->eta1 && a->eta2 == b->eta2;
+}
+
+// 0 its `material`, then its regions in their order; areas are not known yet. A scene of one
+// material, however it is written, is stepped as one.
+static Materials scene_materials(const Scene *scene)
+{
+    bool alike = true;
+    Materials made = {.count = 1 + scene->materials.count};
+    made.list[0] = (Material){.young = scene->material.young,
+                              .poisson = scene->material.poisson,
+                              .density = scene->material.density,
+                              .eta1 = scene->material.eta1,
+                              .eta2 = scene->material.eta2,
+                              .plane_strain = scene->material.plane == PLANE_STRAIN};
+    for (int32_t i = 0; i < scene->materials.count; i++) {
+        const SceneMaterial *region = &scene->materials.region[i];
+        Material *one = &made.list[i + 1];
+        *one = (Material){.young = scene_material_number(scene, region, MATERIAL_YOUNG),
+                          .poisson = scene_material_number(scene, region, MATERIAL_POISSON),
+                          .density = scene_material_number(scene, region, MATERIAL_DENSITY),
+                          .eta1 = scene_material_number(scene, region, MATERIAL_ETA1),
+                          .eta2 = scene_material_number(scene, region, MATERIAL_ETA2),
+                          .plane_strain = made.list[0].plane_strain};
+        alike = alike && is_alike(one, &made.list[0]);
+    }
+    if (alike) made.count = 1;
+    made.mean = made.list[0];
+    return made;
+}
+
 Model model_of(const Scene *scene)
 {
-    return (Model){.scene = scene, .materials = regions_of_scene(scene), .law = scene->friction};
+    return (Model){.scene = scene, .materials = scene_materials(scene), .law = scene->friction};
 }
 
 double model_friction_slip(const Model *model)

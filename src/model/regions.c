@@ -1,49 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A region whose numbers are all those of `material` is no region: a scene of one material, however
-// it is written, is stepped like one.
 #include "model/regions.h"
 
 #include "base/memory.h"
-#include "scene/materials.h"
 
 #include <math.h>
 
-_Static_assert(MATERIALS_MAX == SCENE_MATERIALS_MAX + 1, "a material for each region, and one");
-
 // Of a strip's ends and an element's, relative to the block's height: rounding only.
 static const double HEIGHT_TOLERANCE = 1e-9;
-
-static bool is_alike(const Material *a, const Material *b)
-{
-    return a->young == b->young && a->poisson == b->poisson && a->density == b->density &&
-           a->eta1 == b->eta1 && a->eta2 == b->eta2;
-}
-
-Materials regions_of_scene(const Scene *scene)
-{
-    bool alike = true;
-    Materials made = {.count = 1 + scene->materials.count};
-    made.list[0] = (Material){.young = scene->material.young,
-                              .poisson = scene->material.poisson,
-                              .density = scene->material.density,
-                              .eta1 = scene->material.eta1,
-                              .eta2 = scene->material.eta2,
-                              .plane_strain = scene->material.plane == PLANE_STRAIN};
-    for (int32_t i = 0; i < scene->materials.count; i++) {
-        const SceneMaterial *region = &scene->materials.region[i];
-        Material *one = &made.list[i + 1];
-        *one = (Material){.young = scene_material_number(scene, region, MATERIAL_YOUNG),
-                          .poisson = scene_material_number(scene, region, MATERIAL_POISSON),
-                          .density = scene_material_number(scene, region, MATERIAL_DENSITY),
-                          .eta1 = scene_material_number(scene, region, MATERIAL_ETA1),
-                          .eta2 = scene_material_number(scene, region, MATERIAL_ETA2),
-                          .plane_strain = made.list[0].plane_strain};
-        alike = alike && is_alike(one, &made.list[0]);
-    }
-    if (alike) made.count = 1;
-    made.mean = made.list[0];
-    return made;
-}
 
 // The elements of region i, which no other has. owner: [elements] 1 + region.
 static bool claim_elements(const Model *model, int32_t i, uint8_t *owner, Error *err)
@@ -119,14 +82,12 @@ static EdgeRegions find_regions(const Mesh *mesh, const uint8_t *on, double low,
     return found;
 }
 
-static bool look_along(const Mesh *mesh, const int32_t *nodes, int32_t count, double low,
-                       double high, EdgeRegions *found, Error *err)
+// [nodes of the mesh] 1 for those listed; the caller's to free. NULL: memory is short.
+static uint8_t *mark_nodes(const Mesh *mesh, const int32_t *nodes, int32_t count, Error *err)
 {
     uint8_t *on = NEW_ARRAY(uint8_t, mesh->node_count, err);
     for (int32_t k = 0; on && k < count; k++) on[nodes[k]] = 1;
-    if (on) *found = find_regions(mesh, on, low, high);
-    memory_free(on);
-    return on != NULL;
+    return on;
 }
 
 static const char *region_name(const Scene *scene, int32_t region)
@@ -140,16 +101,19 @@ bool model_place_regions(Model *model, double low, double high, Error *err)
     const Mesh *mesh = &model->mesh;
     const Interface *interface = &model->interface;
     double rounding = HEIGHT_TOLERANCE * model->height;
-    EdgeRegions found = {-1, -1};
+    EdgeRegions found;
+    uint8_t *on_pad = NULL, *on_rod = NULL;
     MeshCurve rod;
     int32_t pad = 0;   // contact nodes of the first pad
     if (!mesh->region) return true;
     while (pad < interface->contact_count && interface->pad[pad] == interface->pad[0]) pad++;
-    TRY(look_along(mesh, interface->node, pad, -INFINITY, INFINITY, &found, err));
+    TRY((on_pad = mark_nodes(mesh, interface->node, pad, err)));
+    found = find_regions(mesh, on_pad, -INFINITY, INFINITY);
     model->contact_region = found.first < 0 ? 0 : found.first;
-    if (scene->rod.kind == ROD_NONE) return true;
+    if (scene->rod.kind == ROD_NONE) goto cleanup;
     TRY(mesh_curve(mesh, scene->groups.rod, &rod, err));
-    TRY(look_along(mesh, rod.nodes, rod.node_count, low + rounding, high - rounding, &found, err));
+    TRY((on_rod = mark_nodes(mesh, rod.nodes, rod.node_count, err)));
+    found = find_regions(mesh, on_rod, low + rounding, high - rounding);
     if (found.other >= 0 && scene->rod.ends == ROD_ENDS_EXACT)
         FAIL(
             err, ERROR_INPUT,
@@ -159,5 +123,7 @@ bool model_place_regions(Model *model, double low, double high, Error *err)
             region_name(scene, found.other));
     model->rod_region = found.first < 0 ? 0 : found.first;
 cleanup:
+    memory_free(on_pad);
+    memory_free(on_rod);
     return error_is_clean(err);
 }

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Which element is made of which material: the physical surfaces that the map `materials` of a scene
-// names. Called by model/assemble when mesh and interface are there, and by model/obtain.
+// Which element is made of which material: the physical surfaces that the map `materials` of a
+// scene names. Called by model/assemble when the mesh is there, and when the interface is.
 #ifndef AMONTONS_MODEL_REGIONS_H
 #define AMONTONS_MODEL_REGIONS_H
 
 #include "model/model.h"
-
-// Those of the scene: 0 its `material`, then the regions in their order. Areas are not known yet.
-Materials regions_of_scene(const Scene *scene);
 
 // Marks the elements of model->mesh with their materials and measures these. ERROR_INPUT: no such
 // surface, or two that share an element.

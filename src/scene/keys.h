@@ -58,8 +58,8 @@ typedef struct SceneKey {
 const SceneKey *scene_keys(int32_t *count);
 int32_t scene_key_index(const char *name);   // -1: no such key
 bool scene_key_is_group(const char *name);   // "material", "time.until"
-// A key with names of one's own below it: "mesh.set.nx", "materials.pads.young". *part: what is left
-// of the name, "nx", "pads.young"; -1: no such key.
+// A key with names of one's own below it: "mesh.set.nx", "materials.pads.young". *part: what is
+// left of the name, "nx", "pads.young"; -1: no such key.
 int32_t scene_key_above(const char *name, const char **part);
 // The known key or group (of keys) nearest to `name`; NULL when none is near.
 const char *scene_key_nearest(const char *name);

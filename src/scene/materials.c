@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A region's numbers are set by the keys of `material`, pointed at their place in the region: units,
-// ranges and messages are those of these keys.
+// A region's numbers are set by the keys of `material`, pointed at their place in the region:
+// units, ranges and messages are those of these keys.
 #include "scene/materials.h"
 
 #include <stdio.h>

@@ -8,6 +8,7 @@
 #include "bulk/interface_operator.h"
 #include "bulk/reduction.h"
 #include "dense_by_hand.h"
+#include "marked_layer.h"
 
 typedef struct ReducedBlock {
     Mesh mesh;
@@ -25,23 +26,6 @@ static inline BulkScales block_scales(const Mesh *mesh, const Material *material
                         .damping = material->eta1 + material->eta2,
                         .mass = material->density * length * length,
                         .load = load};
-}
-
-// Of two materials: elements whose first node is below `layer` are of the second. Sets areas and
-// mean.
-static inline void mark_layer(Mesh *mesh, double layer, Materials *materials)
-{
-    Error err = {0};
-    if (materials->count == 1) return;
-    mesh->region = NEW_ARRAY(uint8_t, mesh->element_count, &err);
-    for (int32_t e = 0; e < mesh->element_count; e++) {
-        double lowest = INFINITY;
-        for (int32_t a = mesh->first_node[e]; a < mesh->first_node[e + 1]; a++)
-            lowest = fmin(lowest, mesh->position[2 * mesh->element_nodes[a] + 1]);
-        mesh->region[e] = lowest < layer - 1e-9;
-        materials->area[mesh->region[e]] += mesh_element_area(mesh, e);
-    }
-    materials_find_mean(materials);
 }
 
 // Assembles, loads the top with `load` per length along -z and a quarter of it along x; reduces
