@@ -13,11 +13,16 @@
 #include <cholmod.h>
 #include <string.h>
 
+// Of GNU's OpenMP, which Debian's CHOLMOD comes with.
+int omp_get_max_active_levels(void) __attribute__((weak));
+void omp_set_max_active_levels(int levels) __attribute__((weak));
+
 struct SparseAnalysis {
     cholmod_common common;
     bool started;
     cholmod_sparse *pattern;   // lower triangle is what CHOLMOD reads (stype -1)
     cholmod_factor *symbolic;
+    cholmod_factor *spare;   // of a factor that was destroyed: the next one's memory; NULL: none
     int32_t border_count;
     int32_t *border_position;   // [border_count] where border[j] stands in L's border
     cholmod_dense *forward;   // solve2's workspaces, shared by all factors
@@ -169,6 +174,7 @@ void sparse_analysis_destroy(SparseAnalysis *analysis)
     if (analysis->started) {
         cholmod_common *common = &analysis->common;
         cholmod_free_factor(&analysis->symbolic, common);
+        cholmod_free_factor(&analysis->spare, common);
         cholmod_free_sparse(&analysis->pattern, common);
         cholmod_free_dense(&analysis->forward, common);
         cholmod_free_dense(&analysis->work_y, common);
@@ -214,6 +220,19 @@ static void compute_schur(SparseFactor *factor, double *square)
     }
 }
 
+// In this thread alone. CHOLMOD 5 asks for a team of four for every supernode, whatever
+// OMP_NUM_THREADS says, and waking them takes longer than the work they share: a factor of 80 x 80
+// cells took twice as long with them, one of 2000 unknowns four times.
+static bool factorise_alone(cholmod_sparse *matrix, cholmod_factor *numeric, cholmod_common *common)
+{
+    bool teams = omp_get_max_active_levels && omp_set_max_active_levels;
+    int levels = teams ? omp_get_max_active_levels() : 0;
+    if (teams) omp_set_max_active_levels(0);
+    bool done = cholmod_factorize(matrix, numeric, common);
+    if (teams) omp_set_max_active_levels(levels);
+    return done;
+}
+
 // S is formed once, with the factor. Not positive definite: a user's mesh or material can cause it.
 SparseFactor *sparse_factorise(SparseAnalysis *analysis, const double *values, Error *err)
 {
@@ -228,12 +247,14 @@ SparseFactor *sparse_factorise(SparseAnalysis *analysis, const double *values, E
     factor->border_work = NEW_ARRAY(double, count, err);
     if (!factor->border_factor || !factor->schur || !factor->border_work) goto cleanup;
 
-    factor->numeric = cholmod_copy_factor(analysis->symbolic, common);
+    factor->numeric =
+        analysis->spare ? analysis->spare : cholmod_copy_factor(analysis->symbolic, common);
+    analysis->spare = NULL;
     if (!factor->numeric) FAIL(err, ERROR_MEMORY, "no memory for a sparse factor");
     cholmod_sparse matrix = *analysis->pattern;
     matrix.x = (double *)(uintptr_t)values;   // CHOLMOD only reads it
     matrix.xtype = CHOLMOD_REAL;
-    if (!cholmod_factorize(&matrix, factor->numeric, common))
+    if (!factorise_alone(&matrix, factor->numeric, common))
         FAIL(err, common->status == CHOLMOD_OUT_OF_MEMORY ? ERROR_MEMORY : ERROR_LIBRARY,
              "CHOLMOD: the factorisation failed (status %d)", common->status);
     if (factor->numeric->minor < factor->numeric->n)
@@ -251,6 +272,10 @@ cleanup:
 void sparse_factor_destroy(SparseFactor *factor)
 {
     if (!factor) return;
+    if (factor->analysis && !factor->analysis->spare) {
+        factor->analysis->spare = factor->numeric;
+        factor->numeric = NULL;
+    }
     if (factor->analysis) cholmod_free_factor(&factor->numeric, &factor->analysis->common);
     memory_free(factor->border_factor);
     memory_free(factor->schur);
