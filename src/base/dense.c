@@ -147,6 +147,13 @@ void dense_add_scaled(double factor, const double *x, int32_t n, double *y)
     if (n > 0) cblas_daxpy(n, factor, x, 1, y, 1);
 }
 
+void dense_lower_divide(const double *lower, int32_t n, int32_t columns, double *b)
+{
+    if (n > 0 && columns > 0)
+        cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, n, columns,
+                    1.0, lower, n, b, n);
+}
+
 // Two triangular solves, from the left and from the right; turns a x = lambda L L' x into a
 // symmetric problem of its own.
 void dense_divide_both_sides(const double *lower, int32_t n, double *a)

@@ -46,6 +46,9 @@ bool dense_sweep(double *a, int32_t n, int32_t k, bool back, double *work);
 // y += factor x
 void dense_add_scaled(double factor, const double *x, int32_t n, double *y);
 
+// b := L^-1 b, of `columns` columns of n.
+void dense_lower_divide(const double *lower, int32_t n, int32_t columns, double *b);
+
 // a := L^-1 a L^-T, both triangles of a symmetric `a` [n * n], with a Cholesky factor `lower`.
 void dense_divide_both_sides(const double *lower, int32_t n, double *a);
 

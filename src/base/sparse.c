@@ -247,8 +247,8 @@ SparseFactor *sparse_factorise(SparseAnalysis *analysis, const double *values, E
     factor->border_work = NEW_ARRAY(double, count, err);
     if (!factor->border_factor || !factor->schur || !factor->border_work) goto cleanup;
 
-    factor->numeric =
-        analysis->spare ? analysis->spare : cholmod_copy_factor(analysis->symbolic, common);
+    factor->numeric = analysis->spare ? analysis->spare
+                                      : cholmod_copy_factor(analysis->symbolic, common);
     analysis->spare = NULL;
     if (!factor->numeric) FAIL(err, ERROR_MEMORY, "no memory for a sparse factor");
     cholmod_sparse matrix = *analysis->pattern;
@@ -330,5 +330,45 @@ bool sparse_expand(SparseFactor *factor, const double *x_border, double *x, Erro
     const double *permuted = solution->x;
     for (int32_t k = 0; k < size; k++) x[permutation[k]] = permuted[k];
 cleanup:
+    return error_is_clean(err);
+}
+
+// TOGETHER columns fill a block that the factor passes over once; more would leave the cache.
+bool sparse_expand_many(SparseFactor *factor, const double *x_border, int32_t count, double *x,
+                        Error *err)
+{
+    enum { TOGETHER = 32 };
+    cholmod_common *common = &factor->analysis->common;
+    const int32_t *permutation = factor->numeric->Perm,
+                  *position = factor->analysis->border_position;
+    int32_t border_count = factor->analysis->border_count;
+    int64_t size = (int64_t)factor->numeric->n;
+    cholmod_dense *right = NULL, *solution = NULL, *work_y = NULL, *work_e = NULL;
+    for (int32_t first = 0; first < count; first += TOGETHER) {
+        int32_t columns = count - first < TOGETHER ? count - first : TOGETHER;
+        cholmod_free_dense(&right, common);
+        right = cholmod_zeros((size_t)size, (size_t)columns, CHOLMOD_REAL, common);
+        if (!right) FAIL(err, ERROR_MEMORY, "no memory for %d answers of a factor", columns);
+        for (int32_t j = 0; j < columns; j++) {
+            const double *given = x_border + (int64_t)(first + j) * border_count;
+            double *border = (double *)right->x + (j + 1) * size - border_count;
+            for (int32_t k = 0; k < border_count; k++) border[position[k]] = given[k];
+            dense_lower_apply_transposed(factor->border_factor, border_count, border);
+        }
+        if (!cholmod_solve2(CHOLMOD_Lt, factor->numeric, right, NULL, &solution, NULL, &work_y,
+                            &work_e, common))
+            FAIL(err, ERROR_MEMORY, "CHOLMOD: the backward substitution failed (status %d)",
+                 common->status);
+        for (int32_t j = 0; j < columns; j++) {
+            const double *permuted = (double *)solution->x + j * size;
+            double *out = x + (first + j) * size;
+            for (int64_t k = 0; k < size; k++) out[permutation[k]] = permuted[k];
+        }
+    }
+cleanup:
+    cholmod_free_dense(&right, common);
+    cholmod_free_dense(&solution, common);
+    cholmod_free_dense(&work_y, common);
+    cholmod_free_dense(&work_e, common);
     return error_is_clean(err);
 }

@@ -50,5 +50,9 @@ const double *sparse_schur(const SparseFactor *factor);
 bool sparse_condense(SparseFactor *factor, const double *rhs, double *g, Error *err);
 // x_border: [border_count] -> x: [size]; nothing is allocated after the first solve.
 bool sparse_expand(SparseFactor *factor, const double *x_border, double *x, Error *err);
+// x [size * count], with no right-hand side inside, from as many x_border [border_count * count].
+// Many at once take a fraction of the time that one by one would.
+bool sparse_expand_many(SparseFactor *factor, const double *x_border, int32_t count, double *x,
+                        Error *err);
 
 #endif

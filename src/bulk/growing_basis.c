@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// Most of the work is products of matrices as long as the mesh: with V the modes and X new answers,
+// four of them. V'KX says what of X lies in V,
+//
+//     Y = X - V q,   q = [ X on the interface; Phi' K X ];
+//
+// the others are V q, V'CY and V'MY. What belongs to Y alone is small beside them.
 #include "bulk/growing_basis.h"
 
 #include "base/dense.h"
@@ -10,10 +16,13 @@
 // The squared length of the part orthogonal to the others below which a new vector is rounding.
 static const double DEPENDENT = 1e-12;
 
+// The squared length of the part that lies in the others, of what is left, from which on rounding
+// is taken out, too.
+static const double TAKEN_MAX = 1e3;
+
 void basis_destroy(GrowingBasis *basis)
 {
     bulk_operator_destroy(&basis->full);
-    bulk_operator_destroy(&basis->tried);
     memory_free(basis->border);
     memory_free(basis->still);
     memory_free(basis->zeros);
@@ -67,46 +76,183 @@ static bool grow_square(double **a, int64_t old, int64_t size, Error *err)
     return true;
 }
 
-// Fills the rows and columns `first` ... count - 1 of a matrix V' (image of the new modes).
-static void fill_square(const ReducedBulk *reduced, int64_t first, const double *product, double *a)
-{
-    int64_t count = reduced->count;
-    for (int64_t j = first; j < count; j++) {
-        const double *column = product + (j - first) * count;
-        for (int64_t i = 0; i <= j; i++) a[j * count + i] = a[i * count + j] = column[i];
-    }
-}
-
-// M, C and the load of the modes from `first` on, which stand in reduced->modes; `tried` anew.
-static bool project(GrowingBasis *basis, int32_t first, Error *err)
+// With room for half as many again, so that modes are copied a few times only.
+double *basis_make_room(GrowingBasis *basis, int32_t columns, Error *err)
 {
     ReducedBulk *reduced = basis->reduced;
-    int64_t dofs = reduced->full_dofs, count = reduced->count, added = count - first;
+    int64_t dofs = reduced->full_dofs;
+    if (reduced->count + columns > basis->modes_room) {
+        int32_t room = 3 * (reduced->count + columns) / 2;
+        double *modes = memory_resize(reduced->modes, dofs * basis->modes_room, dofs * room,
+                                      sizeof(double), err);
+        if (!modes) return NULL;
+        reduced->modes = modes;
+        basis->modes_room = room;
+    }
+    return reduced->modes + dofs * reduced->count;
+}
+
+static DenseView view_modes(const GrowingBasis *basis, int64_t first, int64_t columns)
+{
+    const ReducedBulk *reduced = basis->reduced;
+    return (DenseView){reduced->modes + first * reduced->full_dofs, reduced->full_dofs,
+                       (int32_t)columns};
+}
+
+// image = T times these
+static DenseView apply_term(const GrowingBasis *basis, BulkTerm term, DenseView vectors,
+                            double *image)
+{
+    for (int64_t j = 0; j < vectors.columns; j++)
+        basis_apply_full(basis, term, vectors.values + j * vectors.rows, image + j * vectors.rows);
+    return (DenseView){image, vectors.rows, vectors.columns};
+}
+
+// Rows and columns from `first` on of V'TV, V with all modes.
+static bool project(const GrowingBasis *basis, BulkTerm term, int64_t first, double **matrix,
+                    Error *err)
+{
+    int64_t dofs = basis->reduced->full_dofs, count = basis->reduced->count, added = count - first;
     double *image = NEW_ARRAY(double, dofs *added, err);
     double *product = NEW_ARRAY(double, count *added, err);
-    double *load = NEW_ARRAY(double, count, err);
-    if (!image || !product || !load) goto cleanup;
-    TRY(grow_square(&reduced->mass, first, count, err));
-    TRY(grow_square(&reduced->damping, first, count, err));
-    DenseView modes = {reduced->modes, (int32_t)dofs, (int32_t)count};
-    DenseView images = {image, (int32_t)dofs, (int32_t)added};
-    for (int term = BULK_DAMPING; term <= BULK_MASS; term++) {
-        for (int64_t j = 0; j < added; j++)
-            basis_apply_full(basis, (BulkTerm)term, reduced->modes + (first + j) * dofs,
-                             image + j * dofs);
-        dense_multiply_transposed(modes, images, 1, 0, product);
-        fill_square(reduced, first, product, term == BULK_MASS ? reduced->mass : reduced->damping);
+    if (!image || !product) goto cleanup;
+    TRY(grow_square(matrix, first, count, err));
+    dense_multiply_transposed(view_modes(basis, 0, count),
+                              apply_term(basis, term, view_modes(basis, first, added), image), 1, 0,
+                              product);
+    for (int64_t j = 0; j < added; j++) {
+        double *column = *matrix + (first + j) * count;
+        for (int64_t i = 0; i <= first + j; i++)
+            column[i] = (*matrix)[i * count + first + j] = product[j * count + i];
     }
-    dense_apply_transposed(modes, basis->unit_load, 1, 0, load);
-    memory_free(reduced->load);
-    reduced->load = load;
-    load = NULL;
-    bulk_operator_destroy(&basis->tried);
-    TRY(bulk_operator_reduce(reduced, basis->still, 1, &basis->tried, err));
 cleanup:
     memory_free(image);
     memory_free(product);
-    memory_free(load);
+    return error_is_clean(err);
+}
+
+// C, M and the load of the modes from `first` on.
+static bool project_all(const GrowingBasis *basis, int64_t first, Error *err)
+{
+    ReducedBulk *reduced = basis->reduced;
+    int64_t count = reduced->count;
+    double *load = memory_resize(reduced->load, first, count, sizeof *load, err);
+    if (!load) goto cleanup;
+    reduced->load = load;
+    dense_apply_transposed(view_modes(basis, first, count - first), basis->unit_load, 1, 0,
+                           load + first);
+    TRY(project(basis, BULK_DAMPING, first, &reduced->damping, err));
+    TRY(project(basis, BULK_MASS, first, &reduced->mass, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+typedef struct Extension {
+    int64_t count, added;   // columns of V, of X
+    double *vectors;   // [dofs * added] X, then Y, then the new modes; not owned
+    double *image;   // [dofs * added] work
+    double *parts;   // [count * added] q
+    double *gram;   // [added^2] Y'KY, then R
+    double *values, *eigen_work;   // [added] of Y'KY; [dense_eigen_work(added)]
+} Extension;
+
+static void extension_destroy(Extension *work)
+{
+    memory_free(work->image);
+    memory_free(work->parts);
+    memory_free(work->gram);
+    memory_free(work->values);
+    memory_free(work->eigen_work);
+}
+
+static bool extension_create(const GrowingBasis *basis, int32_t columns, Extension *work,
+                             Error *err)
+{
+    int64_t dofs = basis->reduced->full_dofs, count = basis->reduced->count, added = columns;
+    *work = (Extension){
+        .count = count, .added = added, .vectors = basis->reduced->modes + dofs * count};
+    work->image = NEW_ARRAY(double, dofs *added, err);
+    work->parts = NEW_ARRAY(double, count *added, err);
+    work->gram = NEW_ARRAY(double, added *added, err);
+    work->values = NEW_ARRAY(double, added, err);
+    work->eigen_work = NEW_ARRAY(double, dense_eigen_work(columns), err);
+    return error_is_clean(err);
+}
+
+// X becomes Y, exactly 0 on the interface; leaves Y'KY.
+static void take_parts(const GrowingBasis *basis, Extension *work)
+{
+    int64_t dofs = basis->reduced->full_dofs, m = basis->reduced->interface_count;
+    int64_t count = work->count;
+    const int32_t *border = basis->full.interface_dofs;
+    DenseView modes = view_modes(basis, 0, count);
+    DenseView vectors = view_modes(basis, count, work->added);
+    DenseView image = apply_term(basis, BULK_STIFFNESS, vectors, work->image);
+    dense_multiply_transposed(modes, image, 1, 0, work->parts);
+    for (int64_t j = 0; j < work->added; j++)
+        for (int64_t i = 0; i < m; i++)
+            work->parts[j * count + i] = work->vectors[j * dofs + border[i]];
+    dense_multiply(modes, (DenseView){work->parts, (int32_t)count, (int32_t)work->added}, -1, 1,
+                   work->vectors);
+    for (int64_t j = 0; j < work->added; j++)
+        for (int64_t i = 0; i < m; i++) work->vectors[j * dofs + border[i]] = 0;
+    apply_term(basis, BULK_STIFFNESS, vectors, work->image);
+    dense_multiply_transposed(vectors, image, 1, 0, work->gram);
+}
+
+// Y becomes Y R, orthonormal in K, of *kept columns; *least: the smallest squared length kept.
+static bool orthonormalise(const GrowingBasis *basis, Extension *work, int64_t *kept, double *least,
+                           Error *err)
+{
+    int64_t added = work->added;
+    double *gram = work->gram, *values = work->values;
+    *kept = 0;
+    if (!dense_eigen(gram, (int32_t)added, values, work->eigen_work))
+        FAIL(err, ERROR_LIBRARY, "LAPACK: the responses of the interior are not independent");
+    for (int64_t j = added - 1; j >= 0; j--) {
+        if (!(values[j] > DEPENDENT * values[added - 1])) break;
+        for (int64_t i = 0; i < added; i++) gram[j * added + i] /= sqrt(values[j]);
+        *least = values[j];
+        ++*kept;
+    }
+    DenseView rotation = {gram + (added - *kept) * added, (int32_t)added, (int32_t)*kept};
+    DenseView vectors = view_modes(basis, work->count, added);
+    dense_multiply(vectors, rotation, 1, 0, work->image);
+    memcpy(work->vectors, work->image, (size_t)(vectors.rows * *kept) * sizeof *work->image);
+    work->added = *kept;
+cleanup:
+    return error_is_clean(err);
+}
+
+// The largest squared length that was taken out of a vector.
+static double largest_part(const GrowingBasis *basis, const Extension *work)
+{
+    double largest = 0;
+    for (int64_t j = 0; j < work->added; j++) {
+        const double *q = work->parts + j * work->count + basis->reduced->interface_count;
+        largest = fmax(largest, dense_dot(q, q, basis->reduced->interior_count));
+    }
+    return largest;
+}
+
+bool basis_extend(GrowingBasis *basis, int32_t columns, Error *err)
+{
+    ReducedBulk *reduced = basis->reduced;
+    int64_t kept = 0;
+    double taken = 0, least = 0;
+    Extension work;
+    TRY(extension_create(basis, columns, &work, err));
+    for (int pass = 0; pass < 2; pass++) {
+        take_parts(basis, &work);
+        taken = largest_part(basis, &work);
+        TRY(orthonormalise(basis, &work, &kept, &least, err));
+        if (taken <= TAKEN_MAX * least) break;
+    }
+    reduced->interior_count += (int32_t)kept;
+    reduced->count += (int32_t)kept;
+    TRY(project_all(basis, work.count, err));
+cleanup:
+    extension_destroy(&work);
     return error_is_clean(err);
 }
 
@@ -114,108 +260,73 @@ cleanup:
 static bool start_motions(GrowingBasis *basis, InterfaceOperator *statics, Error *err)
 {
     ReducedBulk *reduced = basis->reduced;
-    int64_t dofs = reduced->full_dofs, m = reduced->interface_count;
-    TRY(interface_operator_condense(statics, basis->zeros, basis->border, err));
-    for (int64_t j = 0; j < m; j++) {
-        double *mode = reduced->modes + j * dofs;
-        memset(basis->border, 0, (size_t)m * sizeof(double));
-        basis->border[j] = 1;
-        TRY(interface_operator_expand(statics, basis->border, mode, err));
-        for (int64_t i = 0; i < m; i++) mode[basis->full.interface_dofs[i]] = i == j;   // exactly
-    }
+    int64_t m = reduced->interface_count;
+    double *motions = NEW_ARRAY(double, m *m, err);
+    if (!motions) goto cleanup;
+    for (int64_t j = 0; j < m; j++) motions[j * m + j] = 1;
+    TRY(interface_operator_answer(statics, motions, (int32_t)m, reduced->modes, err));
     // Inside the block K Psi = 0, so that V'KV is the Schur complement of K.
     memcpy(reduced->stiffness, interface_operator_schur(statics), (size_t)(m * m) * sizeof(double));
-    TRY(project(basis, 0, err));
+    TRY(project_all(basis, 0, err));
 cleanup:
-    return error_is_clean(err);
-}
-
-// vectors -= Phi (Phi' K vectors), twice for rounding; leaves K times the result in `forces`.
-static bool project_out(GrowingBasis *basis, int32_t columns, double *vectors, double *forces,
-                        Error *err)
-{
-    const ReducedBulk *reduced = basis->reduced;
-    int64_t dofs = reduced->full_dofs;
-    double *overlap = NEW_ARRAY(double, (int64_t)reduced->interior_count *columns, err);
-    if (!overlap) return false;
-    DenseView phi = {reduced->modes + dofs * reduced->interface_count, (int32_t)dofs,
-                     reduced->interior_count};
-    DenseView force = {forces, (int32_t)dofs, columns};
-    DenseView parts = {overlap, reduced->interior_count, columns};
-    // Psi needs no such pass: static modes are K-orthogonal to all that rests on the interface.
-    for (int pass = 0; pass < 3; pass++) {
-        for (int64_t j = 0; j < columns; j++)
-            basis_apply_full(basis, BULK_STIFFNESS, vectors + j * dofs, forces + j * dofs);
-        if (pass == 2 || reduced->interior_count == 0) break;
-        dense_multiply_transposed(phi, force, 1, 0, overlap);
-        dense_multiply(phi, parts, -1, 1, vectors);
-    }
-    memory_free(overlap);
-    return true;
-}
-
-// Room for `columns` more modes and half as many again, so that it is copied a few times only.
-static bool make_room(GrowingBasis *basis, int32_t columns, Error *err)
-{
-    ReducedBulk *reduced = basis->reduced;
-    if (reduced->count + columns <= basis->modes_room) return true;
-    int32_t room = 3 * (reduced->count + columns) / 2;
-    double *modes = memory_resize(reduced->modes, (int64_t)reduced->full_dofs * basis->modes_room,
-                                  (int64_t)reduced->full_dofs * room, sizeof(double), err);
-    if (!modes) return false;
-    reduced->modes = modes;
-    basis->modes_room = room;
-    return true;
-}
-
-bool basis_extend(GrowingBasis *basis, int32_t columns, double *vectors, Error *err)
-{
-    ReducedBulk *reduced = basis->reduced;
-    int64_t dofs = reduced->full_dofs;
-    int32_t first = reduced->count, kept = 0;
-    double *forces = NEW_ARRAY(double, dofs *columns, err);
-    double *gram = NEW_ARRAY(double, (int64_t)columns *columns, err);
-    double *values = NEW_ARRAY(double, columns, err);
-    double *eigen_work = NEW_ARRAY(double, dense_eigen_work(columns), err);
-    if (!error_is_clean(err)) goto cleanup;
-    TRY(make_room(basis, columns, err));
-    TRY(project_out(basis, columns, vectors, forces, err));
-    DenseView old = {vectors, (int32_t)dofs, columns}, force = {forces, (int32_t)dofs, columns};
-    dense_multiply_transposed(old, force, 1, 0, gram);
-    if (!dense_eigen(gram, columns, values, eigen_work))
-        FAIL(err, ERROR_LIBRARY, "LAPACK: the responses of the interior are not independent");
-    for (int64_t j = columns - 1; j >= 0; j--) {
-        if (!(values[j] > DEPENDENT * values[columns - 1])) break;
-        for (int32_t i = 0; i < columns; i++) gram[j * columns + i] /= sqrt(values[j]);
-        kept++;
-    }
-    DenseView rotation = {gram + (int64_t)(columns - kept) * columns, columns, kept};
-    dense_multiply(old, rotation, 1, 0, reduced->modes + dofs * first);
-    reduced->interior_count += kept;
-    reduced->count += kept;
-    TRY(project(basis, first, err));
-cleanup:
-    memory_free(forces);
-    memory_free(gram);
-    memory_free(values);
-    memory_free(eigen_work);
+    memory_free(motions);
     return error_is_clean(err);
 }
 
 // The static answer to the load, the interface held: exact from then on.
 static bool start_load(GrowingBasis *basis, InterfaceOperator *statics, Error *err)
 {
-    double *x = NEW_ARRAY(double, basis->full.dof_count, err);
+    double *x = basis_make_room(basis, 1, err);
     if (!x) goto cleanup;
     TRY(interface_operator_condense(statics, basis->unit_load, basis->border, err));
     TRY(interface_operator_expand(statics, basis->still, x, err));
-    if (dense_max_abs(x, basis->full.dof_count) > 0) TRY(basis_extend(basis, 1, x, err));
+    if (dense_max_abs(x, basis->full.dof_count) > 0) TRY(basis_extend(basis, 1, err));
 cleanup:
-    memory_free(x);
     return error_is_clean(err);
 }
 
 bool basis_start(GrowingBasis *basis, InterfaceOperator *statics, Error *err)
 {
     return start_motions(basis, statics, err) && start_load(basis, statics, err);
+}
+
+// Rows `first` to `first + rows` of a column of A, but for its part in K.
+static void fill_column(const ReducedBulk *reduced, const double *factor, int64_t column,
+                        int64_t first, int64_t rows, double *out)
+{
+    const double *mass = reduced->mass + column * reduced->count + first;
+    const double *damping = reduced->damping + column * reduced->count + first;
+    double i = factor[BULK_MASS], c = factor[BULK_DAMPING];
+    for (int64_t row = 0; row < rows; row++) out[row] = i * mass[row] + c * damping[row];
+}
+
+// With A_qq = L L' and Z = L^-1 [A_qb  load_q]: S = A_bb - Z_b' Z_b, the energy is Z_f' Z_f.
+bool basis_condense(const GrowingBasis *basis, const double *factor, double *schur, double *energy,
+                    Error *err)
+{
+    const ReducedBulk *reduced = basis->reduced;
+    int64_t m = reduced->interface_count, r = reduced->interior_count;
+    double k = factor[BULK_STIFFNESS];
+    double *interior = NEW_ARRAY(double, r *r, err), *z = NEW_ARRAY(double, r *(m + 1), err);
+    if (!interior || !z) goto cleanup;
+    for (int64_t j = 0; j < r; j++) {
+        fill_column(reduced, factor, m + j, m, r, interior + j * r);
+        interior[j * r + j] += k;
+    }
+    for (int64_t j = 0; j < m; j++) {
+        fill_column(reduced, factor, j, m, r, z + j * r);
+        fill_column(reduced, factor, j, 0, m, schur + j * m);
+    }
+    dense_add_scaled(k, reduced->stiffness, (int32_t)(m * m), schur);
+    memcpy(z + m * r, reduced->load + m, (size_t)r * sizeof *z);
+    if (!dense_cholesky(interior, (int32_t)r))
+        FAIL(err, ERROR_COMPUTE, "the interior of the reduced bulk is not positive definite");
+    dense_lower_divide(interior, (int32_t)r, (int32_t)(m + 1), z);
+    DenseView motions = {z, (int32_t)r, (int32_t)m};
+    dense_multiply_transposed(motions, motions, -1, 1, schur);
+    *energy = dense_dot(z + m * r, z + m * r, (int32_t)r);
+cleanup:
+    memory_free(interior);
+    memory_free(z);
+    return error_is_clean(err);
 }

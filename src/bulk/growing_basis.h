@@ -8,7 +8,7 @@
 
 typedef struct GrowingBasis {
     ReducedBulk *reduced;   // not owned
-    BulkOperator full, tried;   // of the mesh, and of what `reduced` holds so far
+    BulkOperator full;   // of the mesh
     int32_t modes_room;   // columns that reduced->modes has room for
     double *border;   // [interface] work
     double *still;   // [interface] zeros: the interface at rest
@@ -23,9 +23,15 @@ void basis_destroy(GrowingBasis *basis);   // all but `reduced`
 // Static modes, and the static answer to the load. statics: the full mesh at K alone.
 bool basis_start(GrowingBasis *basis, InterfaceOperator *statics, Error *err);
 
-// Adds `vectors` [dofs * columns], zero on the interface, to Phi: the part that is K-orthogonal to
-// it, orthonormal in K. They are changed.
-bool basis_extend(GrowingBasis *basis, int32_t columns, double *vectors, Error *err);
+// Room behind the modes for `columns` answers of the full mesh, [dofs * columns]. basis_extend then
+// adds their part that is K-orthogonal to all modes to Phi, orthonormal in K. NULL: no memory.
+double *basis_make_room(GrowingBasis *basis, int32_t columns, Error *err);
+bool basis_extend(GrowingBasis *basis, int32_t columns, Error *err);
+
+// The basis's own answers with A the sum of factor[term] times K/E, C/eta, M/(rho L^2): schur
+// [interface^2], and the energy of that to the unit load, the interface at rest.
+bool basis_condense(const GrowingBasis *basis, const double *factor, double *schur, double *energy,
+                    Error *err);
 
 // y = K x / E, C x / eta or M x / (rho L^2) on the full mesh; [dofs].
 void basis_apply_full(const GrowingBasis *basis, BulkTerm term, const double *x, double *y);

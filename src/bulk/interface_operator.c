@@ -315,6 +315,18 @@ bool interface_operator_expand(InterfaceOperator *condensed, const double *inter
     return true;
 }
 
+bool interface_operator_answer(InterfaceOperator *condensed, const double *motions, int32_t count,
+                               double *v, Error *err)
+{
+    const BulkOperator *system = condensed->system;
+    int64_t dofs = system->dof_count, m = system->interface_count;
+    if (!sparse_expand_many(condensed->factor, motions, count, v, err)) return false;
+    for (int64_t k = 0; k < count; k++)   // exactly
+        for (int64_t j = 0; j < m; j++)
+            v[k * dofs + system->interface_dofs[j]] = motions[k * m + j];
+    return true;
+}
+
 void bulk_operator_archive(BulkOperator *system, Archive *archive)
 {
     archive_section(archive, "bulk");

@@ -87,6 +87,11 @@ double interface_operator_release(const InterfaceOperator *condensed, double *ve
 bool interface_operator_expand(InterfaceOperator *condensed, const double *interface, double *v,
                                Error *err);
 
+// Answers v [dof_count * count] of the full mesh to `count` motions v_b [interface_count * count],
+// nothing pressing inside.
+bool interface_operator_answer(InterfaceOperator *condensed, const double *motions, int32_t count,
+                               double *v, Error *err);
+
 // The load, which a caller may have changed, and the counters; all else is the model's.
 void bulk_operator_archive(BulkOperator *system, Archive *archive);
 // What a state of it depends on: a state of another bulk means nothing here.

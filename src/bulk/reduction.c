@@ -55,6 +55,7 @@ typedef struct Builder {
     double element_inertia;   // where mass takes over within an element
     int32_t viscosity_count;
     double viscosity[VISCOSITIES_MAX];   // [viscosity_count] visited at each level
+    double load_energy;   // at a point, of the basis's answer to the unit load
     double *exact, *excess;   // [m^2] S, then its Cholesky factor; S_r - S
     double *values;   // [m] eigenvalues
     double *eigen_work;   // [dense_eigen_work(m)]
@@ -126,7 +127,7 @@ static double allowed_error(const Builder *work, Point point)
     return fmax(tolerance * (tolerance + MESH_SHARE * share), ERROR_LEAST);
 }
 
-// The point as factors of the scene's own M, C and K, with which both operators are made.
+// The point as factors of the scene's own M, C and K.
 static OperatorTerms point_terms(const Builder *work, Point point)
 {
     const BulkScales *scales = &work->def->scales;
@@ -135,17 +136,14 @@ static OperatorTerms point_terms(const Builder *work, Point point)
                            .stiffness = (1 - point.viscosity) / scales->stiffness};
 }
 
-// Solves (S_r - S) y = mu S y: mu ascending in `values`, y in the columns of `excess`.
-static bool compare(Builder *work, const InterfaceOperator *full, const InterfaceOperator *tried,
-                    Error *err)
+// Solves (S_r - S) y = mu S y: mu ascending in `values`, y in the columns of `excess`, which is S_r
+// before.
+static bool compare(Builder *work, const InterfaceOperator *full, Error *err)
 {
     int32_t m = work->basis.reduced->interface_count;
     const double *schur = interface_operator_schur(full);
-    const double *reduced_schur = interface_operator_schur(tried);
-    for (int64_t k = 0; k < (int64_t)m * m; k++) {
-        work->exact[k] = schur[k];
-        work->excess[k] = reduced_schur[k] - schur[k];
-    }
+    memcpy(work->exact, schur, (size_t)m * (size_t)m * sizeof *schur);
+    dense_add_scaled(-1, schur, m * m, work->excess);
     if (!dense_cholesky(work->exact, m))
         FAIL(err, ERROR_COMPUTE, "the interface operator is not positive definite");
     dense_divide_both_sides(work->exact, m, work->excess);
@@ -155,102 +153,64 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Answers of the full mesh, and reduced unknowns of the basis's answers, to the same motions.
-typedef struct Answers {
-    int32_t count;
-    double *full;   // [dofs * count]; in the end the differences
-    double *state;   // [reduced->count * count]
-} Answers;
-
-// Answers to the last `wanted` columns of `excess`, scaled so that their difference has energy 1.
-static bool answer_motions(Builder *work, InterfaceOperator *full, InterfaceOperator *tried,
-                           int32_t wanted, Answers *answers, Error *err)
+// Answers x [dofs * wanted] of the full mesh to the last `wanted` columns of `excess`, scaled so
+// that what they differ by from the basis's has energy 1.
+static bool answer_motions(Builder *work, InterfaceOperator *full, int32_t wanted, double *x,
+                           Error *err)
 {
     int64_t m = work->basis.reduced->interface_count;
-    // No load inside: expand then gives the answer to the interface's motion alone.
-    TRY(interface_operator_condense(full, work->basis.zeros, work->basis.border, err));
-    TRY(interface_operator_condense(tried, work->basis.zeros, work->basis.border, err));
-    for (int32_t k = 0; k < wanted; k++) {
-        double *y = work->excess + (m - 1 - k) * m;
-        double scale = 1 / sqrt(work->values[m - 1 - k]);
+    double *first = work->excess + (m - wanted) * m;
+    for (int64_t k = 0; k < wanted; k++) {
+        double *y = first + k * m, scale = 1 / sqrt(work->values[m - wanted + k]);
         dense_lower_solve_transposed(work->exact, (int32_t)m, y);
-        for (int32_t i = 0; i < m; i++) y[i] *= scale;
-        int64_t column = answers->count++;
-        TRY(interface_operator_expand(full, y, answers->full + column * work->basis.full.dof_count,
-                                      err));
-        TRY(interface_operator_expand(tried, y,
-                                      answers->state + column * work->basis.tried.dof_count, err));
+        for (int64_t i = 0; i < m; i++) y[i] *= scale;
     }
-cleanup:
-    return error_is_clean(err);
+    return interface_operator_answer(full, first, wanted, x, err);
 }
 
-// Answers to the load, the interface held, where their difference has more than `allowed` of the
-// energy; scaled likewise.
-static bool answer_load(Builder *work, InterfaceOperator *full, InterfaceOperator *tried,
-                        double allowed, Answers *answers, Error *err)
+// The answer x of the full mesh to the load, the interface held, scaled likewise. *adds: the basis
+// lacks more than `allowed` of its energy.
+static bool answer_load(Builder *work, InterfaceOperator *full, double allowed, double *x,
+                        bool *adds, Error *err)
 {
-    int32_t dofs = work->basis.full.dof_count, count = work->basis.tried.dof_count;
-    const double *load = work->basis.reduced->load;
-    double *x = answers->full + (int64_t)answers->count * dofs;
-    double *state = answers->state + (int64_t)answers->count * count;
+    int32_t dofs = work->basis.full.dof_count;
+    *adds = false;
     TRY(interface_operator_condense(full, work->basis.unit_load, work->basis.border, err));
     TRY(interface_operator_expand(full, work->basis.still, x, err));
-    TRY(interface_operator_condense(tried, load, work->basis.border, err));
-    TRY(interface_operator_expand(tried, work->basis.still, state, err));
     // The load does less work on a Galerkin answer than on the exact one, by the energy of the
     // difference.
-    double energy = dense_dot(x, work->basis.unit_load, dofs);
-    double missing = energy - dense_dot(state, load, count);
-    if (!(missing > allowed * energy)) goto cleanup;
-    for (int32_t k = 0; k < dofs; k++) x[k] /= sqrt(missing);
-    for (int32_t k = 0; k < count; k++) state[k] /= sqrt(missing);
-    answers->count++;
+    double energy = dense_dot(x, work->basis.unit_load, dofs), missing = energy - work->load_energy;
+    *adds = missing > allowed * energy;
+    for (int32_t k = 0; *adds && k < dofs; k++) x[k] /= sqrt(missing);
 cleanup:
     return error_is_clean(err);
-}
-
-// full := modes state - full, zero on the interface.
-static void subtract_answers(const Builder *work, Answers *answers)
-{
-    const ReducedBulk *reduced = work->basis.reduced;
-    DenseView modes = {reduced->modes, reduced->full_dofs, reduced->count};
-    DenseView states = {answers->state, reduced->count, answers->count};
-    dense_multiply(modes, states, 1, -1, answers->full);
-    for (int64_t k = 0; k < answers->count; k++) {
-        for (int32_t j = 0; j < reduced->interface_count; j++)
-            answers->full[k * reduced->full_dofs + work->basis.full.interface_dofs[j]] = 0;
-    }
 }
 
 // Adds what the basis lacks at `point`; *left: the error of S there afterwards.
 static bool visit(Builder *work, Point point, double *left, Error *err)
 {
-    int32_t m = work->basis.reduced->interface_count, wanted = 0;
+    const double factor[] = {[BULK_STIFFNESS] = 1 - point.viscosity,
+                             [BULK_DAMPING] = point.viscosity,
+                             [BULK_MASS] = point.inertia};
+    int64_t m = work->basis.reduced->interface_count, dofs = work->basis.full.dof_count;
+    int32_t wanted = 0;
     double allowed = allowed_error(work, point);
-    Answers answers = {0};
-    OperatorTerms terms = point_terms(work, point);
-    InterfaceOperator *full = interface_operator_create(&work->basis.full, terms, err),
-                      *tried = NULL;
-    if (full) tried = interface_operator_create(&work->basis.tried, terms, err);
-    if (!tried) goto cleanup;
-    TRY(compare(work, full, tried, err));
+    bool load_too = false;
+    InterfaceOperator *full =
+        interface_operator_create(&work->basis.full, point_terms(work, point), err);
+    if (!full) goto cleanup;
+    TRY(basis_condense(&work->basis, factor, work->excess, &work->load_energy, err));
+    TRY(compare(work, full, err));
     // The error of what is added becomes 0; what is left is that of the first motion not added.
     while (wanted < m && work->values[m - 1 - wanted] > allowed) wanted++;
     *left = wanted < m ? fmax(work->values[m - 1 - wanted], 0) : 0;
-    answers.full = NEW_ARRAY(double, (int64_t)work->basis.full.dof_count *(wanted + 1), err);
-    answers.state = NEW_ARRAY(double, (int64_t)work->basis.tried.dof_count *(wanted + 1), err);
-    if (!error_is_clean(err)) goto cleanup;
-    TRY(answer_motions(work, full, tried, wanted, &answers, err));
-    TRY(answer_load(work, full, tried, allowed, &answers, err));
-    if (answers.count == 0) goto cleanup;
-    subtract_answers(work, &answers);
-    TRY(basis_extend(&work->basis, answers.count, answers.full, err));
+    double *x = basis_make_room(&work->basis, wanted + 1, err);
+    if (!x) goto cleanup;
+    TRY(answer_motions(work, full, wanted, x, err));
+    TRY(answer_load(work, full, allowed, x + wanted * dofs, &load_too, err));
+    if (wanted + load_too > 0) TRY(basis_extend(&work->basis, wanted + load_too, err));
 cleanup:
     interface_operator_destroy(full);
-    interface_operator_destroy(tried);
-    memory_free(answers.full);
-    memory_free(answers.state);
     if (!error_is_clean(err)) error_context(err, "at inertia %g", point.inertia);
     return error_is_clean(err);
 }
@@ -318,13 +278,11 @@ cleanup:
 static bool find_viscous(Builder *work, Error *err)
 {
     int64_t m = work->basis.reduced->interface_count;
-    OperatorTerms terms = {.damping = 1 / work->def->scales.damping, .lift = true};
-    InterfaceOperator *viscous = interface_operator_create(&work->basis.tried, terms, err);
-    double *schur = viscous ? NEW_ARRAY(double, m *m, err) : NULL;
-    if (schur) memcpy(schur, interface_operator_schur(viscous), (size_t)(m * m) * sizeof(double));
-    work->basis.reduced->viscous = schur;
-    interface_operator_destroy(viscous);
-    return error_is_clean(err);
+    const double factor[] = {[BULK_STIFFNESS] = 0, [BULK_DAMPING] = 1, [BULK_MASS] = 0};
+    work->basis.reduced->viscous = NEW_ARRAY(double, m *m, err);
+    return work->basis.reduced->viscous &&
+           basis_condense(&work->basis, factor, work->basis.reduced->viscous, &work->load_energy,
+                          err);
 }
 
 bool reduction_build(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,

@@ -189,6 +189,7 @@ NOT_A_CHOICE = {
     "bulk/mesh_contact.c": {"PLACE_TOLERANCE": ROUNDING},
     "bulk/reduced_bulk.h": {"REDUCTION_LEVELS_MAX": SIZE},
     "bulk/reduction.c": {"VISCOSITIES_MAX": SIZE},
+    "bulk/growing_basis.c": {"TAKEN_MAX": "rounding: modes orthogonal to 1e-11"},
     "bulk/reduction_block.c": {"GRID": "single precision that a cache stores"},
     "bulk/shape.c": {"TRIANGLE_NODES": "the element", "SQUARE_NODES": "the element"},
     "bulk/shape.h": {"QUADRATURE_POINTS_MAX": "3 x 3"},
