@@ -115,6 +115,27 @@ static void check_solution(Random *random, const Case *made, SparseFactor *facto
     free(schur);
 }
 
+// Answers to many motions at once against A_ii x_i + A_ib x_b = 0; more than fit together.
+static void check_many(Random *random, const Case *made, SparseFactor *factor)
+{
+    enum { MOTIONS = 40 };
+    Error err = {0};
+    int32_t n = made->size, count = made->border_count;
+    double *given = hand_matrix(count, MOTIONS), *x = hand_matrix(n, MOTIONS);
+    for (int32_t k = 0; k < count * MOTIONS; k++) given[k] = random_between(random, -1, 1);
+    assert_true(sparse_expand_many(factor, given, MOTIONS, x, &err));
+    for (int32_t j = 0; j < MOTIONS; j++) {
+        double inside[SIZE_TRIED], still[SIZE_TRIED] = {0};
+        const double *answer = x + j * n;
+        for (int32_t k = 0; k < count; k++)
+            assert_near("border", answer[made->border[k]], given[j * count + k], 1e-11);
+        hand_apply(made->dense, n, n, answer, inside);
+        for (int32_t k = 0; k < count; k++) inside[made->border[k]] = 0;
+        assert_all_near("nothing presses inside", inside, still, n, 1e-11);
+    }
+    free(given), free(x);
+}
+
 static void test_random_matrices(void **state)
 {
     (void)state;
@@ -134,6 +155,7 @@ static void test_random_matrices(void **state)
         if (!factor) fail_msg("size %d, border %d: %s", size, border_count, err.message);
         check_schur(&made, factor);
         check_solution(&random, &made, factor);
+        check_many(&random, &made, factor);
         sparse_factor_destroy(factor);
         sparse_analysis_destroy(analysis);
         free_case(&made);
