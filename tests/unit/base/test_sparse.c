@@ -125,13 +125,13 @@ static void check_many(Random *random, const Case *made, SparseFactor *factor)
     for (int32_t k = 0; k < count * MOTIONS; k++) given[k] = random_between(random, -1, 1);
     assert_true(sparse_expand_many(factor, given, MOTIONS, x, &err));
     for (int32_t j = 0; j < MOTIONS; j++) {
-        double inside[SIZE_TRIED], still[SIZE_TRIED] = {0};
+        double inside[SIZE_TRIED];
         const double *answer = x + j * n;
         for (int32_t k = 0; k < count; k++)
             assert_near("border", answer[made->border[k]], given[j * count + k], 1e-11);
         hand_apply(made->dense, n, n, answer, inside);
         for (int32_t k = 0; k < count; k++) inside[made->border[k]] = 0;
-        assert_all_near("nothing presses inside", inside, still, n, 1e-11);
+        for (int32_t k = 0; k < n; k++) assert_near("nothing presses inside", inside[k], 0, 1e-11);
     }
     free(given), free(x);
 }
