@@ -1,0 +1,77 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The studies with error bars of a folder, and one page of their answers.
+
+    validation/bars.py validation/pads [-j N] [-o results/bars]
+
+Sweeps every *-bars.yaml of the folder (a call that is stopped goes on where it was) and writes FOLDER/bars.md: a table a
+study, an answer with its bar a row. The folder's README says which statements stand."""
+import argparse
+import csv
+import json
+import resource
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "validation/benchmark"))
+sys.dont_write_bytecode = True
+from measured_run import PROGRAM, markdown_table   # noqa: E402
+
+ANSWERS = ("mu_M", "mu_hold")
+NO_KEYS = {"point", "run", "status", "message", "warnings", "period", "slip_cells", "spread", "l_c", "total_s",
+           "model.contact_nodes", *ANSWERS, *(f"{name}_error" for name in ANSWERS)}
+
+
+def answer(row, name):
+    """0.2713 +- 0.0036, without the bar where it is not known."""
+    value, error = (float(row[key] or "nan") for key in (name, f"{name}_error"))
+    if value != value:
+        return "none"
+    return f"{value:.4f} ± {error:.4f}" if error == error else f"{value:.4f}, not known"
+
+
+def why(row):
+    """The first words of each warning about what is not met or not resolved."""
+    return "; ".join(sorted({text.strip().split(":")[0] for text in row["warnings"].split(" // ") if text.strip()}))
+
+
+def table(rows):
+    keys = [key for key in rows[0] if key not in NO_KEYS and len({row[key] for row in rows}) > 1
+            and key not in ("time.until.U", "mesh.set.height", "mesh.set.floor")]
+    lines = [[*(f"{float(row[key]):.4g}" if row[key][:1].isdigit() else row[key] for key in keys),
+              *(answer(row, name) for name in ANSWERS), f"{float(row['slip_cells'] or 'nan'):.3g}",
+              f"{float(row['total_s'] or 'nan'):.1f}", why(row)] for row in rows]
+    return markdown_table([*keys, *ANSWERS, "cells that slip runs away on", "s", "warned of"], lines)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("-j", "--jobs", default="1")
+    parser.add_argument("-o", "--output", type=Path, default=ROOT / "results/bars")
+    words = parser.parse_args()
+    studies = sorted(words.folder.glob("*-bars.yaml"))
+    if not studies:
+        parser.error(f"{words.folder} has no *-bars.yaml")
+    page = [f"# Answers with error bars\n\nBy `validation/bars.py {words.folder.resolve().relative_to(ROOT)}`. Bars of 95 % "
+            "([docs/accuracy.md](../../docs/accuracy.md)); s: wall time of\na point, its mesh and reduction included, on a "
+            "machine that did other things as well.\n"]
+    for study in studies:
+        folder = words.output / study.stem
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        subprocess.run([PROGRAM, "sweep", study, "-j", words.jobs, "-o", folder], check=True)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        rows = list(csv.DictReader((folder / "sweep.csv").open()))
+        title = study.read_text().split("title: ")[1].split("\n")[0]
+        version = json.loads((folder / rows[0]["run"] / "run.json").read_text())["version"]
+        page.append(f"## {title}\n\n`amontons sweep {study.resolve().relative_to(ROOT)}`, version {version}\n\n{table(rows)}")
+        seconds = sum(getattr(after, key) - getattr(before, key) for key in ("ru_utime", "ru_stime"))
+        if seconds > 1:   # else nothing was computed
+            print(f"{study.name}: {seconds:.0f} s of processor time", file=sys.stderr)
+    (words.folder / "bars.md").write_text("\n".join(page).rstrip() + "\n")
+
+
+if __name__ == "__main__":
+    main()
