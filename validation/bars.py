@@ -27,9 +27,10 @@ NO_KEYS = {"point", "run", "status", "message", "warnings", "period", "slip_cell
 def answer(row, name):
     """0.2713 +- 0.0036, without the bar where it is not known."""
     value, error = (float(row[key] or "nan") for key in (name, f"{name}_error"))
+    known = error == error and "mesh's part of it is not known" not in row["warnings"]
     if value != value:
         return "none"
-    return f"{value:.4f} ± {error:.4f}" if error == error else f"{value:.4f}, not known"
+    return f"{value:.4f} ± {error:.4f}" if known else f"{value:.4f}, not known"
 
 
 def why(row):
@@ -50,6 +51,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path)
     parser.add_argument("-j", "--jobs", default="1")
+    parser.add_argument("--page", action="store_true", help="write the page from what was computed, and compute nothing")
     parser.add_argument("-o", "--output", type=Path, default=ROOT / "results/bars")
     words = parser.parse_args()
     studies = sorted(words.folder.glob("*-bars.yaml"))
@@ -61,7 +63,8 @@ def main():
     for study in studies:
         folder = words.output / study.stem
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        subprocess.run([PROGRAM, "sweep", study, "-j", words.jobs, "-o", folder], check=True)
+        if not words.page:
+            subprocess.run([PROGRAM, "sweep", study, "-j", words.jobs, "-o", folder], check=True)
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
         rows = list(csv.DictReader((folder / "sweep.csv").open()))
         title = study.read_text().split("title: ")[1].split("\n")[0]
@@ -70,7 +73,7 @@ def main():
         seconds = sum(getattr(after, key) - getattr(before, key) for key in ("ru_utime", "ru_stime"))
         if seconds > 1:   # else nothing was computed
             print(f"{study.name}: {seconds:.0f} s of processor time", file=sys.stderr)
-    (words.folder / "bars.md").write_text("\n".join(page).rstrip() + "\n")
+    (words.folder / "bars.md").write_text("\n\n".join(text.strip() for text in page) + "\n")
 
 
 if __name__ == "__main__":
