@@ -39,7 +39,19 @@ void rod_soften(const Interface *interface, double modulus, double viscosity, Ro
 
 double rod_displacement(const Rod *rod, double time)
 {
+    if (rod->course) return rod_course_way(rod->course, time);
     return rod->way + rod->velocity * (time - rod->since);
+}
+
+double rod_velocity(const Rod *rod, double time)
+{
+    return rod->course ? rod_course_velocity(rod->course, time) : rod->velocity;
+}
+
+double rod_arrival(const Rod *rod, double way)
+{
+    if (rod->course) return rod_course_arrival(rod->course, way);
+    return rod->velocity > 0 ? rod->since + (way - rod->way) / rod->velocity : INFINITY;
 }
 
 void rod_set_velocity(Rod *rod, double velocity, double time)
@@ -56,7 +68,7 @@ double rod_bound(const Rod *rod, int32_t j, double position, double time, double
     double way = rod->origin[j] + rod_displacement(rod, time) - position;
     if (rod->softness[j] == 0) return way / reach;
     // r = [way - reach v + lag (V - v)] / softness = 0 at this v.
-    return (way + rod->lag * rod->velocity) / (reach + rod->lag);
+    return (way + rod->lag * rod_velocity(rod, time)) / (reach + rod->lag);
 }
 
 double rod_bound_on_spring(const Rod *rod, int32_t j, double position, double way, double reach)

@@ -27,6 +27,7 @@
 
 #include "base/archive.h"
 #include "contact/interface.h"
+#include "contact/rod_course.h"
 
 typedef enum RodKind {
     ROD_AWAY,   // touches nothing (while the block relaxes)
@@ -37,6 +38,7 @@ typedef enum RodKind {
 typedef struct Rod {
     RodKind kind;
     double velocity;   // V, velocity
+    const RodCourse *course;   // by which it is driven from time 0 on; NULL: with V; not owned
     double since, way;   // it has this velocity since then, from this displacement on; time, length
     double stiffness;   // of the spring that drives it, force/width over length; 0: rigid
     double *origin;   // [rod_count] u_x,j(0), length; owned
@@ -52,8 +54,11 @@ void rod_destroy(Rod *rod);
 // Springs where the interface has shares below 1. modulus, viscosity: E* of both, stress, * time.
 void rod_soften(const Interface *interface, double modulus, double viscosity, Rod *rod);
 
-// U: V t, where V was the same from t = 0 on.
+// U: V t, where V was the same from t = 0 on; and its velocity.
 double rod_displacement(const Rod *rod, double time);
+double rod_velocity(const Rod *rod, double time);
+// When it is first displaced by `way` > 0, from where it is at its last change; INFINITY: never.
+double rod_arrival(const Rod *rod, double way);
 // It moves with V from `time` on, from where it is then.
 void rod_set_velocity(Rod *rod, double velocity, double time);
 

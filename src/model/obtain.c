@@ -28,11 +28,12 @@ static bool wants_mesh(const Scene *scene)
     return scene->output.fields || scene->output.whole;
 }
 
-// A reduced bulk follows what the interface does: not a load put on at once, nor a velocity that
-// supports stop.
+// A reduced bulk follows what the interface does: not a load put on at once or changed, nor a
+// velocity that supports stop.
 static bool starts_at_interface(const Scene *scene)
 {
-    if (scene->start.state == START_UNDEFORMED) return false;
+    if (scene->start.state == START_UNDEFORMED || scene->load.program.factor.count > 0)
+        return false;
     for (int32_t k = 0; k < scene->load.support_count; k++) {
         const SceneSupport *support = &scene->load.supports[k];
         if (support->x && scene->start.velocity_x != 0) return false;

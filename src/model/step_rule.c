@@ -4,6 +4,8 @@
 // at which most steps are taken, is a rung and not up to twice as long as the next one.
 #include "model/step_rule.h"
 
+#include "scene/programs.h"
+
 #include <math.h>
 
 static const double STEP_MAX_SLIP = 0.2;   // rung 0: the drive moves this part of that slip, and
@@ -22,6 +24,10 @@ double step_rule_end(const Scene *scene)
 {
     double by_rod = scene->time.until_U > 0 ? scene->time.until_U / scene->rod.velocity : 0;
     double by_time = scene->time.until_t;
+    if (by_rod > 0 && scene_has_program(&scene->rod.program)) {
+        RodCourse course = scene_rod_course(scene);
+        by_rod = rod_course_arrival(&course, scene->time.until_U);
+    }
     if (by_rod > 0 && by_time > 0) return fmin(by_rod, by_time);
     return by_rod > 0 ? by_rod : by_time;
 }
@@ -41,7 +47,9 @@ StepControlDef step_rule(const Scene *scene, const StepSizes *sizes)
                           .energy_tolerance = scene->time.energy_tolerance,
                           .use_certificate = scene->time.certificate};
     if (driven) {
-        double longest = STEP_MAX_SLIP * (sizes->slip + sizes->yield) / scene->rod.velocity;
+        Schedule program = scene_schedule(&scene->rod.program);
+        double fastest = scene->rod.velocity * schedule_largest(&program);
+        double longest = STEP_MAX_SLIP * (sizes->slip + sizes->yield) / fastest;
         def.step_max = def.wave_step * exp2(ceil(log2(longest / def.wave_step)));
     }
     if (implicit && scene->time.step_max > 0) def.step_max = scene->time.step_max;

@@ -41,7 +41,8 @@ static Moments sum_moments(const StepControl *control)
     const BulkOperator *system = control->scheme.system;
     const Interface *interface = control->scheme.interface;
     const State *state = &control->now;
-    Moments sum = {.forces = dense_dot(system->rotation, system->load, system->dof_count),
+    double factor = load_factor(control->scheme.course, state->time);
+    Moments sum = {.forces = factor * dense_dot(system->rotation, system->load, system->dof_count),
                    .inertia = dense_dot(system->rotation, state->inertia, system->dof_count)};
     for (int32_t k = 0; k < interface->count; k++)
         sum.forces += system->rotation[system->interface_dofs[k]] * state->reaction[k];
@@ -65,7 +66,8 @@ Observation observe(const StepControl *control, const ObservationScales *scales)
                         .certified = control->certified,
                         .grows = control->grows};
     if (scheme->rod->stiffness == 0) seen.rod_way = seen.U;
-    seen.mu = seen.rod_force / scales->load;
+    double load = scales->load * load_factor(scheme->course, state->time);
+    seen.mu = seen.rod_force / load;
     for (int32_t i = 0; i < interface->contact_count; i++) {
         seen.normal_force += state->reaction[interface_normal(i)];
         double height = state->displacement[seen.system->interface_dofs[interface_normal(i)]];

@@ -30,6 +30,7 @@ bool explicit_loop_prepare(Simulation *simulation, Error *err)
                        .interface = &simulation->model.interface,
                        .law = &simulation->law,
                        .rod = &simulation->rod,
+                       .course = control->scheme.course,
                        .step = interval / steps};
     TRY(explicit_reference_create(&def, &simulation->explicit_reference, err));
     explicit_reference_start(&simulation->explicit_reference, &control->now);

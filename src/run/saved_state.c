@@ -153,6 +153,7 @@ static bool archive_parts(Simulation *simulation, Archive *archive, Error *err)
     archive_number(archive, &simulation->pressure);
     archive_number(archive, &simulation->model.scales.load);
     archive_number(archive, &simulation->last_unquiet);
+    archive_flag(archive, &simulation->mu_above);
     bulk_operator_archive(&simulation->model.system, archive);
     int64_t factorisations = simulation->model.system.factorisations;
     rod_archive(&simulation->rod, archive);

@@ -13,6 +13,7 @@
 #include "run/start.h"
 #include "run/summary.h"
 #include "run/warnings.h"
+#include "scene/programs.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -68,6 +69,14 @@ static bool scene_supports_nothing(const Simulation *simulation)
     return simulation->scene.load.support_count == 0;
 }
 
+// For time.until.mu_below.
+static void note_mu(Simulation *simulation)
+{
+    double limit = simulation->scene.time.until_mu_below, mu = simulation->seen.mu;
+    simulation->mu_fell = limit > 0 && simulation->mu_above && mu < limit;
+    simulation->mu_above = simulation->mu_above || mu >= limit;
+}
+
 // Looks at the state just accepted and hands it on.
 static bool record_step(Simulation *simulation, Error *err)
 {
@@ -75,6 +84,7 @@ static bool record_step(Simulation *simulation, Error *err)
     double started = clock_seconds();
     Observation seen = observe(control, &simulation->model.scales);
     simulation->seen = seen;
+    note_mu(simulation);
     RunErrors *errors = &simulation->errors;
     errors->energy = fmax(errors->energy, seen.energy_error);
     errors->complementarity = fmax(errors->complementarity, seen.contact_error);
@@ -147,6 +157,7 @@ static bool go_on(Simulation *simulation, const SavedState *state, Error *err)
     if (simulation->scene.output.history) TRY(checkpoint_try_history(simulation->folder.path, err));
     TRY(result_folder_take_up(&simulation->folder, err));
     simulation->goes_on = true;
+    start_programs(simulation);
     TRY(explicit_loop_prepare(simulation, err));
     TRY(open_recorders(simulation, err));
     TRY(amontons_simulation_restore(simulation, state, err));
@@ -197,7 +208,9 @@ bool amontons_simulation_create(const Scene *scene, const RunOptions *options, S
     StageNotice notice = {.tell = tell_stage, .self = simulation};
     TRY(model_obtain(&simulation->scene, &notice, &simulation->model, err));
     TRY(start_prepare_steps(simulation, err));
-    warnings_of_resolution(&simulation->control.certificate, simulation->model.scales.load,
+    Schedule load = scene_schedule(&scene->load.program);
+    warnings_of_resolution(&simulation->control.certificate,
+                           simulation->model.scales.load * schedule_largest(&load),
                            &simulation->warnings);
     warnings_of_rod(scene, &simulation->model.interface, simulation->model.height,
                     &simulation->warnings);
@@ -209,6 +222,15 @@ bool amontons_simulation_create(const Scene *scene, const RunOptions *options, S
 cleanup:
     amontons_state_free(&state);
     return error_is_clean(err);
+}
+
+// One of those that time.until asks for.
+static bool simulation_has_event(const Simulation *simulation)
+{
+    const Events *events = &simulation->events;
+    double slidings = simulation->scene.time.until_slidings;
+    bool slid = slidings > 0 && events->rapid < 0 && events->kinds[EVENT_LEADING] >= slidings;
+    return slid || simulation->mu_fell;
 }
 
 // What is left is less than a rung that is built: not worth a factorisation. The periodic regime is
@@ -223,7 +245,24 @@ bool simulation_is_finished(const Simulation *simulation)
                      (implicit && !step_control_fits(control, remaining)));
     if (simulation->scene.time.until_periodic && simulation->events.ended)
         finished = finished || answers_are_known(&simulation->drops);
-    return finished;
+    return finished || simulation_has_event(simulation);
+}
+
+// Steps end at the points of programs, but for what is too short to be worth a rung: that is
+// stepped over while waves are resolved.
+static bool advance_implicit(Simulation *simulation, Error *err)
+{
+    static const double WORTH = 0.125;   // of the wave step
+    StepControl *control = &simulation->control;
+    double point = steering_next_point(simulation), end = simulation->t_end;
+    double now = control->now.time;
+    bool near = point - now < WORTH * control->def.wave_step;
+    if (near) step_control_disturb(control);
+    control->lands = !near && point < end;
+    TRY(step_control_advance(control, (control->lands ? point : end) - now, err));
+    steering_pass_point(simulation, point);
+cleanup:
+    return error_is_clean(err);
 }
 
 // An explicit `step` is one record of many small ones. *finished: the end of the scene, or the
@@ -232,11 +271,10 @@ bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *fini
 {
     StepControl *control = &simulation->control;
     double started = clock_seconds();
-    double remaining = simulation->t_end - control->now.time;
     if (simulation->scene.time.scheme == SCHEME_EXPLICIT)
         TRY(explicit_loop_advance(simulation, err));
     else
-        TRY(step_control_advance(control, remaining, err));
+        TRY(advance_implicit(simulation, err));
     simulation->timing.solve += clock_seconds() - started;
     TRY(record_step(simulation, err));
     bool implicit = simulation->scene.time.scheme != SCHEME_EXPLICIT;

@@ -22,6 +22,8 @@ struct Simulation {
     Model model;   // of `scene`
     FrictionLaw law;   // that acts now: the model's, or none while relaxing without friction
     Rod rod;   // where it is and what it does now; owned
+    RodCourse rod_course;   // how it is driven, where the scene has a program
+    LoadCourse load_course;
     int64_t relaxation_steps;
     StepControl control;
     ExplicitReference explicit_reference;   // empty under another scheme
@@ -38,6 +40,7 @@ struct Simulation {
         *block_motion;   // [nodes * 4] displacement, velocity of the mesh; NULL: not asked; owned
     double t_end;   // time; INFINITY: the rod no longer goes where the scene ends
     double pressure;   // that acts now, stress
+    bool mu_above, mu_fell;   // time.until.mu_below: mu has been above it; and has fallen below
     RunTiming timing;
     RunErrors errors;
     RunWarnings warnings;
@@ -59,6 +62,10 @@ bool simulation_run(const Scene *scene, const RunOptions *options, RunSummary *s
 bool simulation_loop(Simulation *simulation, Error *err);   // steps to the end of the scene
 
 bool simulation_is_finished(const Simulation *simulation);   // the scene's end, or its period
+// When rod or load next come to a point of the scene's programs; INFINITY: never.
+double steering_next_point(const Simulation *simulation);
+// After a step: where it has reached `point` waves are resolved again.
+void steering_pass_point(Simulation *simulation, double point);
 double steering_end(const Simulation *simulation);   // when the scene ends, as the rod moves now
 
 // Closes history, draws, reports. failure: NULL, or why the run ended early; it is reported, and

@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "model/step_rule.h"
+#include "scene/programs.h"
 #include "stepping/relaxation.h"
 
 #include <math.h>
@@ -74,6 +75,18 @@ static void set_moving(const Model *model, State *state)
     bulk_operator_apply(system, BULK_MASS, state->velocity, state->momentum);
 }
 
+void start_programs(Simulation *simulation)
+{
+    const Scene *scene = &simulation->scene;
+    simulation->rod_course = scene_rod_course(scene);
+    simulation->load_course = (LoadCourse){.schedule = scene_schedule(&scene->load.program),
+                                           .by_way = scene->load.program.U.count > 0,
+                                           .rod = &simulation->rod};
+    if (scene_has_program(&scene->rod.program)) simulation->rod.course = &simulation->rod_course;
+    if (scene_has_program(&scene->load.program))
+        simulation->control.scheme.course = &simulation->load_course;
+}
+
 // An undeformed start skips relaxing. At the end t = 0, the ledger is opened, the model's friction
 // acts and the rod has its velocity.
 bool start_relax(Simulation *simulation, Error *err)
@@ -89,6 +102,7 @@ bool start_relax(Simulation *simulation, Error *err)
     simulation->law = model->law;
     simulation->rod.kind = ROD_KINDS[scene->rod.kind];
     simulation->rod.velocity = scene->rod.velocity;
+    start_programs(simulation);
     // A rod that was held stands where it stood, however far its soft ends were pressed in.
     bool held = scene->start.rod == START_ROD_HELD;
     if (scene->rod.kind != ROD_NONE && !held) touch_rod(simulation);

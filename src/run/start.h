@@ -7,6 +7,8 @@
 #include "run/simulation_state.h"
 
 bool start_prepare_steps(Simulation *simulation, Error *err);
+// Rod and load follow the scene's programs from now on.
+void start_programs(Simulation *simulation);
 bool start_relax(Simulation *simulation, Error *err);
 
 #endif

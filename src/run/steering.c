@@ -3,6 +3,7 @@
 // work is summed over the stages with the velocity and the load that act in them.
 #include "run/simulation_state.h"
 #include "run/warnings.h"
+#include "scene/programs.h"
 
 #include <math.h>
 
@@ -32,9 +33,32 @@ static void disturb(Simulation *simulation)
     simulation->last_unquiet = simulation->control.now.time;
 }
 
+double steering_next_point(const Simulation *simulation)
+{
+    double now = simulation->control.now.time, next = INFINITY;
+    if (simulation->rod.course) next = schedule_next(&simulation->rod.course->schedule, now);
+    return fmin(next, load_next(simulation->control.scheme.course, now));
+}
+
+void steering_pass_point(Simulation *simulation, double point)
+{
+    if (simulation->control.now.time >= point * (1 - 1e-12)) disturb(simulation);
+}
+
+static bool check_free(const Simulation *simulation, const SceneProgram *program, const char *key,
+                       Error *err)
+{
+    if (scene_has_program(program))
+        FAIL(err, ERROR_INPUT, "%s: %s: the scene says how this changes", simulation->scene.path,
+             key);
+cleanup:
+    return error_is_clean(err);
+}
+
 bool amontons_simulation_set_rod_velocity(Simulation *simulation, double velocity, Error *err)
 {
     TRY(check_implicit(simulation, err));
+    TRY(check_free(simulation, &simulation->scene.rod.program, "rod.program", err));
     if (!isfinite(velocity))
         FAIL(err, ERROR_INPUT, "a rod velocity of %g is not possible", velocity);
     if (simulation->rod.kind == ROD_AWAY)
@@ -54,6 +78,7 @@ bool amontons_simulation_set_pressure(Simulation *simulation, double pressure, E
     const Scene *scene = &simulation->scene;
     BulkOperator *system = &simulation->model.system;
     TRY(check_implicit(simulation, err));
+    TRY(check_free(simulation, &simulation->scene.load.program, "load.program", err));
     if (!(pressure > 0 && isfinite(pressure)))
         FAIL(err, ERROR_INPUT, "a pressure of %g is not possible: above 0", pressure);
     if (!(scene->load.pressure > 0) || scene->load.traction_count > 0)

@@ -5,7 +5,9 @@
 
 #include "amontons.h"
 #include "scene/materials.h"
+#include "scene/programs.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <string.h>
 
@@ -185,6 +187,71 @@ static bool check_rod(const Check *check)
     return blame(check, "rod.stiffness", "the scene has no rod (rod.kind: none); leave it out");
 }
 
+// As many factors as points, of time or of U, which ascend from 0.
+static bool check_points(const Check *check, const char *map, const SceneProgram *program)
+{
+    char t[40], U[40], factor[40];
+    snprintf(t, sizeof t, "%s.t", map);
+    snprintf(U, sizeof U, "%s.U", map);
+    snprintf(factor, sizeof factor, "%s.factor", map);
+    bool by_way = program->U.count > 0;
+    const SceneNumbers *at = by_way ? &program->U : &program->t;
+    const char *place = by_way ? U : t;
+    if (program->factor.count == 0 && at->count == 0 && !program->repeat) return true;
+    if (by_way && program->t.count > 0) return blame(check, U, "give either t or U");
+    if (at->count < 2) return blame(check, place, "a program needs two points or more");
+    if (program->factor.count != at->count)
+        return blame(check, factor, "%d numbers for %d points", program->factor.count, at->count);
+    if (at->value[0] != 0) return blame(check, place, "begins at %g, not at 0", at->value[0]);
+    for (int32_t k = 1; k < at->count; k++) {
+        if (at->value[k] < at->value[k - 1])
+            return blame(check, place, "%g comes after %g", at->value[k], at->value[k - 1]);
+        if (at->value[k] == (k > 1 ? at->value[k - 2] : 0))
+            return blame(check, place, "%g stands %s", at->value[k],
+                         at->value[k] == 0 ? "twice: say what it begins with" : "three times");
+    }
+    return true;
+}
+
+static double least_factor(const SceneProgram *program)
+{
+    double least = INFINITY;
+    for (int32_t k = 0; k < program->factor.count; k++)
+        least = fmin(least, program->factor.value[k]);
+    return least;
+}
+
+// What follows U must have a U that rises.
+static bool check_programs(const Check *check)
+{
+    const Scene *scene = check->scene;
+    const SceneProgram *rod = &scene->rod.program, *load = &scene->load.program;
+    if (!check_points(check, "rod.program", rod) || !check_points(check, "load.program", load))
+        return false;
+    bool moves = scene->rod.kind != ROD_NONE;
+    if (scene_has_program(rod) && !moves)
+        return blame(check, "rod.program", "the scene has no rod (rod.kind: none); leave it out");
+    if (load->U.count > 0 && !moves)
+        return blame(check, "load.program.U", "the scene has no rod (rod.kind: none); give t");
+    if (rod->U.count > 0 && !(least_factor(rod) > 0))
+        return blame(check, "rod.program.factor",
+                     "by U it must be above 0 everywhere, or the rod never gets on; by t it need "
+                     "not be");
+    if (load->U.count > 0 && !(least_factor(rod) > 0))
+        return blame(check, "load.program.U",
+                     "rod.program holds the rod or takes it back, and so U; give t");
+    if (scene_has_program(load) && load->factor.value[0] != 1)
+        return blame(check, "load.program.factor",
+                     "begins with %g, not with 1: the block relaxes under load.pressure and "
+                     "load.tractions as they are",
+                     load->factor.value[0]);
+    if (scene_has_program(load) && scene->reduction.use == REDUCE_ALWAYS)
+        return blame(check, "reduction.use",
+                     "`always`, but a load that changes needs the mesh (load.program): auto or "
+                     "never");
+    return true;
+}
+
 // time.until: U needs a rod; a scene that is no static one must say when to stop; step_min is at
 // most step_max.
 static bool check_time(const Check *check)
@@ -197,6 +264,14 @@ static bool check_time(const Check *check)
         return blame(check, "time.until",
                      "says not when to stop; allowed: {U: LENGTH}, {t: TIME}, and with either "
                      "`periodic: true` (stop then at the latest)");
+    RodCourse course = scene_rod_course(scene);
+    bool arrives = isfinite(rod_course_arrival(&course, scene->time.until_U));
+    if (scene->time.until_U > 0 && !(scene->time.until_t > 0) && !arrives)
+        return blame(check, "time.until.U",
+                     "rod.program never takes the rod so far: less, or an end by t");
+    if (scene->time.until_slidings != floor(scene->time.until_slidings))
+        return blame(check, "time.until.slidings", "%g is no whole number",
+                     scene->time.until_slidings);
     if (scene->time.step_max > 0 && scene->time.step_min > scene->time.step_max)
         return blame(check, "time.step_min", "%g is more than step_max (%g)", scene->time.step_min,
                      scene->time.step_max);
@@ -236,5 +311,5 @@ bool scene_check(const Scene *scene, const SceneValue *sources, const YamlDocume
     Check check = {.scene = scene, .sources = sources, .file = file, .err = err};
     return check_required(&check) && check_friction(&check) && check_load(&check) &&
            check_materials(&check) && check_groups(&check) && check_rod(&check) &&
-           check_time(&check) && check_output(&check);
+           check_programs(&check) && check_time(&check) && check_output(&check);
 }

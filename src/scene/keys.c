@@ -135,6 +135,19 @@ static const SceneKey keys[] = {
     {"load.supports", KEY_SUPPORTS, offsetof(Scene, load.supports), "1", RANGE_ANY, "[]",
      .sentence = "Where the block is held, a list of {group, direction}: nodes of a curve group "
                  "that do not move along `x`, `z` or `both`."},
+    {"load.program.t", KEY_NUMBERS, offsetof(Scene, load.program.t), "time", RANGE_NOT_NEGATIVE,
+     NULL, .may_lack = true,
+     .sentence = "Times of the program, ascending from 0; the same twice: a jump."},
+    {"load.program.U", KEY_NUMBERS, offsetof(Scene, load.program.U), "length", RANGE_NOT_NEGATIVE,
+     NULL, .may_lack = true,
+     .sentence = "The same by displacements of the rod's drive, in the place of times."},
+    {"load.program.factor", KEY_NUMBERS, offsetof(Scene, load.program.factor), "1", RANGE_POSITIVE,
+     NULL, .may_lack = true,
+     .sentence = "The load at each, over that at t = 0, under which the block relaxes: the first "
+                 "is 1. Straight lines between."},
+    {"load.program.repeat", KEY_FLAG, offsetof(Scene, load.program.repeat), "1", RANGE_ANY, NULL,
+     .may_lack = true,
+     .sentence = "true: begin again after the last point; else what it has there stays."},
     {"rod.velocity", KEY_NUMBER, offsetof(Scene, rod.velocity), "velocity", RANGE_POSITIVE, NULL,
      .sentence = "Speed V of the rod along x; not needed with kind `none`, nor by `amontons "
                  "static`."},
@@ -157,6 +170,19 @@ static const SceneKey keys[] = {
      .sentence = "`exact`: the strip ends where height and width say, also within a cell. `nodes`: "
                  "it is the nodes inside, and its width changes with the mesh.",
      .choices = rod_ends_choices},
+    {"rod.program.t", KEY_NUMBERS, offsetof(Scene, rod.program.t), "time", RANGE_NOT_NEGATIVE, NULL,
+     .may_lack = true,
+     .sentence = "Times of the program, ascending from 0; the same twice: a jump."},
+    {"rod.program.U", KEY_NUMBERS, offsetof(Scene, rod.program.U), "length", RANGE_NOT_NEGATIVE,
+     NULL, .may_lack = true,
+     .sentence = "The same by displacements of the rod's drive, in the place of times."},
+    {"rod.program.factor", KEY_NUMBERS, offsetof(Scene, rod.program.factor), "1", RANGE_ANY, NULL,
+     .may_lack = true,
+     .sentence = "The rod's velocity at each, over rod.velocity: 0 holds it, below 0 it goes back. "
+                 "Straight lines between."},
+    {"rod.program.repeat", KEY_FLAG, offsetof(Scene, rod.program.repeat), "1", RANGE_ANY, NULL,
+     .may_lack = true,
+     .sentence = "true: begin again after the last point; else what it has there stays."},
     {"start.friction", KEY_CHOICE, offsetof(Scene, start.friction), "1", RANGE_ANY, "on",
      .sentence = "Whether friction acts while the block relaxes under its load.",
      .choices = switch_choices},
@@ -184,6 +210,14 @@ static const SceneKey keys[] = {
     {"time.until.periodic", KEY_FLAG, offsetof(Scene, time.until_periodic), "1", RANGE_ANY, "false",
      .sentence = "Stop earlier when the periodic regime is established, or when load drops that "
                  "do not repeat are enough (results.drops.enough)."},
+    {"time.until.slidings", KEY_NUMBER, offsetof(Scene, time.until_slidings), "1",
+     RANGE_NOT_NEGATIVE, NULL, .may_lack = true,
+     .sentence =
+         "Stop earlier when the whole block has slid so many times, each to its end; 1: the "
+         "first sliding."},
+    {"time.until.mu_below", KEY_NUMBER, offsetof(Scene, time.until_mu_below), "1",
+     RANGE_NOT_NEGATIVE, NULL, .may_lack = true,
+     .sentence = "Stop earlier when F_T / F_N falls below this, having been above."},
     {"time.scheme", KEY_CHOICE, offsetof(Scene, time.scheme), "1", RANGE_ANY, "sdirk2",
      .sentence = "`sdirk2`: implicit, of order 2, steps as long as the answer allows. `euler`, "
                  "`sdirk3`: the same with backward Euler (order 1), three stages (order 3). "
@@ -317,9 +351,10 @@ static const char *last_word(const char *name)
 // whole name, then in its last word.
 const char *scene_key_nearest(const char *name)
 {
-    static const char *const groups[] = {
-        "mesh",  "groups", "material",   "friction", "contact",   "load",  "rod",
-        "start", "time",   "time.until", "accuracy", "reduction", "output"};
+    static const char *const groups[] = {"mesh",    "groups",      "material",    "friction",
+                                         "contact", "load",        "rod",         "start",
+                                         "time",    "time.until",  "accuracy",    "reduction",
+                                         "output",  "rod.program", "load.program"};
     enum { GROUP_COUNT = sizeof groups / sizeof groups[0], COUNT = GROUP_COUNT + KEY_COUNT };
     const char *names[COUNT], *words[COUNT];
     for (int32_t k = 0; k < GROUP_COUNT; k++) names[k] = groups[k];

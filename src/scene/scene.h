@@ -11,7 +11,7 @@
 #include "io/yaml_document.h"
 #include "scene/scene_values.h"
 
-enum { SCENE_KEYS_MAX = 96 };   // of scene/keys
+enum { SCENE_KEYS_MAX = 128 };   // of scene/keys
 
 typedef enum SceneUnits { UNITS_NORMALISED, UNITS_SI } SceneUnits;
 typedef enum ScenePlane { PLANE_STRESS, PLANE_STRAIN } ScenePlane;
@@ -60,6 +60,7 @@ typedef struct Scene {
         SceneTraction tractions[SCENE_LIST_MAX];
         int32_t support_count;   // load.supports: [{group, direction}]
         SceneSupport supports[SCENE_LIST_MAX];
+        SceneProgram program;   // of all loads
     } load;
     struct {
         double velocity;
@@ -68,6 +69,7 @@ typedef struct Scene {
         double height, width;   // of the strip's centre, and its extent; 0: H/2 and 0.1 H
         SceneRodKind kind;
         SceneRodEnds ends;
+        SceneProgram program;   // of the velocity
     } rod;
     struct {
         SceneStartFriction friction;
@@ -80,6 +82,7 @@ typedef struct Scene {
     struct {
         double until_U, until_t;   // 0: not given; one of them must be
         bool until_periodic;
+        double until_slidings, until_mu_below;   // 0: not asked
         SceneScheme scheme;
         SceneAccuracy accuracy;
         double tolerance;   // of a step, relative; 0: by accuracy

@@ -24,6 +24,12 @@ typedef struct SceneNumbers {
     double value[SCENE_NUMBERS_MAX];
 } SceneNumbers;
 
+// rod.program, load.program: a factor over time or over U, one of the two.
+typedef struct SceneProgram {
+    SceneNumbers t, U, factor;   // as many of each; none: there is no program
+    bool repeat;
+} SceneProgram;
+
 typedef struct SceneTraction {
     char group[GROUP_NAME_SIZE];
     double x, z;   // stress

@@ -384,6 +384,7 @@ void scene_value_clear(const SceneKey *key, Scene *scene)
                   : key->type == KEY_CONTACT_LAWS ? sizeof(SceneContactLaws)
                   : key->type == KEY_MATERIALS    ? sizeof(SceneMaterials)
                   : key->type == KEY_CHOICE       ? sizeof(int32_t)
+                  : key->type == KEY_FLAG         ? sizeof(bool)
                                                   : SCENE_TEXT_SIZE;
     memset(field_of(key, scene), 0, size);
 }

@@ -116,7 +116,7 @@ static double sweep_free(ExplicitReference *scheme)
     Pair *restrict next = (Pair *)scheme->next;
     Pair *restrict force = (Pair *)scheme->force;
     const int32_t *restrict start = scheme->start, *restrict column = scheme->column;
-    double step = scheme->def.step;
+    double step = scheme->def.step, factor = scheme->factor;
     Pair power = {0, 0};
     memset(force, 0, NODE_SIZE * (size_t)scheme->node_count * sizeof(double));
     for (int32_t i = 0; i < scheme->node_count; i++) {
@@ -137,7 +137,7 @@ static double sweep_free(ExplicitReference *scheme)
                                 __builtin_shufflevector(cx, cz, 1, 3) * v[1];
         }
         power += v * viscous;
-        Pair faster = v + scheme->kick[i] * (load[i] - elastic - viscous);
+        Pair faster = v + scheme->kick[i] * (factor * load[i] - elastic - viscous);
         next[2 * i] = u + step * faster;
         next[2 * i + 1] = faster;
     }
@@ -304,11 +304,22 @@ static double resolve_rod(ExplicitReference *scheme, int32_t j, State *state, do
     return pushed;
 }
 
+// Of the load that acts in the step, by the velocities at its end.
+static double load_power(const ExplicitReference *scheme)
+{
+    double power = 0;
+    for (int32_t i = 0; i < scheme->node_count; i++)
+        for (int32_t d = 0; d < 2; d++)
+            power += scheme->def.bulk->load[2 * i + d] * scheme->next[NODE_SIZE * i + 2 + d];
+    return scheme->factor * power;
+}
+
 // One step; the powers of the step go to the ledger.
 static void advance_once(ExplicitReference *scheme, State *state, EnergyLedger *ledger)
 {
     const Interface *interface = scheme->def.interface;
     double step = scheme->def.step, frictional = 0, pushed = 0;
+    scheme->factor = load_factor(scheme->def.course, scheme->time + step * (double)scheme->steps);
     double viscous = sweep_free(scheme);
     for (int32_t i = 0; i < interface->contact_count; i++)
         frictional += resolve_contact(scheme, i, state);
@@ -319,6 +330,7 @@ static void advance_once(ExplicitReference *scheme, State *state, EnergyLedger *
     ledger->viscous += step * viscous;
     ledger->frictional += step * frictional;
     ledger->rod_work += step * pushed;
+    if (scheme->def.course) scheme->load_work += step * load_power(scheme);
     scheme->steps++;
 }
 
@@ -335,7 +347,8 @@ static double centred_residual(ExplicitReference *scheme, const State *state)
     for (int32_t k = 0; k < dofs; k++)
         field[k] = state->displacement[k] - step * state->velocity[k];
     sparse_apply(&bulk->pattern, bulk->stiffness, field, sum);
-    for (int32_t k = 0; k < dofs; k++) sum[k] += state->inertia[k] + viscous[k] - bulk->load[k];
+    for (int32_t k = 0; k < dofs; k++)
+        sum[k] += state->inertia[k] + viscous[k] - scheme->factor * bulk->load[k];
     for (int32_t k = 0; k < state->interface_count; k++)
         sum[scheme->def.interface->dofs[k]] -= state->reaction[k];
     return dense_max_abs(sum, dofs);
@@ -361,6 +374,8 @@ static double fill_state(ExplicitReference *scheme, State *state)
     sparse_apply(&bulk->pattern, bulk->stiffness, state->displacement, state->elastic_force);
     state->time = scheme->time + scheme->def.step * (double)scheme->steps;
     state->rod_way = scheme->rod_way;
+    if (scheme->def.course) load_work = scheme->load_work;
+    scheme->load_work = 0;
     return load_work;
 }
 

@@ -25,12 +25,14 @@
 #include "bulk/assembly.h"
 #include "contact/rod.h"
 #include "stepping/energy.h"
+#include "stepping/load_course.h"
 
 typedef struct ExplicitDef {
     const Bulk *bulk;
     const Interface *interface;
     const FrictionLaw *law;
     const Rod *rod;
+    const LoadCourse *course;   // NULL: the load stays
     double step;   // dt, time
 } ExplicitDef;
 
@@ -48,6 +50,8 @@ typedef struct ExplicitReference {
     double rod_way;   // R at t_n, of a rod on a spring, length
     double time;   // t_n at the start
     int64_t steps;   // since then
+    double factor;   // of the load in the last step
+    double load_work;   // of the steps since `state` was last filled, where a course changes it
     double residual;   // of M a + C (v + v')/2 + K u = f + r in the last step, largest: the lag
 } ExplicitReference;
 

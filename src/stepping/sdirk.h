@@ -15,6 +15,7 @@
 #include "contact/contact_solver.h"
 #include "stepping/energy.h"
 #include "stepping/ladder.h"
+#include "stepping/load_course.h"
 #include "stepping/tableau.h"
 
 typedef struct Sdirk {
@@ -24,6 +25,7 @@ typedef struct Sdirk {
     const Interface *interface;
     const FrictionLaw *law;
     Rod *rod;
+    const LoadCourse *course;   // set once the rod moves; NULL: the load stays; not owned
     ContactSolver solver;   // owned, like all that follows
     double *rhs, *force, *viscous;   // [dof_count] work
     double *predictor;   // [dof_count] work: u_i*

@@ -224,7 +224,7 @@ static int32_t next_rung(StepControl *control, int32_t k, double error, bool ret
     return resolving;
 }
 
-// The coarsest built rung that does not overshoot; the chosen one when none is.
+// The coarsest built rung that does not overshoot; the chosen one when none is, or one is made.
 static int32_t fit_rung(const StepControl *control, int32_t k, double remaining)
 {
     const Ladder *ladder = &control->ladder;
@@ -233,7 +233,8 @@ static int32_t fit_rung(const StepControl *control, int32_t k, double remaining)
     for (int32_t fit = k + 1; fit < ladder->rung_count; fit++) {
         if (ladder->rung[fit] && ladder_step(ladder, fit) <= remaining) return fit;
     }
-    return k;
+    int32_t made = ladder_find(ladder, remaining);
+    return control->lands && made < ladder->rung_count ? made : k;
 }
 
 bool step_control_fits(const StepControl *control, double remaining)

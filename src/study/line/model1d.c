@@ -33,6 +33,9 @@ static bool check_scene(const Scene *scene, Error *err)
              "%s: the 1D model is driven by a rod: rod.velocity must be above 0 and rod.kind push "
              "or bonded",
              path);
+    if (scene->rod.program.factor.count > 0 || scene->load.program.factor.count > 0)
+        FAIL(err, ERROR_INPUT, "%s: %s.program: the 1D model has one load and one rod velocity",
+             path, scene->rod.program.factor.count > 0 ? "rod" : "load");
     if (scene->rod.stiffness > 0)
         FAIL(err, ERROR_INPUT, "%s: rod.stiffness: the 1D model's rod goes where it is driven",
              path);

@@ -39,6 +39,10 @@ static bool check_scene(const Scene *scene, const StabilityOptions *options, Err
              "%s: stability follows the slip that a rod drives: rod.velocity must be above 0 and "
              "rod.kind push or bonded",
              scene->path);
+    if (!options->at_end && (scene->rod.program.factor.count || scene->load.program.factor.count))
+        FAIL(err, ERROR_INPUT,
+             "%s: %s.program: the quasi-static path is that of one load and of a rod that gets on",
+             scene->path, scene->rod.program.factor.count > 0 ? "rod" : "load");
     if (scene->time.scheme == SCHEME_EXPLICIT)
         FAIL(err, ERROR_INPUT,
              "%s: the quasi-static path needs implicit steps: --set time.scheme=sdirk2",

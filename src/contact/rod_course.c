@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/rod_course.h"
+
+#include <math.h>
+
+// Between point k and the next, t after it.
+typedef struct Stretch {
+    double duration;   // INFINITY: beyond the last point
+    double velocity;   // v_0 at its beginning
+    double slope;   // a, acceleration, or by way g, 1/time
+} Stretch;
+
+static Stretch stretch_of(const RodCourse *course, int32_t k)
+{
+    const Schedule *over = &course->schedule;
+    double first = course->velocity * over->factor[k];
+    if (k + 1 == over->count) return (Stretch){.duration = INFINITY, .velocity = first};
+    double last = course->velocity * over->factor[k + 1], duration = over->at[k + 1] - over->at[k];
+    if (!(duration > 0)) return (Stretch){.velocity = first};
+    double slope = course->by_way ? log(last / first) / duration : (last - first) / duration;
+    return (Stretch){.duration = duration, .velocity = first, .slope = slope};
+}
+
+static double way_in(const RodCourse *course, const Stretch *stretch, double t)
+{
+    double way = stretch->velocity * t, slope = stretch->slope;
+    if (!course->by_way) return way + 0.5 * slope * t * t;
+    return slope * t == 0 ? way : stretch->velocity * expm1(slope * t) / slope;
+}
+
+// Times of the points of a table of U: v over a stretch is (v_1 - v_0)/(U_1 - U_0) (U - U_0).
+RodCourse rod_course(const Schedule *table, bool by_way, double velocity)
+{
+    RodCourse course = {.by_way = by_way, .velocity = velocity, .schedule = *table};
+    double *at = course.schedule.at, *factor = course.schedule.factor;
+    for (int32_t k = 0; by_way && k + 1 < table->count; k++) {
+        double mean = velocity * factor[k], ratio = factor[k + 1] / factor[k];
+        if (ratio != 1) mean *= (ratio - 1) / log(ratio);
+        at[k + 1] = at[k] + (table->at[k + 1] - table->at[k]) / mean;
+    }
+    for (int32_t k = 0; k + 1 < table->count; k++) {
+        Stretch stretch = stretch_of(&course, k);
+        course.way[k + 1] = course.way[k] + way_in(&course, &stretch, stretch.duration);
+    }
+    return course;
+}
+
+double rod_course_velocity(const RodCourse *course, double time)
+{
+    double from;
+    if (course->schedule.count == 0) return course->velocity;
+    int32_t k = schedule_stretch(&course->schedule, time, &from);
+    Stretch stretch = stretch_of(course, k);
+    double t = fmax(time - from - course->schedule.at[k], 0);
+    return course->by_way ? stretch.velocity * exp(stretch.slope * t)
+                          : stretch.velocity + stretch.slope * t;
+}
+
+double rod_course_way(const RodCourse *course, double time)
+{
+    const Schedule *over = &course->schedule;
+    double from;
+    if (over->count == 0) return course->velocity * time;
+    int32_t k = schedule_stretch(over, time, &from);
+    double rounds = round(from / over->at[over->count - 1]);
+    Stretch stretch = stretch_of(course, k);
+    return rounds * course->way[over->count - 1] + course->way[k] +
+           way_in(course, &stretch, time - from - over->at[k]);
+}
+
+// The least t in a stretch at which `way` is covered; INFINITY: it is not.
+static double arrival_in(const RodCourse *course, const Stretch *stretch, double way)
+{
+    double v = stretch->velocity, slope = stretch->slope, found = INFINITY;
+    if (way <= 0) return 0;
+    if (slope == 0) {
+        found = v > 0 ? way / v : INFINITY;
+    } else if (course->by_way) {
+        found = log1p(slope * way / v) / slope;
+    } else {
+        double square = v * v + 2 * slope * way;
+        if (square < 0) return INFINITY;
+        // Of -v +- sqrt over the slope, without cancellation: the first that is not negative.
+        double sum = v + sqrt(square);
+        found = sum > 0 ? 2 * way / sum : INFINITY;
+    }
+    return found <= stretch->duration * (1 + 1e-12) ? found : INFINITY;
+}
+
+// In the first round, `way` still to go from its beginning; INFINITY: not within it.
+static double arrival_in_round(const RodCourse *course, double way)
+{
+    for (int32_t k = 0; k < course->schedule.count; k++) {
+        if (course->schedule.repeats && k + 1 == course->schedule.count) break;
+        Stretch stretch = stretch_of(course, k);
+        double t = arrival_in(course, &stretch, way - course->way[k]);
+        if (isfinite(t)) return course->schedule.at[k] + t;
+    }
+    return INFINITY;
+}
+
+// U is largest within a round at a point or where the velocity goes through 0.
+static double farthest_in_round(const RodCourse *course)
+{
+    double farthest = 0;
+    for (int32_t k = 0; k + 1 < course->schedule.count; k++) {
+        Stretch stretch = stretch_of(course, k);
+        double turn = stretch.slope < 0 ? -stretch.velocity / stretch.slope : -1;
+        farthest = fmax(farthest, course->way[k + 1]);
+        if (!course->by_way && turn > 0 && turn < stretch.duration)
+            farthest = fmax(farthest, course->way[k] + way_in(course, &stretch, turn));
+    }
+    return farthest;
+}
+
+double rod_course_arrival(const RodCourse *course, double way)
+{
+    const Schedule *over = &course->schedule;
+    if (over->count == 0) return course->velocity > 0 ? way / course->velocity : INFINITY;
+    double first = arrival_in_round(course, way), each = course->way[over->count - 1];
+    if (isfinite(first) || !over->repeats || !(each > 0)) return first;
+    double rounds = ceil((way - farthest_in_round(course)) / each * (1 - 1e-12));
+    return rounds * over->at[over->count - 1] + arrival_in_round(course, way - rounds * each);
+}

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a scene says of how rod and load change (rod.program, load.program), as the definitions of the
+// layers below. Used by model/step_rule, run/ and the checks of a scene.
+#ifndef AMONTONS_SCENE_PROGRAMS_H
+#define AMONTONS_SCENE_PROGRAMS_H
+
+#include "contact/rod_course.h"
+#include "scene/scene.h"
+
+static inline bool scene_has_program(const SceneProgram *program)
+{
+    return program->factor.count > 0;
+}
+
+// The table of a program; without one its factor is 1.
+Schedule scene_schedule(const SceneProgram *program);
+
+// How the rod is driven.
+RodCourse scene_rod_course(const Scene *scene);
+
+#endif
