@@ -222,16 +222,14 @@ static void end_step(Sdirk *scheme, const Trial *trial)
     const double *elastic = scheme->stage_elastic +
                             (int64_t)(scheme->tableau.stages - 1) * to->dof_count;
     double rate = 1 / trial->scaled;
-    bool loaded = scheme->course == NULL;   // else its work was added up by stages
     to->time = trial->from->time + trial->step;
     to->rod_way = scheme->rod_start + trial->scaled * scheme->rod_rate[scheme->tableau.stages - 1];
     for (int32_t k = 0; k < to->dof_count; k++) {
         to->displacement[k] = scheme->predictor[k] + trial->scaled * to->velocity[k];
         to->elastic_force[k] = scheme->force[k] + trial->scaled * elastic[k];
         to->inertia[k] = rate * (to->momentum[k] - to->inertia[k]);
-        if (loaded)
-            trial->outcome->load_work += system->load[k] *
-                                         (to->displacement[k] - trial->from->displacement[k]);
+        trial->outcome->load_work += system->load[k] *
+                                     (to->displacement[k] - trial->from->displacement[k]);
     }
 }
 
@@ -254,7 +252,8 @@ static bool solve_one_stage(Sdirk *scheme, const Trial *trial, int32_t i, Error 
     double factor = load_factor(scheme->course, time);
     start_stage(scheme, trial, i);
     for (int32_t k = 0; k < dofs; k++)
-        scheme->rhs[k] = rate * to->inertia[k] + factor * system->load[k] - scheme->force[k];
+        scheme->rhs[k] = rate * to->inertia[k] + system->load[k] - scheme->force[k];
+    if (scheme->course) add_scaled(factor - 1, system->load, dofs, scheme->rhs);
     fill_bounds(scheme, scheme->predictor, time, trial->scaled);
     pull_rod(scheme, trial->rung, time);
     TRY(solve_stage(scheme, trial, i, &contact, velocity, err));
@@ -262,9 +261,9 @@ static bool solve_one_stage(Sdirk *scheme, const Trial *trial, int32_t i, Error 
     bulk_operator_apply(system, BULK_MASS, velocity, momentum);
     bulk_operator_apply(system, BULK_STIFFNESS, velocity, elastic);
     find_viscous(scheme, momentum, elastic, &contact, trial->scaled);
-    if (scheme->course)
-        trial->outcome->load_work += trial->step * tableau->a[tableau->stages - 1][i] * factor *
-                                     dense_dot(system->load, velocity, dofs);
+    if (scheme->course)   // by stages, beyond the work of the load as it was
+        trial->outcome->load_work += trial->step * tableau->a[tableau->stages - 1][i] *
+                                     (factor - 1) * dense_dot(system->load, velocity, dofs);
     trial->outcome->power[i] =
         energy_stage(scheme->interface, velocity, scheme->viscous, dofs, &contact);
     if (last) {
