@@ -12,11 +12,12 @@ static const double TICK_LENGTH = 2.2;   // points
 static const double NUMBER_GAP = 1.6;   // points
 static const double LABEL_GAP = 3;   // points
 static const double EDGE_GAP = 1.5;   // points
+static const double POWER_GAP = 4.5;   // points: bar to a power of ten above it
 static const double PATCH_GAP = 5;   // points: bar to the neutral patch below it
 static const double PATCH_HEIGHT = 7;   // points
 
 // Whole powers of ten, or a linear scale's ticks.
-static Ticks bar_ticks(const Colorbar *bar)
+Ticks colorbar_ticks(const Colorbar *bar)
 {
     if (!bar->powers) return ticks_choose(bar->low, bar->high, TICKS_MAX);
     Ticks ticks = {.step = 1, .minor = 1, .first = (int64_t)ceil(bar->low - 1e-9)};
@@ -24,21 +25,23 @@ static Ticks bar_ticks(const Colorbar *bar)
     return ticks;
 }
 
-// The number at tick k; "≤" before the lowest where smaller values share its colour.
+// The number at tick k; "≤" before the lowest where smaller values share its colour, "≥"
+// before the highest where larger ones do.
 static void bar_label(const Colorbar *bar, const Ticks *ticks, int32_t k, char *label)
 {
     char number[TICK_LABEL_SIZE];
+    bool below = bar->clipped && k == 0, above = bar->clipped_above && k == ticks->count - 1;
     tick_label(ticks, k, number);
     if (bar->powers)
         snprintf(label, LABEL_LENGTH, "10^{%.0f}", tick_value(ticks, k));
     else
-        snprintf(label, LABEL_LENGTH, "%s%s", bar->clipped && k == 0 ? "\u2264" : "", number);
+        snprintf(label, LABEL_LENGTH, "%s%s", below ? "≤" : above ? "≥" : "", number);
 }
 
 // Points that the widest number takes, the neutral colour's name included.
 static double numbers_width(const Page *page, const Colorbar *bar)
 {
-    Ticks ticks = bar_ticks(bar);
+    Ticks ticks = colorbar_ticks(bar);
     double size = NUMBER_SIZE * page->point, widest = 0;
     char label[LABEL_LENGTH];
     for (int32_t k = 0; k < ticks.count; ++k) {
@@ -70,7 +73,7 @@ static void patch_draw(const Page *page, const Colorbar *bar, const Box *patch)
 // Ticks and numbers to the right of the bar, then its name, rising.
 static void scale_draw(const Page *page, const Colorbar *bar, const Box *colors)
 {
-    Ticks ticks = bar_ticks(bar);
+    Ticks ticks = colorbar_ticks(bar);
     TextStyle style = {.size = NUMBER_SIZE * page->point, .color = INK, .up = 0.5};
     Stroke stroke = {.color = INK, .width = FRAME_WIDTH * page->point};
     double out = colors->right + TICK_LENGTH * page->point;
@@ -81,6 +84,12 @@ static void scale_draw(const Page *page, const Colorbar *bar, const Box *colors)
         shape_segment(page->canvas, &stroke, (Point){colors->right, y}, (Point){out, y});
         bar_label(bar, &ticks, k, label);
         text_draw(page->text, &style, (Point){out + NUMBER_GAP * page->point, y}, label);
+    }
+    if (ticks.exponent != 0 && !bar->powers) {
+        snprintf(label, sizeof label, "\u00d710^{%d}", ticks.exponent);
+        style.up = 0;
+        text_draw(page->text, &style, (Point){colors->left, colors->top - POWER_GAP * page->point},
+                  label);
     }
     style =
         (TextStyle){.size = LABEL_SIZE * page->point, .color = INK, .across = 0.5, .rising = true};

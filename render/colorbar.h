@@ -8,12 +8,16 @@
 typedef struct Colorbar {
     double low, high;   // shown at the bottom and the top of the bar
     bool falling;   // the colour map's value 0 stands at the top, not at the bottom
-    bool clipped;   // what is below `low` is shown as `low`: its number says so
+    bool clipped,
+        clipped_above;   // what is below `low`, above `high`, is shown as that: its number
+    // says so
     bool powers;   // low and high are decimal logarithms: ticks are powers of ten
     const char *label;   // text.h's marks
     const char *neutral;   // name of the neutral colour, shown in a patch below; NULL: no patch
     Color neutral_color;
 } Colorbar;
+
+Ticks colorbar_ticks(const Colorbar *bar);
 
 // Points to the right of the bar's left edge that it takes.
 double colorbar_width(const Page *page, const Colorbar *bar);

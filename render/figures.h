@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The three figures, after figure 1(b), (c) and (d) of the paper. Each draws one whole picture on
-// a fresh page. Called by render.c.
+// The figures: three after figure 1(b), (c) and (d) of the paper, drawn on a page of known height,
+// and the block, whose height its page takes. Called by render.c.
 #ifndef AMONTONS_RENDER_FIGURES_H
 #define AMONTONS_RENDER_FIGURES_H
 
@@ -9,6 +9,18 @@
 
 // The view may read more of the result, hence not const.
 typedef bool (*FigureFunction)(const Page *page, ResultView *view, Error *err);
+
+// What a figure begins its page by itself with.
+typedef struct FigureInput {
+    ResultView *view;
+    const char *folder;   // of the result
+    const FieldChoice *field;
+    PageDef def;   // but its height
+} FigureInput;
+typedef bool (*WholeFigureFunction)(Page *page, const FigureInput *input, Error *err);
+
+// One field of the block at one time.
+bool figure_field(Page *page, const FigureInput *input, Error *err);
 
 // F_T/F_N against U with its peaks, mu_S, mu_M, mu_K, and an inset of the precursors.
 bool figure_force(const Page *page, ResultView *view, Error *err);

@@ -3,7 +3,7 @@
 // names, the strip the rod pushes. Drawn to scale from the arrays handed in.
 #include "render/render.h"
 
-#include "render/axes.h"
+#include "render/rod_mark.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -14,12 +14,11 @@ static const double EDGE_WIDTH = 0.22;   // points: edges of elements
 static const double CURVE_WIDTH_NAMED = 1.6;   // points: named curves
 static const double NAME_GAP = 3.0;   // points: curve to its name
 static const double HEAD_HEIGHT = 11;   // points: the lines above the frame, each
-static const double ARROW = 9;   // points: length of the rod's arrow
 static const double LEFT = 32, RIGHT = 4;   // points: beside the frame
 static const double SIDE_MAX = 1.4;   // the picture's height over its width, at most
 
 static const Color FILL = {0.93f, 0.94f, 0.96f, 1}, EDGE = {0.55f, 0.58f, 0.63f, 1};
-static const Color ROD = {0.80f, 0.22f, 0.08f, 1}, TOP = {0.10f, 0.32f, 0.66f, 1};
+static const Color TOP = {0.10f, 0.32f, 0.66f, 1};
 static const Color CONTACT[2] = {{0.05f, 0.45f, 0.30f, 1}, {0.45f, 0.62f, 0.10f, 1}};
 static const Color OTHER = {0.45f, 0.25f, 0.55f, 1};
 
@@ -164,7 +163,7 @@ static Color group_color(const MeshGroup *group, int32_t contact)
 {
     if (is_contact(group)) return CONTACT[contact % 2];
     if (strcmp(group->name, "top") == 0) return TOP;
-    if (strcmp(group->name, "rod") == 0) return ROD;
+    if (strcmp(group->name, "rod") == 0) return ROD_COLOR;
     return OTHER;
 }
 
@@ -256,25 +255,13 @@ static void draw_groups(const MeshPage *map)
     }
 }
 
-// An arrow against the strip that the rod pushes, and the strip in the same colour.
 static void draw_rod(const MeshPage *map)
 {
     const RenderMesh *mesh = map->mesh;
-    double point = map->page->point;
-    if (!isfinite(mesh->rod_low) || !isfinite(mesh->rod_high)) return;
     double face = INFINITY;
     for (int32_t node = 0; node < mesh->node_count; ++node)
         face = fmin(face, mesh->position[2 * (int64_t)node]);
-    Point low = axes_place(&map->axes, face, mesh->rod_low);
-    Point high = axes_place(&map->axes, face, mesh->rod_high);
-    Stroke strip = {.color = ROD, .width = 2.2 * CURVE_WIDTH_NAMED * point};
-    Stroke shaft = {.color = ROD, .width = 0.6 * CURVE_WIDTH_NAMED * point};
-    Point tip = {low.x - 2.5 * point, (low.y + high.y) / 2};
-    shape_segment(map->page->canvas, &strip, low, high);
-    shape_segment(map->page->canvas, &shaft, (Point){tip.x - ARROW * point, tip.y}, tip);
-    for (int32_t side = -1; side <= 1; side += 2)
-        shape_segment(map->page->canvas, &shaft,
-                      (Point){tip.x - 3 * point, tip.y + side * 3 * point}, tip);
+    rod_mark_draw(map->page, &map->axes, face, mesh->rod_low, mesh->rod_high);
 }
 
 static void draw_head(const MeshPage *map)

@@ -11,6 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 enum { NAMES_SIZE = 200 };
 
@@ -24,6 +25,7 @@ typedef struct Figure {
     const char *name, *title;
     double height_over_width;
     FigureFunction draw;
+    WholeFigureFunction draw_whole;   // in its place: begins the page itself, and needs fields
 } Figure;
 
 // The table of figures: names from the contract, shapes and functions from here.
@@ -45,9 +47,12 @@ static Figure figure_get(FigureId id)
         figure.draw = figure_slip_map;
         break;
     case FIGURE_CONTACT_DENSITY:
-    case FIGURE_COUNT:
         figure.height_over_width = 0.62;
         figure.draw = figure_contact_density;
+        break;
+    case FIGURE_FIELD:
+    case FIGURE_COUNT:
+        figure.draw_whole = figure_field;
         break;
     }
     return figure;
@@ -68,23 +73,39 @@ cleanup:
     return false;
 }
 
+// "field", or "field-stress_xx" where that was asked for.
+static bool figure_path(const char *folder, const PictureRequest *request, const Figure *figure,
+                        char path[PATH_MAX], Error *err)
+{
+    const char *of = figure->draw_whole ? request->field.of : NULL;
+    int length = snprintf(
+        path, PATH_MAX, "%s/figures/%s%s%s.%s", folder, figure->name, of ? "-" : "", of ? of : "",
+        request->style.format ? request->style.format : canvas_ending(CANVAS_PNG));
+    if (length < 0 || length >= PATH_MAX)
+        FAIL(err, ERROR_INPUT, "the result folder's path is too long");
+cleanup:
+    return error_is_clean(err);
+}
+
 // One picture from nothing to its file. Whatever fails, all that was made for it is freed.
-static bool figure_make(const char *folder, const PictureStyle *style, const Figure *figure,
+static bool figure_make(const char *folder, const PictureRequest *request, const Figure *figure,
                         ResultView *view, Error *err)
 {
     Page page = {0};
     char path[PATH_MAX];
     Foot foot = foot_wrap(view->warnings);
-    int length = snprintf(path, sizeof path, "%s/figures/%s.%s", folder, figure->name,
-                          style->format ? style->format : canvas_ending(CANVAS_PNG));
-    if (length < 0 || length >= (int)sizeof path)
-        FAIL(err, ERROR_INPUT, "the result folder's path is too long");
-    PageDef def = {.style = style,
+    PageDef def = {.style = &request->style,
                    .height = figure->height_over_width,
                    .title = view->title,
                    .foot = foot_height(&foot)};
-    TRY(page_begin(&page, &def, err));
-    TRY(figure->draw(&page, view, err));
+    FigureInput input = {.view = view, .folder = folder, .field = &request->field, .def = def};
+    TRY(figure_path(folder, request, figure, path, err));
+    if (figure->draw_whole) {
+        TRY(figure->draw_whole(&page, &input, err));
+    } else {
+        TRY(page_begin(&page, &def, err));
+        TRY(figure->draw(&page, view, err));
+    }
     foot_draw(&page, &foot);
     TRY(page_finish(&page, path, figure->title, err));
 cleanup:
@@ -118,6 +139,14 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Who asks for all figures gets those that there are.
+static bool has_fields(const char *folder)
+{
+    char path[PATH_MAX];
+    snprintf(path, sizeof path, "%s/fields.pvd", folder);
+    return access(path, R_OK) == 0;
+}
+
 // One open result serves all pictures.
 __attribute__((visibility("default"))) bool
 amontons_render(const char *folder, const PictureRequest *request, Error *err)
@@ -130,7 +159,8 @@ amontons_render(const char *folder, const PictureRequest *request, Error *err)
     for (int32_t k = 0; k < count; ++k) {
         Figure figure = figure_get((FigureId)k);
         if (request->figure_count > 0) TRY(figure_find(request->figures[k], &figure, err));
-        TRY(figure_make(folder, &request->style, &figure, &view, err));
+        if (request->figure_count == 0 && figure.draw_whole && !has_fields(folder)) continue;
+        TRY(figure_make(folder, request, &figure, &view, err));
     }
 cleanup:
     result_view_close(&view);

@@ -157,6 +157,7 @@ bool result_view_open(const char *folder, ResultView *view, Error *err)
     TRY(view->file = result_file_open(folder, err));
     TRY(result_file_text(view->file, "units", units, sizeof units, err));
     view->si = strcmp(units, "si") == 0;
+    TRY(scalar_read(view, SERIES_TIME, &view->t, err));
     TRY(scalar_read(view, SERIES_ROD, &view->U, err));
     TRY(scalar_read(view, SERIES_MU, &view->mu, err));
     TRY(range_check(view, err));
@@ -190,6 +191,7 @@ void result_view_close(ResultView *view)
 {
     Error ignored = {0};   // nothing was written: closing has nothing to lose
     array_file_close(view->file, &ignored);
+    memory_free(view->t);
     memory_free(view->U);
     memory_free(view->mu);
     memory_free(view->x);

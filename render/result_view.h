@@ -23,6 +23,7 @@ typedef struct ResultView {
     char *title;   // of the scene; may be empty; owned
     bool si;   // lengths are metres; else normalised
     int64_t rows;   // accepted steps, at least 2
+    double *t;   // [rows] time; owned
     double *U;   // [rows] rod displacement, length; owned
     double *mu;   // [rows] 1; owned
     int32_t nodes;   // contact nodes, at least 1

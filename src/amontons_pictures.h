@@ -20,10 +20,19 @@ typedef struct PictureStyle {
     bool dark;   // light lines on dark paper
 } PictureStyle;
 
+// What the figures of the block show; zeroed is fine.
+typedef struct FieldChoice {
+    const char *of;   // "von_mises", "stress_xx", ...; NULL: von_mises
+    const char *at;   // "U=0.0117" or "t=120": the nearest time that is stored; NULL: the last one
+        // before the last sliding
+    bool edges;   // of elements are drawn
+} FieldChoice;
+
 typedef struct PictureRequest {
     const char *const *figures;   // [figure_count] names, as output.figures has them; 0: all
     int32_t figure_count;
     PictureStyle style;
+    FieldChoice field;
 } PictureRequest;
 
 // Draws figures of the result in `folder` into folder/figures/NAME.png (.pdf, .svg). NULL: all.

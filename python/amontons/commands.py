@@ -181,11 +181,14 @@ def _picture_style(style: dict[str, Any]) -> Any:
     return c.PictureStyle(**given)
 
 
-def render(result: Any, figures: Sequence[str] = (), **style: Any) -> list[Path]:
-    """Draws pictures of a stored result again: `amontons render`. figures: their names; (): all. style: format ("png",
-    "pdf", "svg"), width (mm), dpi, dark. The files, in the folder figures/ of the result."""
+def render(result: Any, figures: Sequence[str] = (), of: str | None = None, at: str | None = None, edges: bool = False,
+           **style: Any) -> list[Path]:
+    """Draws pictures of a stored result again: `amontons render`. figures: their names; (): all. of, at, edges: what "field"
+    shows ("stress_xz"), when ("U=0.0117"), and whether with the elements' edges. style: format ("png", "pdf", "svg"), width
+    (mm), dpi, dark. The files, in the folder figures/ of the result."""
     folder = result.folder if isinstance(result, Result) else Path(result)
-    request = c.PictureRequest(figures=words(figures), figure_count=len(figures), style=_picture_style(style))
+    request = c.PictureRequest(figures=words(figures), figure_count=len(figures), style=_picture_style(style),
+                               field=c.FieldChoice(of=of and of.encode(), at=at and at.encode(), edges=edges))
     call(lib.amontons_render_result, str(folder).encode(), ctypes.byref(request))
     return sorted((folder / "figures").glob(f"*.{style.get('format', 'png')}"))
 

@@ -23,7 +23,8 @@ static const CommandText text = {
         "at any size, and fonts come along. Letters are 7.5 points high in print, whatever the "
         "width. Examples:\n\n"
         "  amontons render fig1-result --figure force --format pdf\n"
-        "  amontons render fig1-result --figure slip-map --width 178 --dpi 300"};
+        "  amontons render fig1-result --figure slip-map --width 178 --dpi 300\n"
+        "  amontons render fig1-result --figure field --of stress_xz --at U=0.0117"};
 
 // JSON is YAML: the descriptions that a sweep leaves are .json.
 static bool is_plot(const char *name)
@@ -65,12 +66,20 @@ int command_render(int argc, char **argv)
     Error err = {0};
     const Option options[] = {
         {"figure", 'f', "NAME",
-         "Draw only this picture: force, slip-map or contact-density. May "
+         "Draw only this picture: force, slip-map, contact-density or field. May "
          "be given several times",
          .words = &figures},
         {"format", 0, "png|pdf|svg", "Of the files; png by default", .word = &request.style.format},
         {"width", 0, "MM", "Of the page in print; 86 by default, a column", .word = &width},
         {"dpi", 0, "N", "Dots per inch, of a PNG and of maps; 508 by default", .word = &dpi},
+        {"of", 0, "FIELD",
+         "What `field` shows: von_mises (default), stress_xx, stress_zz, "
+         "stress_xz, pressure, velocity, displacement, strain_energy or "
+         "dissipation",
+         .word = &request.field.of},
+        {"at", 0, "U=U", "When: the stored time nearest to it; or t=TIME",
+         .word = &request.field.at},
+        {"edges", 0, NULL, "Draw the elements' edges in `field`", .flag = &request.field.edges},
         {"dark", 0, NULL, "Light lines on dark paper", .flag = &request.style.dark},
         {0}};
     int status = options_read(&text, options, argc, argv, &from);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The one C++ file: VTK's XML writers behind one C function, which catches every exception. Double
-// arrays are handed to VTK as they are, without a copy.
+// The one C++ file: VTK's XML writers and a reader behind two C functions, which catch every
+// exception. Double arrays are handed to VTK as they are, without a copy.
 extern "C" {
 #include "io/field_file_module.h"
 }
@@ -21,6 +21,7 @@ extern "C" {
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataWriter.h>
+#include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 #include <vtkZLibDataCompressor.h>
 
@@ -139,21 +140,74 @@ bool encode(const FieldGrid &grid, const FieldOutput &output, Error *err)
     return write(writer, cells, output, err);
 }
 
+// As doubles, whatever the file has: indices are exact in them.
+bool hand_on(vtkDataArray *array, const char *name, FieldTake take, void *context, Error *err)
+{
+    vtkNew<vtkDoubleArray> numbers;
+    numbers->DeepCopy(array);
+    const FieldPart part = {name, numbers->GetNumberOfComponents(), numbers->GetNumberOfTuples(),
+                            numbers->GetPointer(0)};
+    return take(context, &part, err);
+}
+
+bool decode(const char *path, FieldTake take, void *context, Error *err)
+{
+    std::string message;
+    vtkNew<vtkCallbackCommand> observer;
+    observer->SetCallback(keep_first);
+    observer->SetClientData(&message);
+    vtkNew<vtkXMLUnstructuredGridReader> reader;
+    reader->AddObserver("ErrorEvent", observer);
+    reader->SetReaderErrorObserver(observer);
+    reader->SetParserErrorObserver(observer);
+    reader->SetFileName(path);
+    reader->Update();
+    vtkUnstructuredGrid *grid = reader->GetOutput();
+    if (!message.empty() || !grid || grid->GetNumberOfCells() < 1) {
+        error_set(err, ERROR_FILE, __FILE__, __LINE__, "%s: VTK cannot read it: %s", path,
+                  message.empty() ? "it has no cells" : message.c_str());
+        return false;
+    }
+    bool done =
+        hand_on(grid->GetPoints()->GetData(), "points", take, context, err) &&
+        hand_on(grid->GetCells()->GetOffsetsArray(), "offsets", take, context, err) &&
+        hand_on(grid->GetCells()->GetConnectivityArray(), "connectivity", take, context, err) &&
+        hand_on(grid->GetCellTypesArray(), "types", take, context, err);
+    vtkPointData *fields = grid->GetPointData();
+    for (int k = 0; done && k < fields->GetNumberOfArrays(); k++)
+        if (vtkDataArray *array = fields->GetArray(k))
+            done = hand_on(array, array->GetName() ? array->GetName() : "", take, context, err);
+    return done;
+}
+
 std::mutex encoding;   // VTK's factories and tools are shared by the whole process
 
 }   // namespace
 
-extern "C" __attribute__((visibility("default"))) bool
-amontons_vtk_encode(const FieldGrid *grid, const FieldOutput *output, Error *err)
+// Runs `work` alone; what it throws becomes an error.
+template <typename Work>
+static bool guarded(const Work &work, Error *err)
 {
     const std::lock_guard<std::mutex> alone(encoding);
     try {
         vtkSMPTools::SetBackend("Sequential");   // its threads would wait by spinning
-        return encode(*grid, *output, err);
+        return work();
     } catch (const std::exception &thrown) {
         error_set(err, ERROR_LIBRARY, __FILE__, __LINE__, "VTK failed: %s", thrown.what());
     } catch (...) {
         error_set(err, ERROR_LIBRARY, __FILE__, __LINE__, "VTK failed for an unknown reason");
     }
     return false;
+}
+
+extern "C" __attribute__((visibility("default"))) bool
+amontons_vtk_encode(const FieldGrid *grid, const FieldOutput *output, Error *err)
+{
+    return guarded([&] { return encode(*grid, *output, err); }, err);
+}
+
+extern "C" __attribute__((visibility("default"))) bool
+amontons_vtk_decode(const char *path, FieldTake take, void *context, Error *err)
+{
+    return guarded([&] { return decode(path, take, context, err); }, err);
 }

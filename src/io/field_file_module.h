@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the module amontons_vtk.so offers: VTK's XML writers turn a grid into the bytes of a file.
+// What the module amontons_vtk.so offers: VTK's XML writers turn a grid into the bytes of a file,
+// its reader a file into arrays.
 // The bytes are written by io/field_file, which can say why a write failed; VTK cannot.
 #ifndef AMONTONS_IO_FIELD_FILE_MODULE_H
 #define AMONTONS_IO_FIELD_FILE_MODULE_H
@@ -18,7 +19,20 @@ typedef struct FieldOutput {
     void *context;   // handed to sink
 } FieldOutput;
 
-// The module's one entry, "amontons_vtk_encode". The grid must be valid (io/field_file checks).
+// The module's first entry, "amontons_vtk_encode". The grid must be valid (io/field_file checks).
 typedef bool (*FieldEncodeFunction)(const FieldGrid *grid, const FieldOutput *output, Error *err);
+
+// Of a .vtu that is read: one array of its grid, as numbers.
+typedef struct FieldPart {
+    const char *name;   // of a point array; "points", "offsets", "connectivity" or "types"
+    int32_t components;
+    int64_t count;   // tuples
+    const double *values;   // [count * components] valid during the call
+} FieldPart;
+
+typedef bool (*FieldTake)(void *context, const FieldPart *part, Error *err);
+
+// The other one, "amontons_vtk_decode": hands each array of the grid in `path` to `take`.
+typedef bool (*FieldDecodeFunction)(const char *path, FieldTake take, void *context, Error *err);
 
 #endif

@@ -84,6 +84,9 @@ typedef enum ResultColumns {
     X(NUMBER_C_LONGITUDINAL, "speed_longitudinal", "velocity", "c_L")                              \
     X(NUMBER_C_SHEAR, "speed_shear", "velocity", "c_S")                                            \
     X(NUMBER_C_RAYLEIGH, "speed_rayleigh", "velocity", "c_R")                                      \
+    X(NUMBER_ROD_LOW, "rod_low", "length",                                                         \
+      "lowest z of the strip that the rod pushes; absent: none")                                   \
+    X(NUMBER_ROD_HIGH, "rod_high", "length", "highest z of it")                                    \
     X(NUMBER_MU_M, "mu_macroscopic", "1", "mu_M; absent until known")                              \
     X(NUMBER_L_C, "critical_length", "length",                                                     \
       "l_c from the dynamics; absent until known, and with several pads")

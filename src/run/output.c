@@ -43,8 +43,16 @@ bool output_open_history(Simulation *simulation, Error *err)
                     [NUMBER_C_LONGITUDINAL] = speeds.longitudinal,
                     [NUMBER_C_SHEAR] = speeds.shear,
                     [NUMBER_C_RAYLEIGH] = speeds.rayleigh,
+                    [NUMBER_ROD_LOW] = NAN,
+                    [NUMBER_ROD_HIGH] = NAN,
                     [NUMBER_MU_M] = NAN,
                     [NUMBER_L_C] = NAN}};
+    if (scene->rod.kind != ROD_NONE) {
+        double middle = 0, width = 0;
+        model_rod_strip(scene, simulation->model.height, &middle, &width);
+        head.numbers[NUMBER_ROD_LOW] = middle - 0.5 * width;
+        head.numbers[NUMBER_ROD_HIGH] = middle + 0.5 * width;
+    }
     char *pads = join_pad_names(&simulation->model.interface, err);
     head.pads = pads;
     TRY(error_is_clean(err));

@@ -58,9 +58,11 @@ static void strip_part(const char *name, char *bare)
 
 static bool is_figure(const char *name)
 {
+    const char *dot = strrchr(name, '.');
     for (size_t k = 0; k < sizeof FIGURES / sizeof FIGURES[0]; k++)
         if (strcmp(FIGURES[k], name) == 0) return true;
-    return false;
+    return strncmp(name, "field-", 6) == 0 && dot &&   // of a quantity: field-stress_xx.png
+           (strcmp(dot, ".png") == 0 || strcmp(dot, ".pdf") == 0 || strcmp(dot, ".svg") == 0);
 }
 
 // bulk_000012.vtu, interface_000012.vtp (record/fields).

@@ -285,6 +285,10 @@ static bool check_output(const Check *check)
         return blame(check, "output.figures",
                      "pictures are drawn from the history: they need "
                      "output.history: true");
+    for (int32_t k = 0; k < scene->output.figures.count; k++)
+        if (strcmp(scene->output.figures.name[k], "field") == 0 && !scene->output.fields)
+            return blame(check, "output.figures",
+                         "`field` draws the block as it is stored: it needs output.fields");
     return true;
 }
 

@@ -15,6 +15,7 @@ import unittest
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 import render_fixture as fixture
 
@@ -634,7 +635,7 @@ class Errors(unittest.TestCase):
 
     def test_unknown_figure(self):
         fixture.make(self.folder)
-        self.expect(ERROR_INPUT, "slipmap", "force, slip-map, contact-density",
+        self.expect(ERROR_INPUT, "slipmap", "force, slip-map, contact-density, field",
                     figures=("force", "slipmap"))
 
     def test_no_folder(self):
@@ -713,6 +714,129 @@ class Errors(unittest.TestCase):
         os.environ["AMONTONS_FONT"] = "/none.ttf"
         self.assertEqual(render(self.folder, "force")[0], ERROR_LIBRARY)
         self.assertEqual(read_bytes(self.folder, "force"), before)
+
+
+class Fields(unittest.TestCase):
+    """The block of a short run, drawn by the program: colours at nodes give back what its .vtu holds there."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.program = os.path.join(os.environ.get("AMONTONS_BIN", MODULES), "amontons")
+        cls.folder = tempfile.mkdtemp(prefix="amontons_fields_")
+        with open(os.path.join(cls.folder, "scene.yaml"), "w") as file:
+            file.write(SCENE.format(meshes=os.path.join(os.environ["AMONTONS_SOURCE"], "meshes")))
+        cls.result = os.path.join(cls.folder, "result")
+        cls.done = cls.call("run", os.path.join(cls.folder, "scene.yaml"), "-o", cls.result, "--quiet")
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    @classmethod
+    def call(cls, *words):
+        return subprocess.run([cls.program, *words], capture_output=True, text=True)
+
+    def read_frame(self, number):
+        reader = vtkXMLUnstructuredGridReader()
+        reader.SetFileName(os.path.join(self.result, "fields", f"bulk_{number:06d}.vtu"))
+        reader.Update()
+        points = reader.GetOutput().GetPointData()
+        return {"position": vtk_to_numpy(reader.GetOutput().GetPoints().GetData()),
+                **{points.GetArrayName(k): vtk_to_numpy(points.GetArray(k))
+                   for k in range(points.GetNumberOfArrays())}}
+
+    def test_at_the_end_of_a_run(self):
+        self.assertEqual(self.done.returncode, 0, self.done.stderr)
+        self.assertTrue(os.path.exists(path_of(self.result, "field")))
+
+    def test_colors_are_the_data(self):
+        last = len(os.listdir(os.path.join(self.result, "fields"))) // 2 - 1
+        done = self.call("render", self.result, "--figure", "field", "--of", "stress_xz", "--at", "t=1e9")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        picture, data = read_picture(self.result, "field-stress_xz"), self.read_frame(last)
+        frame = Frame(picture)
+        moved = data["displacement"] - [data["displacement"][:, 0].mean(), 0, 0]
+        words = self.magnification(moved, data["position"])
+        place = data["position"] + words * moved
+        low, high = place[:, 0].min(), place[:, 0].max()
+        point = picture.shape[1] / (86 / 25.4 * 72)
+        scale = (frame.right - frame.left - 20 * point) / (high - low)   # 15 and 5 points beside the block
+        column = frame.left + 15 * point + (place[:, 0] - low) * scale
+        row = frame.bottom - 10 * point - (place[:, 1] - place[:, 1].min()) * scale
+        value = data["stress"][:, 2]
+        inside = np.flatnonzero((data["position"][:, 0] > 0.2) & (data["position"][:, 0] < 0.8)
+                                & (data["position"][:, 1] > 0.1) & (data["position"][:, 1] < 0.4))
+        below = picture.copy()
+        below[:int(frame.top) - 2] = 255   # without the power of ten above the bar
+        colors, shares = bar_colors(below, frame.columns, frame)
+        seen = []
+        for i in inside:
+            near = picture[int(row[i]) - 3:int(row[i]) + 4, int(column[i]) - 3:int(column[i]) + 4].reshape(-1, 3)
+            away = np.abs(near[:, None] - colors[None]).sum(axis=2)
+            clean = away.min(axis=1) <= 6   # no contour line
+            if clean.any():
+                seen.append((value[i], np.median(shares[away[clean].argmin(axis=1)])))
+        stored, read = np.array(seen).T
+        self.assertGreater(len(seen), 20)
+        slope, start = np.polyfit(read, stored, 1)
+        self.assertLess(np.abs(start + slope * read - stored).max(), 0.02 * slope)
+        ends = [start, start + slope]   # of the bar: round numbers, about the range of the field
+        step = 10 ** np.floor(np.log10(slope)) / 2
+        for end in ends:
+            self.assertLess(abs(end / step - round(end / step)) * step, 0.03 * slope)
+
+    @staticmethod
+    def magnification(moved, position):
+        most = 0.05 * np.ptp(position, axis=0).max() / np.abs(moved).max()
+        power = 10 ** np.floor(np.log10(most))
+        return max(factor * power for factor in (1, 2, 5) if factor * power <= most)
+
+    def test_all_fields_and_formats(self):
+        for of in "displacement", "strain_energy", "dissipation":
+            done = self.call("render", self.result, "--figure", "field", "--of", of, "--edges", "--dpi", "200", "--format", "svg")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertTrue(os.path.exists(path_of(self.result, "field-" + of, "svg")))
+
+    def test_errors(self):
+        cases = {("--of", "von-mises"): "von_mises, stress_xx", ("--at", "0.003"): "U=0.0117"}
+        for words, expected in cases.items():
+            done = self.call("render", self.result, "--figure", "field", *words)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(expected, done.stderr)
+        done = self.call("run", os.path.join(self.folder, "scene.yaml"), "-o", self.folder + "/none", "--set", "output.fields=none")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("needs output.fields", done.stderr)
+        os.makedirs(self.folder + "/without")
+        fixture.make(self.folder + "/without")
+        done = self.call("render", self.folder + "/without", "--figure", "field")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("output.fields", done.stderr)
+
+    def test_damaged_file(self):
+        """A .vtu that is cut off or has another grid's numbers is named."""
+        copy = self.folder + "/copy"
+        shutil.copytree(self.result, copy)
+        path = os.path.join(copy, "fields", "bulk_000000.vtu")
+        with open(path, "rb") as file:
+            content = file.read()
+        for damaged in content[:len(content) // 2], b"", content.replace(b"displacement", b"misplacement", 1):
+            with open(path, "wb") as file:
+                file.write(damaged)
+            done = self.call("render", copy, "--figure", "field", "--at", "U=0")
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn("bulk_000000.vtu", done.stderr)
+
+
+SCENE = """
+units: normalised
+mesh: {{file: {meshes}/block.geo, set: {{length: 1, height: 0.5, nx: 6, nz: 4, shape: quad, order: 2}}}}
+material: {{young: 1, poisson: 0.34, density: 1, eta1: 1, eta2: 1}}
+friction: {{mu_static: 0.38, mu_kinetic: 0.1, critical_velocity: 3.4e-4}}
+load: {{pressure: 0.003}}
+rod: {{velocity: 1e-5, height: 0.25, width: 0.05}}
+time: {{until: {{U: 0.002}}}}
+output: {{fields: {{every_U: 1e-3}}, figures: [field]}}
+"""
 
 
 if __name__ == "__main__":

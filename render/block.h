@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The block at one stored time, as a picture shows it: which time, deformed by how much, and one
+// quantity at its nodes. Numbers only. Called by the figures of fields.
+#ifndef AMONTONS_RENDER_BLOCK_H
+#define AMONTONS_RENDER_BLOCK_H
+
+#include "amontons_pictures.h"
+#include "io/field_read.h"
+#include "render/result_view.h"
+
+// X(symbol, name, words, unit in SI, unit in normalised scenes). Stresses hold the viscous part.
+#define BLOCK_QUANTITIES(X)                                                                        \
+    X(BLOCK_VON_MISES, "von_mises", "von Mises stress", "Pa", "~{E}")                              \
+    X(BLOCK_STRESS_XX, "stress_xx", "stress ~{\u03c3}_{xx}", "Pa", "~{E}")                         \
+    X(BLOCK_STRESS_ZZ, "stress_zz", "stress ~{\u03c3}_{zz}", "Pa", "~{E}")                         \
+    X(BLOCK_STRESS_XZ, "stress_xz", "stress ~{\u03c3}_{xz}", "Pa", "~{E}")                         \
+    X(BLOCK_PRESSURE, "pressure", "pressure \u2212(~{\u03c3}_{xx} + ~{\u03c3}_{zz})/2", "Pa",      \
+      "~{E}")                                                                                      \
+    X(BLOCK_VELOCITY, "velocity", "velocity |~{v}|", "m/s", "(~{L}_{0} / ~{t}_{0})")               \
+    X(BLOCK_DISPLACEMENT, "displacement", "displacement |~{u}|", "m", "~{L}_{0}")                  \
+    X(BLOCK_ENERGY, "strain_energy", "strain energy density", "J/m^{3}", "~{E}")                   \
+    X(BLOCK_DISSIPATION, "dissipation", "dissipation rate", "W/m^{3}", "(~{E} / ~{t}_{0})")
+
+typedef enum BlockQuantity {
+#define X(symbol, name, words, si, normalised) symbol,
+    BLOCK_QUANTITIES(X) BLOCK_QUANTITY_COUNT
+#undef X
+} BlockQuantity;
+
+typedef struct BlockWords {
+    const char *name, *words, *si, *normalised;
+} BlockWords;
+BlockWords block_words(BlockQuantity quantity);
+// ERROR_INPUT lists the names. NULL: von_mises.
+bool block_quantity_find(const char *name, BlockQuantity *quantity, Error *err);
+
+typedef struct Block {
+    FieldFrame frame;   // owned, like all
+    double t, U;   // of this time; U by the history
+    int64_t row;   // of the history, the nearest step
+    double *value;   // [frame.node_count] the quantity
+    double (*place)[2];   // [frame.node_count] (x, z) as drawn, length
+} Block;
+
+// The times stored in the result at `folder`, as rows of the history, [*count], rising.
+typedef struct BlockTimes {
+    FieldTime *times;   // [count] owned
+    int64_t *row;   // [count] owned
+    int32_t count;
+} BlockTimes;
+bool block_times_read(const char *folder, const ResultView *view, BlockTimes *times, Error *err);
+void block_times_destroy(BlockTimes *times);   // zeroed is fine
+
+// The index of the time nearest to `at`, "U=0.0117" or "t=120". ERROR_INPUT: neither of them.
+bool block_time_find(const BlockTimes *times, const ResultView *view, const char *at,
+                     int32_t *index, Error *err);
+// The last one up to this displacement of the rod; the first where there is none.
+int32_t block_time_before(const BlockTimes *times, const ResultView *view, double U);
+
+bool block_read(const char *folder, const ResultView *view, const BlockTimes *times, int32_t index,
+                Block *block, Error *err);
+void block_destroy(Block *block);   // zeroed is fine
+
+// Fills block->value.
+bool block_take(Block *block, BlockQuantity quantity, Error *err);
+
+// 1, 2 or 5 times a power of ten: the deformation then shows, but folds nothing over.
+double block_magnification(const Block *block);
+// Fills block->place: position and `magnification` times the displacement less its mean along x,
+// which is how far the whole block has been pushed.
+void block_deform(Block *block, double magnification);
+
+#endif
