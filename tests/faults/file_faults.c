@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Preloaded into the program (LD_PRELOAD), lets one call to the file system fail: the variable
+// Preloaded into the program (LD_PRELOAD), lets one call to the system fail: the variable
 // FILE_FAULT=write:12 the twelfth write of the process and its children, with ENOSPC (sync: EIO);
 // write:12+ that one and every later one, as on a full disk. FILE_FAULT=count:PATH: none fails, and
 // how many calls there were of each kind is appended to the file when a process ends.
+//
+// Memory is that of our allocator, which alone calls aligned_alloc (base/memory).
 //
 // What is said on standard error never fails. What a program and its libraries call is seen, not
 // what the C library calls within itself: a stream's buffer is written out by fwrite, fflush or
@@ -26,7 +28,8 @@
     X(WRITE, "write")                                                                              \
     X(SYNC, "sync")                                                                                \
     X(RENAME, "rename")                                                                            \
-    X(FOLDER, "mkdir") X(LENGTH, "truncate") X(CLOSE, "close") X(PROCESS, "process")
+    X(FOLDER, "mkdir")                                                                             \
+    X(LENGTH, "truncate") X(CLOSE, "close") X(PROCESS, "process") X(MEMORY, "memory")
 
 enum {
 #define X(symbol, name) symbol,
@@ -52,7 +55,8 @@ static bool is_due(int kind)
     if (strncmp(wanted, names[kind], length) != 0 || wanted[length] != ':') return false;
     int first = atoi(wanted + length + 1);
     bool due = count == first || (count > first && wanted[strlen(wanted) - 1] == '+');
-    if (due) errno = kind == SYNC ? EIO : kind == PROCESS ? EAGAIN : ENOSPC;
+    static const int causes[KIND_COUNT] = {[SYNC] = EIO, [PROCESS] = EAGAIN, [MEMORY] = ENOMEM};
+    if (due) errno = causes[kind] ? causes[kind] : ENOSPC;
     return due;
 }
 
@@ -212,4 +216,9 @@ pid_t fork(void)
 int pipe(int ends[2])
 {
     return is_due(PROCESS) ? -1 : REAL(pipe)(ends);
+}
+
+void *aligned_alloc(size_t alignment, size_t size)
+{
+    return is_due(MEMORY) ? NULL : REAL(aligned_alloc)(alignment, size);
 }
