@@ -92,6 +92,21 @@ class Resume(unittest.TestCase):
         rod = kills.arrays(self.folder / "stopped" / "history.h5")["series/rod_displacement"]
         self.assertGreater(rod[1][0], json.loads((self.whole / "run.json").read_text())["steps"]["accepted"] + 1)
 
+    def test_error_bar_stopped(self):
+        """It does not go on, says so, and keeps what its meshes gave."""
+        process = subprocess.Popen([PROGRAM, "run", FIG1, *PLAIN, "time.until.U=0.06", "--to", "0.01%", "-o",
+                                    self.folder / "bar"], stderr=subprocess.PIPE, text=True, env=self.environment)
+        shown = ""
+        while not shown.startswith("mesh 2"):
+            shown = process.stderr.readline()
+            self.assertTrue(shown)
+        process.send_signal(signal.SIGINT)
+        _, shown = process.communicate()
+        self.assertEqual(process.returncode, 1)
+        self.assertRegex(shown, "stopped on mesh .* of an error bar; so far mu_M = 0.3.* the same command begins anew")
+        kept = json.loads((self.folder / "bar" / "figures" / "accuracy.json").read_text())
+        self.assertGreaterEqual(len(kept["series"][0]["x"]), 2)
+
     def test_disk_full(self):
         """As far as a file of 200 kB goes."""
         def limit():
