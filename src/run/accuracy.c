@@ -114,7 +114,8 @@ static bool step_until_known(Accuracy *accuracy, Simulation *simulation, Error *
     for (bool finished = false; !finished;) {
         TRY(amontons_simulation_step(simulation, NULL, &finished, err));
         if (stop && *stop)
-            FAIL(err, ERROR_INTERRUPT, "stopped on mesh %d of an error bar", accuracy->levels.count);
+            FAIL(err, ERROR_INTERRUPT, "stopped on mesh %d of an error bar",
+                 accuracy->levels.count);
         if (!simulation->events.ended) continue;
         Answers answers = answers_of(&simulation->drops);
         finished = finished || is_known(accuracy, &answers);
