@@ -418,30 +418,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// What whole runs gave is told and kept. They write no checkpoints: there is no going on.
-static void keep_stopped(Accuracy *accuracy, const ResultFolder *folder, Error *err)
-{
-    Levels *levels = &accuracy->levels;
-    Error stopped = *err, failed = {0};
-    while (levels->count > 0 && last_level(accuracy)->run_count == 0) levels->count--;
-    const ErrorBar *answer = levels->count > 0 ? asked(accuracy) : NULL;
-    if (!answer || isnan(answer->value)) {
-        error_context(err, "no run has ended yet, nothing was written");
-        return;
-    }
-    bool kept = folder->path[0] && !folder->has_earlier &&
-                accuracy_figure(levels, accuracy->scene->title, folder->path, &failed);
-    *err = (Error){0};
-    FAIL(err, ERROR_INTERRUPT,
-         "%s; so far %s = %.4f +- %.1g from %d meshes%s%s%s; it does not go on from here: the same "
-         "command begins anew",
-         stopped.message, ANSWER_NAMES[levels->asked], answer->value, answer->bar, levels->count,
-         kept ? " (" : "", kept ? folder->path : "",
-         kept ? "/figures/accuracy.json)" : ", which was not written");
-cleanup:
-    return;
-}
-
 bool amontons_run(const Scene *scene, const RunOptions *options, RunSummary *summary, Error *err)
 {
     if (!(scene->accuracy.mu > 0)) return simulation_run(scene, options, summary, err);
@@ -463,7 +439,9 @@ bool amontons_run(const Scene *scene, const RunOptions *options, RunSummary *sum
     result_folder_release(&folder);   // the last run claims it for itself
     TRY(run_in_full(accuracy, summary, err));
 cleanup:
-    if (err->code == ERROR_INTERRUPT && folder.path[0]) keep_stopped(accuracy, &folder, err);
+    if (err->code == ERROR_INTERRUPT && folder.path[0])   // before the run in full
+        accuracy_stopped(&accuracy->levels, scene->title, folder.has_earlier ? NULL : folder.path,
+                         err);
     result_folder_release(&folder);
     memory_free(accuracy);
     return error_is_clean(err);

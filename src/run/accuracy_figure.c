@@ -5,6 +5,7 @@
 #include "io/folder.h"
 #include "io/json_writer.h"
 
+#include <math.h>
 #include <stdio.h>
 
 enum { FIGURE_PATH_SIZE = AMONTONS_PATH_SIZE + 32 };
@@ -90,4 +91,25 @@ bool accuracy_figure(const Levels *levels, const char *title, const char *folder
     json_end(json);
     json_end(json);
     return json_finish(json, err) && amontons_render_plot_file(path, png, NULL, err);
+}
+
+void accuracy_stopped(Levels *levels, const char *title, const char *folder, Error *err)
+{
+    Error stopped = *err, failed = {0};
+    while (levels->count > 0 && levels->list[levels->count - 1].run_count == 0) levels->count--;
+    const ErrorBar *answer = levels->count > 0 ? answer_of(levels, levels->count - 1) : NULL;
+    if (!answer || isnan(answer->value)) {
+        error_context(err, "no run has ended yet, nothing was written");
+        return;
+    }
+    bool kept = folder && accuracy_figure(levels, title, folder, &failed);
+    *err = (Error){0};
+    FAIL(err, ERROR_INTERRUPT,
+         "%s; so far %s = %.4f +- %.1g from %d meshes%s%s%s; it does not go on from here: the same "
+         "command begins anew",
+         stopped.message, ANSWER_NAMES[levels->asked], answer->value, answer->bar, levels->count,
+         kept ? " (" : "", kept ? folder : "",
+         kept ? "/figures/accuracy.json)" : ", which was not written");
+cleanup:
+    return;
 }

@@ -10,4 +10,8 @@
 // in the result folder `folder`.
 bool accuracy_figure(const Levels *levels, const char *title, const char *folder, Error *err);
 
+// For a search that was stopped (`err` says where): adds to `err` what whole runs gave, and leaves
+// the picture in `folder` (NULL: nowhere). Such runs write no checkpoints: there is no going on.
+void accuracy_stopped(Levels *levels, const char *title, const char *folder, Error *err);
+
 #endif
