@@ -1,22 +1,25 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Runs killed (SIGKILL) at random moments and gone on with, again and again, until they end: is every byte of what they
-found the same as without a kill?
+"""Runs, sweeps and renders killed (SIGKILL) at random moments and gone on with, again and again, until they end: is every
+byte of what they found the same as without a kill?
 
     validation/kills/kills.py [--kills N] [--seed N] [-o DIR] [--program PROGRAM] [CASE ...]
 
 Each case is run once as it is, which also says how long it takes. Then it is begun anew, killed after a random part of
 that time, gone on with by --resume, killed again, until it comes to its end; and all of that until there were N kills
 (200) over all cases. Compared are history.h5 (arrays and attributes), run.json (all but times and `resumed`), fields
-and pictures. Checkpoints are written every 30 ms, so that kills meet them too. Prints a table, in Markdown; the exit
+and pictures. Checkpoints of runs are written every 30 ms, so that kills meet them too. A sweep is killed with its
+points' processes and taken up by the same command; a render is killed over an earlier picture, which must stay whole. Prints a table, in Markdown; the exit
 status is 1 if anything differs. 200 kills take some five minutes.
 """
 import argparse
 import collections
+import csv
 import json
 import os
 import random
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -39,6 +42,12 @@ CASES = {
     "block, SDIRK3, until periodic": (FIG1, [*SMALL, "output.fields=none", "time.scheme=sdirk3",
                                              "time.until={U: 0.06, periodic: true}"]),
 }
+SWEEP, RENDER = "sweep of three points", "render"
+STUDY = """scene: {scene}
+set: {{mesh.set.nx: 16, mesh.set.nz: 16, time.until.U: 0.01, output.history: true, output.fields: none, output.figures: []}}
+vary: {{load.pressure: [0.003, 0.0033, 0.0036]}}
+record: [results.mu_max, results.mu_M]
+"""
 
 
 def arrays(path):
@@ -78,6 +87,8 @@ class Case:
         self.whole, self.cut = folder / f"{place}-whole", folder / f"{place}-cut"
         self.kills, self.moments, self.ends, self.wrong = 0, collections.Counter(), 0, []
 
+    go_on, anew = ["--checkpoint", "0.03s", "--resume"], ["--checkpoint", "0.03s", "--overwrite"]
+
     def command(self, folder, *more):
         return [self.program, "run", *map(str, self.words), "-o", str(folder), "--quiet", *more]
 
@@ -99,16 +110,17 @@ class Case:
 
     def run_cut(self, chance, kills_left):
         """From nothing to the end, through some kills."""
-        shutil.rmtree(self.cut, ignore_errors=True)
+        self.prepare()
         while True:
             go_on = (self.cut / "checkpoint.bin").exists()
-            process = subprocess.Popen(self.command(self.cut, "--checkpoint", "0.03s",
-                                                    "--resume" if go_on else "--overwrite"))
+            process = subprocess.Popen(self.command(self.cut, *(self.go_on if go_on else self.anew)),
+                                       start_new_session=True, stdout=subprocess.DEVNULL)
             try:
                 process.wait(chance.uniform(0, 1.1 * self.seconds) if self.kills < kills_left else None)
             except subprocess.TimeoutExpired:
-                process.kill()
+                os.killpg(process.pid, signal.SIGKILL)
                 process.wait()
+                self.wrong += self.torn()
                 self.kills += 1
                 self.moments[self.moment()] += 1
                 continue
@@ -116,7 +128,74 @@ class Case:
                 self.wrong.append(f"exit status {process.returncode}")
             break
         self.ends += 1
-        self.wrong += differences(self.whole, self.cut) if process.returncode == 0 else []
+        self.wrong += self.compare() if process.returncode == 0 else []
+
+    def prepare(self):
+        shutil.rmtree(self.cut, ignore_errors=True)
+
+    def torn(self):
+        """What is wrong right after a kill."""
+        return []
+
+    def compare(self):
+        return differences(self.whole, self.cut)
+
+
+class Sweep(Case):
+    go_on, anew = [], []
+
+    def __init__(self, name, folder, program):
+        self.name, self.program, self.study = name, program, folder / "study.yaml"
+        self.whole, self.cut = folder / "sweep-whole", folder / "sweep-cut"
+        self.kills, self.moments, self.ends, self.wrong = 0, collections.Counter(), 0, []
+        self.study.write_text(STUDY.format(scene=FIG1))
+
+    def command(self, folder, *more):
+        return [self.program, "sweep", str(self.study), "-j", "2", "-q", "-o", str(folder), *more]
+
+    def moment(self):
+        return "at the end" if (self.cut / "sweep.csv").exists() else "between two"
+
+    def compare(self):
+        """Tables without times, and each point."""
+        tables = [[{key: cell for key, cell in row.items() if "time" not in key and "second" not in key}
+                   for row in csv.DictReader(open(folder / "sweep.csv", newline=""))] for folder in (self.whole, self.cut)]
+        found = ["sweep.csv"] if tables[0] != tables[1] else []
+        for point in sorted((self.whole / "points").iterdir()):
+            if point.is_dir():
+                found += differences(point, self.cut / "points" / point.name)
+        return found
+
+
+class Render(Case):
+    go_on, anew = [], []
+
+    def __init__(self, name, folder, program):
+        super().__init__("block, fields", folder, program)
+        self.name, self.whole, self.cut = name, folder / "render-whole", folder / "render-cut"
+
+    def command(self, folder, *more):
+        if not (folder / "history.h5").exists():
+            return super().command(folder)
+        return [self.program, "render", str(folder), "--figure", "force"]
+
+    def run_whole(self):
+        super().run_whole()
+        started = time.monotonic()
+        subprocess.run(self.command(self.whole), check=True, stdout=subprocess.DEVNULL)
+        self.seconds = time.monotonic() - started
+        self.picture = (self.whole / "figures" / "force.png").read_bytes()
+
+    def prepare(self):
+        super().prepare()
+        shutil.copytree(self.whole, self.cut)
+
+    def moment(self):
+        return "between two"
+
+    def torn(self):
+        whole = (self.cut / "figures" / "force.png").read_bytes() == self.picture
+        return [] if whole else ["figures/force.png was torn"]
 
 
 def main():
@@ -125,12 +204,13 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("-o", dest="folder", type=Path, default=ROOT / "results" / "kills")
     parser.add_argument("--program", default=str(ROOT / "build" / "bin" / "amontons"))
-    parser.add_argument("cases", nargs="*", default=list(CASES), metavar="CASE")
+    parser.add_argument("cases", nargs="*", default=[*CASES, SWEEP, RENDER], metavar="CASE")
     asked = parser.parse_args()
     asked.folder.mkdir(parents=True, exist_ok=True)
     os.environ["AMONTONS_CACHE"] = str(asked.folder / "cache")
     chance = random.Random(asked.seed)
-    cases = [Case(name, asked.folder, asked.program) for name in asked.cases]
+    kinds = {SWEEP: Sweep, RENDER: Render}
+    cases = [kinds.get(name, Case)(name, asked.folder, asked.program) for name in asked.cases]
     for number, case in enumerate(cases):
         case.run_whole()
         share = asked.kills * (number + 1) // len(cases) - asked.kills * number // len(cases)
