@@ -108,42 +108,42 @@ static DenseView apply_term(const GrowingBasis *basis, BulkTerm term, DenseView 
     return (DenseView){image, vectors.rows, vectors.columns};
 }
 
-// Rows and columns from `first` on of V'TV, V with all modes.
-static bool project(const GrowingBasis *basis, BulkTerm term, int64_t first, double **matrix,
-                    Error *err)
+// *matrix := V'TV, known up to `first`; product: its columns from there on.
+static bool extend_square(double **matrix, int64_t first, int64_t count, const double *product,
+                          Error *err)
 {
-    int64_t dofs = basis->reduced->full_dofs, count = basis->reduced->count, added = count - first;
-    double *image = NEW_ARRAY(double, dofs *added, err);
-    double *product = NEW_ARRAY(double, count *added, err);
-    if (!image || !product) goto cleanup;
-    TRY(grow_square(matrix, first, count, err));
-    dense_multiply_transposed(view_modes(basis, 0, count),
-                              apply_term(basis, term, view_modes(basis, first, added), image), 1, 0,
-                              product);
-    for (int64_t j = 0; j < added; j++) {
-        double *column = *matrix + (first + j) * count;
-        for (int64_t i = 0; i <= first + j; i++)
-            column[i] = (*matrix)[i * count + first + j] = product[j * count + i];
+    if (!grow_square(matrix, first, count, err)) return false;
+    for (int64_t j = first; j < count; j++) {
+        const double *column = product + (j - first) * count;
+        for (int64_t i = 0; i <= j; i++)
+            (*matrix)[j * count + i] = (*matrix)[i * count + j] = column[i];
     }
+    return true;
+}
+
+// C, M and the load of the modes from `first` on, in one pass over all modes: to read them takes as
+// long as to multiply by a few columns.
+static bool project(const GrowingBasis *basis, int64_t first, Error *err)
+{
+    ReducedBulk *reduced = basis->reduced;
+    int64_t dofs = reduced->full_dofs, count = reduced->count, added = count - first;
+    DenseView added_modes = view_modes(basis, first, added);
+    double *image = NEW_ARRAY(double, dofs * 2 * added, err);
+    double *product = NEW_ARRAY(double, count * 2 * added, err);
+    double *load = memory_resize(reduced->load, first, count, sizeof *load, err);
+    if (load) reduced->load = load;
+    if (!error_is_clean(err)) goto cleanup;
+    apply_term(basis, BULK_DAMPING, added_modes, image);
+    apply_term(basis, BULK_MASS, added_modes, image + dofs * added);
+    dense_multiply_transposed(view_modes(basis, 0, count),
+                              (DenseView){image, (int32_t)dofs, (int32_t)(2 * added)}, 1, 0,
+                              product);
+    TRY(extend_square(&reduced->damping, first, count, product, err));
+    TRY(extend_square(&reduced->mass, first, count, product + count * added, err));
+    dense_apply_transposed(added_modes, basis->unit_load, 1, 0, load + first);
 cleanup:
     memory_free(image);
     memory_free(product);
-    return error_is_clean(err);
-}
-
-// C, M and the load of the modes from `first` on.
-static bool project_all(const GrowingBasis *basis, int64_t first, Error *err)
-{
-    ReducedBulk *reduced = basis->reduced;
-    int64_t count = reduced->count;
-    double *load = memory_resize(reduced->load, first, count, sizeof *load, err);
-    if (!load) goto cleanup;
-    reduced->load = load;
-    dense_apply_transposed(view_modes(basis, first, count - first), basis->unit_load, 1, 0,
-                           load + first);
-    TRY(project(basis, BULK_DAMPING, first, &reduced->damping, err));
-    TRY(project(basis, BULK_MASS, first, &reduced->mass, err));
-cleanup:
     return error_is_clean(err);
 }
 
@@ -250,7 +250,7 @@ bool basis_extend(GrowingBasis *basis, int32_t columns, Error *err)
     }
     reduced->interior_count += (int32_t)kept;
     reduced->count += (int32_t)kept;
-    TRY(project_all(basis, work.count, err));
+    TRY(project(basis, work.count, err));
 cleanup:
     extension_destroy(&work);
     return error_is_clean(err);
@@ -267,7 +267,7 @@ static bool start_motions(GrowingBasis *basis, InterfaceOperator *statics, Error
     TRY(interface_operator_answer(statics, motions, (int32_t)m, reduced->modes, err));
     // Inside the block K Psi = 0, so that V'KV is the Schur complement of K.
     memcpy(reduced->stiffness, interface_operator_schur(statics), (size_t)(m * m) * sizeof(double));
-    TRY(project_all(basis, 0, err));
+    TRY(project(basis, 0, err));
 cleanup:
     memory_free(motions);
     return error_is_clean(err);
