@@ -212,6 +212,8 @@ bool amontons_simulation_create(const Scene *scene, const RunOptions *options, S
     warnings_of_resolution(&simulation->control.certificate,
                            simulation->model.scales.load * schedule_largest(&load),
                            &simulation->warnings);
+    warnings_of_shape(scene, simulation->model.length, simulation->model.height,
+                      &simulation->warnings);
     warnings_of_rod(scene, &simulation->model.interface, simulation->model.height,
                     &simulation->warnings);
     if (options->resume)

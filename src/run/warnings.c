@@ -102,6 +102,24 @@ void warnings_of_slip(const Scene *scene, const Interface *interface, const Even
                  CELLS_ENOUGH, finer_mesh(scene));
 }
 
+static bool gives_parameter(const Scene *scene, const char *name)
+{
+    for (int32_t k = 0; k < scene->mesh.parameter_count; k++)
+        if (strcmp(scene->mesh.parameters[k].name, name) == 0) return true;
+    return false;
+}
+
+void warnings_of_shape(const Scene *scene, double length, double height, RunWarnings *warnings)
+{
+    if (height <= length || gives_parameter(scene, "height")) return;
+    if (gives_parameter(scene, "length"))
+        warnings_add(warnings,
+                     "the block is %.3g times as high as long: mesh.set.length is given and "
+                     "mesh.set.height is not, so it is %.4g, that of the mesh file, over a length "
+                     "of %.4g: set mesh.set.height",
+                     height / length, height, length);
+}
+
 // Less of the strip than this may miss the face, relative to its width: rounding of either.
 static const double STRIP_MISSED = 1e-3;
 

@@ -22,6 +22,9 @@ int32_t undamped_nodes(const Certificate *certificate, double load, double *wors
 // Says so. Appends to `warnings`.
 void warnings_of_resolution(const Certificate *certificate, double load, RunWarnings *warnings);
 
+// A block that is taller than long though only its length was given: one that a mesh file made so
+// by a height of its own.
+void warnings_of_shape(const Scene *scene, double length, double height, RunWarnings *warnings);
 // The rod's strip against the extent of its face; height: H, length.
 void warnings_of_rod(const Scene *scene, const Interface *interface, double height,
                      RunWarnings *warnings);

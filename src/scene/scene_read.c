@@ -13,6 +13,7 @@
 #include "base/text.h"
 #include "scene/check.h"
 #include "scene/contact_laws.h"
+#include "scene/formulas.h"
 #include "scene/keys.h"
 #include "scene/materials.h"
 #include "scene/own_law.h"
@@ -35,7 +36,7 @@ typedef struct Reader {
     int32_t key_count;
     YamlDocument *defaults;   // a list of the keys' defaults, in their order
     YamlDocument *file;
-    YamlDocument **overrides;   // [override_count]
+    YamlDocument **overrides;   // [override_count] those of --set, and the values of its formulas
     int32_t override_count;
     Setting *settings;   // [setting_count] of SETTINGS_MAX, later ones win
     int32_t setting_count;
@@ -139,6 +140,7 @@ static bool gather_override(Reader *reader, const char *text, Error *err)
     TRY(yaml_parse(shown, text, (int32_t)(equals - text) + 1, document, err));
     reader->override_count++;
     SceneValue value = {.document = *document, .node = YAML_ROOT};
+    if (scene_is_formula(*document, YAML_ROOT)) goto cleanup;   // needs the others: work_out_all
     TRY(gather_outside(reader, name, &value, err));
 cleanup:
     return error_is_clean(err);
@@ -278,13 +280,37 @@ cleanup:
     return error_is_clean(err);
 }
 
-// When everything is gathered.
+// Formulas of --set, in their order, over the scene that all else and those before make.
+static bool work_out_all(Reader *reader, const char *const *overrides, int32_t count, Scene *scene,
+                         Error *err)
+{
+    for (int32_t i = 0; i < count; i++) {
+        const YamlDocument *formula = reader->overrides[i];
+        YamlDocument **value = &reader->overrides[reader->override_count];
+        char name[KEY_NAME_SIZE] = "", shown[2 * KEY_NAME_SIZE];
+        int32_t first = reader->setting_count;
+        if (!scene_is_formula(formula, YAML_ROOT)) continue;
+        memcpy(name, overrides[i], (size_t)(strchr(overrides[i], '=') - overrides[i]));
+        snprintf(shown, sizeof shown, "--set %s, value of `%.80s`", name,
+                 yaml_text(formula, YAML_ROOT));
+        SceneSetting setting = {.key = name, .document = formula, .node = YAML_ROOT};
+        TRY(scene_work_out(scene, &setting, shown, value, err));
+        reader->override_count++;
+        TRY(gather_outside(reader, name, &(SceneValue){.document = *value, .node = YAML_ROOT},
+                           err));
+        for (int32_t k = first; k < reader->setting_count; k++)
+            TRY(store_setting(reader, &reader->settings[k], scene, err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// When everything is stored.
 static bool finish_reading(Reader *reader, const char *path, Scene *scene, Error *err)
 {
     char key[KEY_NAME_SIZE];
     const char *word;
     bool done;
-    TRY(store_settings(reader, scene, err));
     TRY(scene_check(scene, reader->sources, reader->file, err));
     if (!friction_has_drop(&scene->friction))
         scene->friction.mu_kinetic = scene->friction.mu_static;
@@ -313,8 +339,10 @@ bool scene_read(const char *path, const char *const *overrides, int32_t override
 {
     Reader reader = {0};
     TRY(begin_reading(&reader, path, scene, err));
-    TRY((reader.overrides = NEW_ARRAY(YamlDocument *, override_count, err)));
+    TRY((reader.overrides = NEW_ARRAY(YamlDocument *, 2 * (int64_t)override_count, err)));
     for (int32_t i = 0; i < override_count; i++) TRY(gather_override(&reader, overrides[i], err));
+    TRY(store_settings(&reader, scene, err));
+    TRY(work_out_all(&reader, overrides, override_count, scene, err));
     TRY(finish_reading(&reader, path, scene, err));
 cleanup:
     destroy_reader(&reader);
@@ -330,6 +358,7 @@ bool scene_read_settings(const char *path, const SceneSetting *settings, int32_t
         SceneValue value = {.document = settings[i].document, .node = settings[i].node};
         TRY(gather_outside(&reader, settings[i].key, &value, err));
     }
+    TRY(store_settings(&reader, scene, err));
     TRY(finish_reading(&reader, path, scene, err));
 cleanup:
     destroy_reader(&reader);

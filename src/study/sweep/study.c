@@ -17,13 +17,6 @@ bool study_plain_number(const Study *study, YamlNode node, double *value)
            isfinite(*value);
 }
 
-// `= 0.5 * mesh.set.length`; in quotes it is a text that begins with `=`.
-bool study_is_formula(const YamlDocument *document, YamlNode node)
-{
-    return yaml_kind(document, node) == YAML_SCALAR && !yaml_is_quoted(document, node) &&
-           yaml_text(document, node)[0] == '=';
-}
-
 // -1: no key of this name varies.
 int32_t study_column(const Study *study, const char *name)
 {

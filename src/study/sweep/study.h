@@ -108,8 +108,6 @@ bool study_add_column(Study *study, const char *key, Error *err);
 int32_t study_column(const Study *study, const char *name);
 // Whether `vary` or `cases` sets the key, alone or in a map; a formula of `set` does not count.
 bool study_is_chosen(const Study *study, const char *key);
-// `= 0.5 * mesh.set.length`; in quotes it is a text that begins with `=`.
-bool study_is_formula(const YamlDocument *document, YamlNode node);
 bool study_plain_number(const Study *study, YamlNode node, double *value);   // false: is none
 
 #endif

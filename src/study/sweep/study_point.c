@@ -3,10 +3,9 @@
 // out one by one, each over the scene that those before it have changed.
 #include "study/sweep/study_point.h"
 
-#include "base/formula.h"
 #include "base/memory.h"
+#include "scene/formulas.h"
 #include "scene/keys.h"
-#include "scene/materials.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -22,43 +21,16 @@ typedef struct PointSettings {
 
 // --- values of a scene --------------------------------------------------------------------------
 
-static const MeshParameter *find_parameter(const Scene *scene, const char *key)
-{
-    static const char prefix[] = "mesh.set.";
-    if (strncmp(key, prefix, strlen(prefix)) != 0) return NULL;
-    for (int32_t k = 0; k < scene->mesh.parameter_count; k++)
-        if (strcmp(scene->mesh.parameters[k].name, key + strlen(prefix)) == 0)
-            return &scene->mesh.parameters[k];
-    return NULL;
-}
-
-// A FormulaLookUp over a scene: its numbers, and those of the mesh's parameters.
-static bool look_up(const void *context, const char *name, double *value)
-{
-    const Scene *scene = context;
-    const MeshParameter *parameter = find_parameter(scene, name);
-    int32_t index = scene_key_index(name), count = 0;
-    const SceneKey *keys = scene_keys(&count);
-    if (parameter) {
-        *value = parameter->value;
-        return !*parameter->text;
-    }
-    if (scene_materials_find(scene, name, value)) return true;
-    if (index < 0 || keys[index].type != KEY_NUMBER) return false;
-    memcpy(value, (const char *)scene + keys[index].offset, sizeof *value);
-    return true;
-}
-
 // Twelve digits: what a user typed comes back as it was typed.
 void study_scene_value(const Scene *scene, const char *key, char *words, int32_t size,
                        double *number)
 {
-    const MeshParameter *parameter = find_parameter(scene, key);
+    const MeshParameter *parameter = scene_mesh_parameter(scene, key);
     int32_t index = scene_key_index(key), count = 0;
     const SceneKey *keys = scene_keys(&count);
     *words = 0;
     *number = NAN;
-    if (look_up(scene, key, number))
+    if (scene_number(scene, key, number))
         snprintf(words, (size_t)size, "%.12g", *number);
     else if (parameter)
         snprintf(words, (size_t)size, "%s", parameter->text);
@@ -72,7 +44,7 @@ void study_scene_value(const Scene *scene, const char *key, char *words, int32_t
 // Formulas are put aside, to be worked out when all plain values are in.
 static bool add(PointSettings *settings, const SceneSetting *setting, Error *err)
 {
-    bool is_formula = study_is_formula(setting->document, setting->node);
+    bool is_formula = scene_is_formula(setting->document, setting->node);
     int32_t room = is_formula ? STUDY_FORMULAS_MAX : STUDY_SETTINGS_MAX;
     int32_t *count = is_formula ? &settings->formula_count : &settings->count;
     if (*count == room)
@@ -147,24 +119,16 @@ cleanup:
 }
 
 // The value of formula `k` over `scene`, as one more setting.
-// 15 digits: what is shown in messages and in the table is what is computed with.
 static bool work_out(const Study *study, PointSettings *settings, int32_t k, const Scene *scene,
                      Error *err)
 {
     const SceneSetting *formula = &settings->formulas[k];
-    const char *text = yaml_text(formula->document, formula->node);
-    char number[40], name[SCENE_TEXT_SIZE + 120];
-    double value = 0;
-    Error found = {0};
-    if (!formula_value(text + 1, look_up, scene, &value, &found)) {
-        yaml_error(formula->document, formula->node, err, "%s: %s", formula->key, found.message);
-        goto cleanup;
-    }
-    snprintf(number, sizeof number, "%.15g", value);
+    char name[SCENE_TEXT_SIZE + 120];
     snprintf(name, sizeof name, "%s:%d:%d, value of `%.80s`", study->path,
              yaml_line(formula->document, formula->node),
-             yaml_column(formula->document, formula->node), text);
-    TRY(yaml_parse(name, number, 0, &settings->values[k], err));
+             yaml_column(formula->document, formula->node),
+             yaml_text(formula->document, formula->node));
+    TRY(scene_work_out(scene, formula, name, &settings->values[k], err));
     SceneSetting setting = {
         .key = formula->key, .document = settings->values[k], .node = YAML_ROOT};
     TRY(add(settings, &setting, err));

@@ -3,6 +3,7 @@
 #include "study/sweep/study_vary.h"
 
 #include "base/memory.h"
+#include "scene/formulas.h"
 #include "scene/keys.h"
 
 #include <math.h>
@@ -61,7 +62,7 @@ static bool read_set(Study *study, Error *err)
     for (YamlNode item = yaml_first(study->file, study->set); item != YAML_NO_NODE;
          item = yaml_next(study->file, item)) {
         TRY(check_key(study, item, err));
-        if (study_is_formula(study->file, item))
+        if (scene_is_formula(study->file, item))
             TRY(study_add_column(study, yaml_key(study->file, item), err));
     }
 cleanup:
@@ -241,7 +242,7 @@ static bool check_map(const Study *study, const char *what, YamlNode map, const 
     for (YamlNode item = yaml_first(study->file, map); item != YAML_NO_NODE;
          item = yaml_next(study->file, item)) {
         if (!gives(study->file, yaml_key(study->file, item), item, wanted)) continue;
-        if (strcmp(what, "cases") == 0 && study_is_formula(study->file, item) &&
+        if (strcmp(what, "cases") == 0 && scene_is_formula(study->file, item) &&
             strstr(yaml_text(study->file, item), wanted))
             continue;
         yaml_key_error(study->file, item, err, "%s: given by `%s` and again by `vary`", wanted,

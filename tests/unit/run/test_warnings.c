@@ -78,6 +78,21 @@ static void test_rod_beside_its_face(void **state)
     assert_non_null(strstr(found.text[0], "only 80 % of the strip"));
 }
 
+static void test_tall_block(void **state)
+{
+    (void)state;
+    const char *const lengths[] = {"mesh.set={length: 0.04, nx: 4}", "mesh.set={length: 2}",
+                                   "mesh.set={length: 0.04, height: 0.1}"};
+    for (int32_t k = 0; k < 3; k++) {
+        Scene *scene = small_scene((const char *const[]){lengths[k], NULL});
+        RunWarnings found = {0};
+        warnings_of_shape(scene, k == 1 ? 2 : 0.04, k == 2 ? 0.1 : 0.5, &found);
+        assert_int_equal(found.count, k == 0);
+        if (k == 0) assert_non_null(strstr(found.text[0], "12.5 times as high as long"));
+        amontons_scene_destroy(scene);
+    }
+}
+
 // What is said of an event before which so many cells slipped on pad 1 of two, or of one.
 static void slip_warning(double cells, int32_t pads, const char *setting, RunWarnings *found)
 {
@@ -124,7 +139,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_resolution),          cmocka_unit_test(test_without_viscosity),
         cmocka_unit_test(test_rod_beside_its_face), cmocka_unit_test(test_too_few_cells),
-        cmocka_unit_test(test_list_is_bounded),
+        cmocka_unit_test(test_list_is_bounded),     cmocka_unit_test(test_tall_block),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,6 +7,7 @@
 #include "scene_of_text.h"
 #include "unit/scene/scene_texts.h"
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -138,6 +139,24 @@ static void test_overrides(void **state)
     assert_true(scene.load.supports[0].x && !scene.load.supports[0].z);
     assert_true(scene.load.supports[1].x && scene.load.supports[1].z);
     assert_true(scene.start.velocity_z == -2 && scene.start.velocity_x == 0);
+}
+
+// A formula of --set is worked out over all that is set, and over those before it.
+static void test_formulas(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {
+        "time.until.U== 6*load.pressure",
+        "load.pressure=0.007",
+        "mesh.set.height== mesh.set.length / 4",
+        "rod.height== 2 * mesh.set.height - time.until.U",
+        "title=\"= 3\"",
+    };
+    Scene scene = read_fig1(texts, sizeof texts / sizeof texts[0]);
+    assert_true(fabs(scene.time.until_U - 0.042) < 1e-15);
+    assert_true(scene.mesh.parameters[1].value == 0.25);
+    assert_true(fabs(scene.rod.height - (0.5 - 0.042)) < 1e-15);
+    assert_string_equal(scene.title, "= 3");   // in quotes it is none
 }
 
 static void test_override_of_a_part(void **state)
@@ -282,11 +301,11 @@ int main(void)
 {
     snprintf(fig1, sizeof fig1, "%s/validation/paper/fig1.yaml", getenv("AMONTONS_SOURCE"));
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_figure_1),       cmocka_unit_test(test_defaults),
-        cmocka_unit_test(test_overrides),      cmocka_unit_test(test_override_of_a_part),
-        cmocka_unit_test(test_si_units),       cmocka_unit_test(test_special_cases),
-        cmocka_unit_test(test_public_face),    cmocka_unit_test(test_memory_faults),
-        cmocka_unit_test(test_mutated_scenes),
+        cmocka_unit_test(test_figure_1),           cmocka_unit_test(test_defaults),
+        cmocka_unit_test(test_overrides),          cmocka_unit_test(test_formulas),
+        cmocka_unit_test(test_override_of_a_part), cmocka_unit_test(test_si_units),
+        cmocka_unit_test(test_special_cases),      cmocka_unit_test(test_public_face),
+        cmocka_unit_test(test_memory_faults),      cmocka_unit_test(test_mutated_scenes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

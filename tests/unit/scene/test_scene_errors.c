@@ -352,6 +352,9 @@ static void test_bad_overrides(void **state)
     } cases[] = {
         {"load.pressure=abc", "--set load.pressure:1:15: load.pressure: found `abc`", "a number"},
         {"load.presure=1", "--set load.presure:1:1: load.presure: unknown key", "`load.pressure`"},
+        {"time.until.U== 6*load.presure",
+         "--set time.until.U:1:14: time.until.U: ", "load.presure"},
+        {"time.until.U== 0 - 1", "--set time.until.U, value of `= 0 - 1`:1:1: time.until.U", "-1"},
         {"load.pressure", "--set load.pressure: wanted is key=value", "load.pressure=0.006"},
         {"=1", "--set =1: wanted is key=value", ""},
         {"load.pressure=", "--set load.pressure:1:15: load.pressure: found nothing", ""},
