@@ -12,6 +12,7 @@ static const double SLOPE = 0.5;   // of what is left at first order; at second,
 static const double SCATTER = 0.12;   // of mu, over the nodes in contact: between meshes, usually
 static const double SCATTER_PADS = 0.7;   // the same, of several pads, at whose edges slip waits
 enum { SCATTER_LEVELS = 4 };   // so many levels more would it be worth to know that
+static const double END_WAITS = 2;   // mu rises as much again before the front comes to those nodes
 static const double STEPS = 0.002;   // of mu: what tolerances of steps and reduction leave
 static const double BRANCH_WIDTH = 0.005;   // of mu: the next branch is twice as far and more
 
@@ -132,13 +133,14 @@ static double mesh_part(const Levels *levels, AnswerKind kind)
     const Level *last = &levels->list[levels->count - 1];
     int32_t freedoms = levels_known(levels, kind) - 2 + SCATTER_LEVELS;
     bool alone = last->contact_nodes == coarsest_nodes(levels, kind);
-    if (alone || last->waits || !is_known(last, kind)) return NAN;
+    if (alone || !is_known(last, kind)) return NAN;
     Line line = fit_line(levels, kind);
     double value = value_of(last, kind);
     double per_cell = last->pads > 1 ? SCATTER_PADS : SCATTER;
     double usual = per_cell / last->contact_nodes * value;
     double scatter = sqrt((line.square + SCATTER_LEVELS * usual * usual) / freedoms);
-    return fmax(hypot(SLOPE * line.slope, student(freedoms) * scatter), STEPS * value);
+    double way = hypot(SLOPE * line.slope, END_WAITS * last->end_wait);
+    return fmax(hypot(way, student(freedoms) * scatter), STEPS * value);
 }
 
 static double known(double part)
@@ -282,6 +284,8 @@ void levels_write_json(const Levels *levels, JsonWriter *json)
         json_number(json, "refine", level->refine);
         json_integer(json, "contact_nodes", level->contact_nodes);
         json_number(json, "seconds", level->seconds);
+        json_boolean(json, "undamped", level->undamped);
+        json_number(json, "end_wait", level->end_wait);
         write_bars(level->answer, json);
         write_runs(level, json);
         json_end(json);

@@ -12,8 +12,8 @@
 //              the scatter about it. Values scatter from mesh to mesh, as slip stops at nodes; the
 //              scatter is taken to fall with the cell size. Few levels may agree by chance, so a
 //              usual scatter counts as some levels more. At least what steps and reduction leave.
-//              Levels whose cells are too long for slip (`undamped`) have no part in it, and it is
-//              not known while bulk sliding waits for the last nodes of the contact (`waits`).
+//              Levels whose cells are too long for slip (`undamped`) have no part in it. Twice
+//              what mu rises by while the last nodes of the contact hold (`end_wait`) is added.
 //
 // How often bars hold, and by how much, is measured by validation/benchmark/promise.py.
 #ifndef AMONTONS_RECORD_ERROR_BARS_H
@@ -43,7 +43,7 @@ typedef struct Level {
     int32_t contact_nodes;
     int32_t pads;   // pieces of the contact, at least 1
     bool undamped;   // friction weakens faster than viscosity can damp on a cell: no answer
-    bool waits;   // the last cells of the contact decide when the block slides, on any mesh so far
+    double end_wait;   // what mu rises by while the last nodes of the contact hold (run/end_wait)
     int32_t run_count;
     LevelRun runs[LEVEL_RUNS_MAX];
     ErrorBar answer[ANSWER_KINDS];

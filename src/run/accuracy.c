@@ -10,6 +10,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "run/accuracy_figure.h"
+#include "run/end_wait.h"
 #include "run/simulation_state.h"
 #include "run/warnings.h"
 
@@ -23,14 +24,12 @@ enum {
     RUNS_FIRST = 2,   // on every level, at either end of the window
     LEVELS_LEAST = 3,   // two agree by chance
     COARSER_MAX = 3,   // halvings of the scene's mesh that are tried
-    END_NODES = 2,   // with so few left to slip, they decide when the block slides
 };
 static const double DROPS_SHARE = 0.2;   // of the bar wanted, for the drops of each run
 static const double LONGER = 4;   // than the scene's end, for a run whose answer is not known
 static const double STEP = 1.4142135623730951;   // of cell size from level to level
 static const double STEP_SPLIT = 2;   // where cells can only be halved: no .geo with `refine`
 static const double GROWTH = 2.5;   // of a level's time, before two levels are known
-static const double ROUNDING = 1e-6;   // of positions, in cells
 
 typedef struct Accuracy {
     const Scene *scene;
@@ -108,11 +107,12 @@ static bool is_known(const Accuracy *accuracy, const Answers *answers)
 }
 
 // Steps until the answer is known, time is up (never on the first level), or the end.
-static bool step_until_known(Accuracy *accuracy, Simulation *simulation, Error *err)
+static bool step_until_known(Accuracy *accuracy, Simulation *simulation, EndWait *wait, Error *err)
 {
     const volatile sig_atomic_t *stop = accuracy->options->stop;
     for (bool finished = false; !finished;) {
         TRY(amontons_simulation_step(simulation, NULL, &finished, err));
+        end_wait_watch(wait, simulation);
         if (stop && *stop)
             FAIL(err, ERROR_INTERRUPT, "stopped on mesh %d of an error bar",
                  accuracy->levels.count);
@@ -136,16 +136,13 @@ static bool contact_has_nodes(const Interface *interface)
     return interface->contact_count >= CONTACT_NODES_MIN;
 }
 
-// The front of slip comes to the last nodes of the contact's leading end, and not past them, before
-// the block slides as a whole: what these hold depends on their size (validation/paper/README.md).
-// Told of one piece only.
-static bool waits_at_end(const Interface *interface, double critical_length)
+// On most nodes friction weakens faster than viscosity can damp: cells are too long for slip.
+static bool is_undamped(const Simulation *simulation)
 {
-    int32_t last = interface->contact_count - 1;
-    if (interface->pad_count > 1 || last < END_NODES || isnan(critical_length)) return false;
-    double spacing = interface->x[last] - interface->x[last - 1];
-    double left = (interface->x[last] - critical_length) / spacing;
-    return left > ROUNDING && left < END_NODES - ROUNDING;
+    double worst = 0;
+    int32_t undamped =
+        undamped_nodes(&simulation->control.certificate, simulation->model.scales.load, &worst);
+    return 2 * undamped > simulation->model.interface.contact_count;
 }
 
 // A StepCallback: says which run of which mesh it is.
@@ -167,19 +164,19 @@ static bool run_member(Accuracy *accuracy, double pressure, bool *coarse, Error 
                           .context = accuracy,
                           .stop = accuracy->options->stop};
     Simulation *simulation = NULL;
-    double started = clock_seconds(), worst = 0;
+    EndWait wait = {.mu = NAN};
+    double started = clock_seconds();
     Scene *scene = scene_of_run(accuracy, level->refine, pressure, err);
     TRY(scene);
     TRY(amontons_simulation_create(scene, &options, &simulation, err));
     const Interface *interface = &simulation->model.interface;
     level->contact_nodes = interface->contact_count;
     level->pads = interface->pad_count;
-    level->undamped =
-        undamped_nodes(&simulation->control.certificate, simulation->model.scales.load, &worst) > 0;
+    level->undamped = is_undamped(simulation);
     if (coarse && (*coarse = level->undamped || !contact_has_nodes(interface))) goto cleanup;
-    TRY(step_until_known(accuracy, simulation, err));
+    TRY(step_until_known(accuracy, simulation, &wait, err));
     Answers answers = answers_of(&simulation->drops);
-    level->waits = level->waits || waits_at_end(interface, answers.critical_length);
+    level->end_wait = fmax(level->end_wait, end_wait_of(&wait, interface, answers.critical_length));
     if (!accuracy->out_of_time)
         levels_add_run(&accuracy->levels, pressure, &answers,
                        simulation->control.counters.accepted);
@@ -360,9 +357,7 @@ cleanup:
 static const char *why_unknown(const Accuracy *accuracy)
 {
     const Level *last = &accuracy->levels.list[accuracy->levels.count - 1];
-    if (last->undamped) return "cells are too long for slip";
-    if (last->waits) return "the last nodes of the contact decide when the block slides";
-    return "one mesh";
+    return last->undamped ? "cells are too long for slip" : "one mesh";
 }
 
 static void warn_of_bar(const Accuracy *accuracy, RunWarnings *warnings)

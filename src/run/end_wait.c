@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "run/end_wait.h"
+
+#include <math.h>
+
+enum { END_NODES = 2 };   // with so few left to slip, they decide when the block slides
+static const double ROUNDING = 1e-6;   // of positions, in cells
+
+// Cells from the front to the leading end.
+static double cells_left(const Interface *interface, double front)
+{
+    int32_t last = interface->contact_count - 1;
+    return (interface->x[last] - front) / (interface->x[last] - interface->x[last - 1]);
+}
+
+static bool has_end(const Interface *interface)
+{
+    return interface->pad_count == 1 && interface->contact_count > END_NODES;
+}
+
+void end_wait_watch(EndWait *wait, const Simulation *simulation)
+{
+    const Interface *interface = &simulation->model.interface;
+    const Events *events = &simulation->events;
+    const Drops *drops = &simulation->drops;
+    if (!has_end(interface)) return;
+    bool in_event = events->rapid >= 0 || events->ended;
+    if (!in_event && isnan(wait->mu) &&
+        cells_left(interface, simulation->seen.front) < END_NODES - ROUNDING)
+        wait->mu = simulation->seen.mu;
+    if (events->crossed && drops->count > 1) {
+        wait->slidings++;
+        if (!isnan(wait->mu)) wait->rise += drops->list[drops->count - 1].mu - wait->mu;
+    }
+    if (in_event) wait->mu = NAN;
+}
+
+double end_wait_of(const EndWait *wait, const Interface *interface, double critical_length)
+{
+    if (!has_end(interface) || isnan(critical_length) || wait->slidings == 0) return 0;
+    double left = cells_left(interface, critical_length);
+    bool waits = left > ROUNDING && left < END_NODES - ROUNDING;
+    return waits ? wait->rise / wait->slidings : 0;
+}
