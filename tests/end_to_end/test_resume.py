@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A run that was cut off goes on: stopped, killed, or out of disk; --extend; what is refused, and in which words. Compared
 with a run left alone as validation/kills/kills.py does it, which also tries more kinds of runs and 200 kills."""
+import fcntl
 import importlib.util
 import json
 import os
@@ -9,6 +10,7 @@ import shutil
 import signal
 import subprocess
 import tempfile
+import threading
 import time
 import unittest
 from pathlib import Path
@@ -146,6 +148,9 @@ class Resume(unittest.TestCase):
         self.assertEqual((self.folder / "sweep" / "sweep.csv").read_text(), table)
         self.assertEqual([json.loads((point / "run.json").read_text())["resumed"] for point in (first, second)], [1, 0])
         (first / "run.json").unlink()
+        lock = open(self.folder / "sweep" / "lock", "w")      # of points that die a moment after their sweep
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        threading.Timer(0.2, lock.close).start()
         subprocess.run([*words, "--fresh"], check=True, env=self.environment)
         self.assertEqual(json.loads((first / "run.json").read_text())["resumed"], 0)
 

@@ -17,7 +17,22 @@
 #include <fcntl.h>
 #include <string.h>
 #include <sys/file.h>
+#include <time.h>
 #include <unistd.h>
+
+// Points of a sweep that was killed die with it, and leave its lock a moment later; s.
+static const double LOCK_WAIT = 1;
+static const struct timespec PAUSE = {.tv_nsec = 10000000};
+
+static bool take_lock(int descriptor)
+{
+    double until = clock_seconds() + LOCK_WAIT;
+    while (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+        if (clock_seconds() >= until) return false;
+        nanosleep(&PAUSE, NULL);
+    }
+    return true;
+}
 
 // The system removes the lock when the process ends, however it ends.
 static bool take_folder(Sweep *sweep, Error *err)
@@ -32,7 +47,7 @@ static bool take_folder(Sweep *sweep, Error *err)
     sweep->lock = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (sweep->lock < 0)
         FAIL(err, ERROR_FILE, "cannot write into %s: %s", sweep->folder, strerror(errno));
-    if (flock(sweep->lock, LOCK_EX | LOCK_NB) != 0)
+    if (!take_lock(sweep->lock))
         FAIL(err, ERROR_FILE,
              "another sweep is running in %s: wait for it, or choose another "
              "folder (-o)",
