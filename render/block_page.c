@@ -225,8 +225,8 @@ bool block_page_draw(const Page *page, const BlockPage *map, const Block *block,
     left.y = right.y += CONTACT_GAP * unit;
     shape_segment(page->canvas, &ground, left, right);
     draw_load(page, map, block, axes);
-    double face = rod_face(block, low, high);
-    if (isfinite(face)) rod_mark_draw(page, axes, face, low, high);
+    RodMark rod = {rod_face(block, low, high), low, high, map->share};
+    rod_mark_draw(page, axes, &rod);
 cleanup:
     return error_is_clean(err);
 }

@@ -21,6 +21,8 @@ typedef bool (*WholeFigureFunction)(Page *page, const FigureInput *input, Error 
 
 // One field of the block at one time.
 bool figure_field(Page *page, const FigureInput *input, Error *err);
+// The same, the velocity where none is named, in up to six frames of one sliding.
+bool figure_strip(Page *page, const FigureInput *input, Error *err);
 
 // F_T/F_N against U with its peaks, mu_S, mu_M, mu_K, and an inset of the precursors.
 bool figure_force(const Page *page, ResultView *view, Error *err);

@@ -261,7 +261,8 @@ static void draw_rod(const MeshPage *map)
     double face = INFINITY;
     for (int32_t node = 0; node < mesh->node_count; ++node)
         face = fmin(face, mesh->position[2 * (int64_t)node]);
-    rod_mark_draw(map->page, &map->axes, face, mesh->rod_low, mesh->rod_high);
+    RodMark rod = {face, mesh->rod_low, mesh->rod_high, 1};
+    rod_mark_draw(map->page, &map->axes, &rod);
 }
 
 static void draw_head(const MeshPage *map)

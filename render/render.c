@@ -51,8 +51,11 @@ static Figure figure_get(FigureId id)
         figure.draw = figure_contact_density;
         break;
     case FIGURE_FIELD:
-    case FIGURE_COUNT:
         figure.draw_whole = figure_field;
+        break;
+    case FIGURE_STRIP:
+    case FIGURE_COUNT:
+        figure.draw_whole = figure_strip;
         break;
     }
     return figure;
@@ -159,7 +162,9 @@ amontons_render(const char *folder, const PictureRequest *request, Error *err)
     for (int32_t k = 0; k < count; ++k) {
         Figure figure = figure_get((FigureId)k);
         if (request->figure_count > 0) TRY(figure_find(request->figures[k], &figure, err));
-        if (request->figure_count == 0 && figure.draw_whole && !has_fields(folder)) continue;
+        bool always = k != FIGURE_STRIP;   // which needs a sliding with several times: for who asks
+        if (request->figure_count == 0 && figure.draw_whole && !(always && has_fields(folder)))
+            continue;
         TRY(figure_make(folder, request, &figure, &view, err));
     }
 cleanup:

@@ -187,6 +187,11 @@ bool result_view_read_status(ResultView *view, Error *err)
     return view->status || interface_read(view, SERIES_STATUS, &view->status, err);
 }
 
+bool result_view_read_slip(ResultView *view, Error *err)
+{
+    return view->slip || interface_read(view, SERIES_SLIP, &view->slip, err);
+}
+
 void result_view_close(ResultView *view)
 {
     Error ignored = {0};   // nothing was written: closing has nothing to lose
@@ -200,6 +205,7 @@ void result_view_close(ResultView *view)
     memory_free(view->pad_names);
     memory_free(view->warnings);
     memory_free(view->slip_rate);
+    memory_free(view->slip);
     memory_free(view->status);
     memory_free(view->events);
     memory_free(view->rapid);

@@ -17,15 +17,16 @@ void arrow_draw(const Page *page, const Stroke *stroke, Point from, Point to, do
     shape_line(page->canvas, stroke, head, 3);
 }
 
-void rod_mark_draw(const Page *page, const Axes *axes, double face, double low, double high)
+void rod_mark_draw(const Page *page, const Axes *axes, const RodMark *rod)
 {
-    double point = page->point;
-    if (!isfinite(low) || !isfinite(high)) return;
-    Point foot = axes_place(axes, face, low), top = axes_place(axes, face, high);
-    Stroke strip = {.color = ROD_COLOR, .width = STRIP_WIDTH * point};
-    Stroke shaft = {.color = ROD_COLOR, .width = SHAFT_WIDTH * point};
-    foot.x = top.x -= STRIP_WIDTH / 2 * point;   // beside the face
-    Point tip = {foot.x - GAP * point, (foot.y + top.y) / 2};
+    double unit = rod->share * page->point;
+    if (!isfinite(rod->face + rod->low + rod->high)) return;
+    Point foot = axes_place(axes, rod->face, rod->low),
+          top = axes_place(axes, rod->face, rod->high);
+    Stroke strip = {.color = ROD_COLOR, .width = STRIP_WIDTH * unit};
+    Stroke shaft = {.color = ROD_COLOR, .width = SHAFT_WIDTH * unit};
+    foot.x = top.x -= STRIP_WIDTH / 2 * unit;   // beside the face
+    Point tip = {foot.x - GAP * unit, (foot.y + top.y) / 2};
     shape_segment(page->canvas, &strip, foot, top);
-    arrow_draw(page, &shaft, (Point){tip.x - ARROW * point, tip.y}, tip, HEAD * point);
+    arrow_draw(page, &shaft, (Point){tip.x - ARROW * unit, tip.y}, tip, HEAD * unit);
 }

@@ -8,8 +8,12 @@
 
 static const Color ROD_COLOR = {0.80f, 0.22f, 0.08f, 1};
 
-// face: its x; low, high: the strip's z; NaN: nothing is drawn.
-void rod_mark_draw(const Page *page, const Axes *axes, double face, double low, double high);
+typedef struct RodMark {
+    double face;   // its x
+    double low, high;   // the strip's z; NaN: nothing is drawn
+    double share;   // of the usual size: 1
+} RodMark;
+void rod_mark_draw(const Page *page, const Axes *axes, const RodMark *rod);
 
 // A line from `from` to `to` with a head there, `size` pixels long.
 void arrow_draw(const Page *page, const Stroke *stroke, Point from, Point to, double size);

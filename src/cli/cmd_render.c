@@ -66,7 +66,9 @@ int command_render(int argc, char **argv)
     Error err = {0};
     const Option options[] = {
         {"figure", 'f', "NAME",
-         "Draw only this picture: force, slip-map, contact-density or field. May "
+         "Draw only this picture: force, slip-map, contact-density, field or field-strip (up to "
+         "six "
+         "frames of one sliding). May "
          "be given several times",
          .words = &figures},
         {"format", 0, "png|pdf|svg", "Of the files; png by default", .word = &request.style.format},

@@ -285,10 +285,15 @@ static bool check_output(const Check *check)
         return blame(check, "output.figures",
                      "pictures are drawn from the history: they need "
                      "output.history: true");
-    for (int32_t k = 0; k < scene->output.figures.count; k++)
+    for (int32_t k = 0; k < scene->output.figures.count; k++) {
         if (strcmp(scene->output.figures.name[k], "field") == 0 && !scene->output.fields)
             return blame(check, "output.figures",
                          "`field` draws the block as it is stored: it needs output.fields");
+        if (strcmp(scene->output.figures.name[k], "field-strip") == 0)
+            return blame(check, "output.figures",
+                         "`field-strip` needs a sliding, which no run is sure to have: draw it "
+                         "afterwards, `amontons render RESULT --figure field-strip`");
+    }
     return true;
 }
 

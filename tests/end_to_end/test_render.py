@@ -2,6 +2,7 @@
 """The pictures, read back by VTK and measured: what stands in a history must be found at its place
 with its colour. The module is called as the program calls it, through its one entry."""
 import ctypes
+import json
 import os
 import re
 import shutil
@@ -635,7 +636,7 @@ class Errors(unittest.TestCase):
 
     def test_unknown_figure(self):
         fixture.make(self.folder)
-        self.expect(ERROR_INPUT, "slipmap", "force, slip-map, contact-density, field",
+        self.expect(ERROR_INPUT, "slipmap", "force, slip-map, contact-density, field, field-strip",
                     figures=("force", "slipmap"))
 
     def test_no_folder(self):
@@ -797,6 +798,21 @@ class Fields(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertTrue(os.path.exists(path_of(self.result, "field-" + of, "svg")))
 
+    def test_strip(self):
+        """Frames of the sliding, in their order, from its beginning to its end."""
+        done = self.call("render", self.result, "--figure", "field-strip", "--format", "pdf")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        words = subprocess.run(["pdftotext", "-bbox", path_of(self.result, "field-strip", "pdf"), "-"],
+                               capture_output=True, text=True, check=True).stdout
+        found = re.findall(r'xMin="([0-9.]+)" yMin="([0-9.]+)"[^>]*>(0\.00\d{4,})<', words)
+        shown = [float(number) for x, y, number in sorted(found, key=lambda word: (round(float(word[1])), float(word[0])))]
+        with open(os.path.join(self.result, "run.json")) as file:
+            slidings = [event for event in json.load(file)["results"]["events"] if event["kind"] == "leading rapid"]
+        self.assertGreaterEqual(len(shown), 2)
+        self.assertEqual(shown, sorted(shown))
+        self.assertAlmostEqual(shown[0], slidings[-1]["U_start"], delta=1e-6)
+        self.assertAlmostEqual(shown[-1], slidings[-1]["U_stop"], delta=1e-6)
+
     def test_errors(self):
         cases = {("--of", "von-mises"): "von_mises, stress_xx", ("--at", "0.003"): "U=0.0117"}
         for words, expected in cases.items():
@@ -834,8 +850,8 @@ material: {{young: 1, poisson: 0.34, density: 1, eta1: 1, eta2: 1}}
 friction: {{mu_static: 0.38, mu_kinetic: 0.1, critical_velocity: 3.4e-4}}
 load: {{pressure: 0.003}}
 rod: {{velocity: 1e-5, height: 0.25, width: 0.05}}
-time: {{until: {{U: 0.002}}}}
-output: {{fields: {{every_U: 1e-3}}, figures: [field]}}
+time: {{until: {{U: 0.0037}}}}
+output: {{fields: {{every_U: 1e-3, at_events: true}}, figures: [field]}}
 """
 
 
