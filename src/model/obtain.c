@@ -193,12 +193,12 @@ static bool is_reducible(const Scene *scene)
 // Seconds, by n unknowns of the mesh and m of the interface; of set A to 160 x 160 cells. A stage
 // costs about 10 products with some 3 m x 3 m entries when reduced, and passes over the factor's
 // entries, about 5 n log2 n of them, when not. A basis costs dense products of n x m responses.
-static const double REDUCED_STAGE = 16e-9, FULL_STAGE = 14e-9, REDUCTION = 4e-9;
+static const double REDUCED_STAGE = 16e-9, FULL_STAGE = 14e-9, REDUCTION = 2.4e-9;
 static const double STAGES = 3000;   // of a run with some slidings; more, and it pays sooner
 static const double REDUCTION_BYTES = 64, REDUCTION_BYTES_MAX = 4e9;   // each n m; in all
 
 // Building a basis and stepping on it is expected to be done before stepping on the sparse factors
-// would be. From about 200 x 200 cells on it is not.
+// would be. From about 240 x 240 cells on it is not.
 static bool reduction_pays(const Model *model)
 {
     if (model->scene->reduction.use == REDUCE_ALWAYS) return true;
