@@ -256,13 +256,21 @@ static void add_time(Fields *fields, double time)
     add_entry(fields, time, "interface", line);
 }
 
+// U has come back over the multiple of every_U at or beyond which a file was written last; not by
+// rounding, as a rod that is held on it would.
+static bool comes_back(const Fields *fields, double U)
+{
+    double reached = fields->next_U - fields->def.every_U;
+    return U < reached - 1e-6 * fields->def.every_U;
+}
+
 // Multiples of every_U and every_t, at the first step at or beyond each; a step that passes several
 // is written once. With at_events also steps in which a rapid event begins, crosses the interface
 // or ends.
 static bool is_due(Fields *fields, const Observation *seen)
 {
     bool due = fields->written == 0;
-    if (fields->def.every_U > 0 && seen->U >= fields->next_U) {
+    if (fields->def.every_U > 0 && (seen->U >= fields->next_U || comes_back(fields, seen->U))) {
         fields->next_U = (floor(seen->U / fields->def.every_U) + 1) * fields->def.every_U;
         due = true;
     }

@@ -2,6 +2,7 @@
 """Rod and load by programs, ends by events: a stiff block does what a rigid one does, by an integrator of its own; U
 and the load are those of the tables; both schemes agree; a run that is cut and gone on with is the same; refusals."""
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -105,6 +106,14 @@ class Programs(unittest.TestCase):
         self.assertLess(found["rod_displacement"][-1], 0.03)
         self.assertGreater(found["mu"].max(), 0.25)
 
+    def test_fields_on_the_way_back(self):
+        """A file each time the rod has moved so far, there and back."""
+        self.run_scene("back", "rod={velocity: 1e-4, kind: bonded, program: {t: [0, 10, 10, 20], factor: [1, 1, -1, -1]}}",
+                       "time.until={t: 20}", "output.fields={every_U: 2.5e-4}")
+        times = re.findall(r'timestep="([^"]+)"', (self.folder / "back/fields.pvd").read_text())
+        reached = [int(1e-4 * min(t, 20 - t) / 2.5e-4) for t in sorted(set(map(float, times)))]
+        self.assertEqual(reached, [0, 1, 2, 3, 2, 1, 0])
+
     def test_refusals(self):
         for words, *settings in (
                 ("rod.program.factor: 2 numbers for 3 points", "rod.program={t: [0, 1, 2], factor: [1, 2]}"),
@@ -121,6 +130,8 @@ class Programs(unittest.TestCase):
                 ("time.until.slidings: 1.5 is no whole number", "time.until={U: 1, slidings: 1.5}")):
             with self.subTest(words):
                 self.assertIn(words, self.call("run", *settings, status=2, flags=("-q",)))
+        self.assertIn("time.until: the 1D model ends by", self.call("model1d", "time.until.slidings=2", status=2,
+                                                                     flags=["-o", self.folder / "none"]))
         for command in ("stability", "model1d"):
             self.assertIn("rod.program: the", self.call(command, BY_WAY[1], status=2, flags=["-o", self.folder / "none"]))
 

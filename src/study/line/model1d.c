@@ -36,6 +36,10 @@ static bool check_scene(const Scene *scene, Error *err)
     if (scene->rod.program.factor.count > 0 || scene->load.program.factor.count > 0)
         FAIL(err, ERROR_INPUT, "%s: %s.program: the 1D model has one load and one rod velocity",
              path, scene->rod.program.factor.count > 0 ? "rod" : "load");
+    if (scene->time.until_slidings > 0 || scene->time.until_mu_below > 0)
+        FAIL(err, ERROR_INPUT,
+             "%s: time.until: the 1D model ends by U, t or `periodic`, not by slidings or mu_below",
+             path);
     if (scene->rod.stiffness > 0)
         FAIL(err, ERROR_INPUT, "%s: rod.stiffness: the 1D model's rod goes where it is driven",
              path);
