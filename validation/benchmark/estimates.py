@@ -85,7 +85,8 @@ def verdict_of(answers):
     errors, bars = [abs(one.error) for one in own], [one.bar for one in own]
     ratios = [error / bar for error, bar in zip(errors, bars)]
     same = len(set(bars)) < 2
-    return Verdict(held=sum(ratio <= 1 for ratio in ratios), count=len(own), worst=max(ratios), median=statistics.median(ratios),
-                   bar=statistics.median(bars), seconds=statistics.median(one.seconds for one in own),
+    return Verdict(held=sum(ratio <= 1 for ratio in ratios), count=len(own), worst=max(ratios),
+                   median=statistics.median(ratios), bar=statistics.median(bars),
+                   seconds=statistics.median(one.seconds for one in own),
                    factor=float(numpy.quantile(ratios, SURE)),
                    correlation=math.nan if same else rank_correlation(bars, errors))
