@@ -87,7 +87,7 @@ static void list_phases(const Simulation *simulation, RunSummary *summary)
                      : "skipped: output.fields is none, VTK is not loaded");
     add_phase(summary, "figures", simulation->figures_seconds, simulation->figures,
               simulation->figures > 0 ? "pictures"
-                                      : "skipped: output.figures is empty, OpenGL is not loaded");
+                                      : "skipped: output.figures is empty, Cairo is not loaded");
     add_phase(summary, "total", timing->total, control->counters.accepted, "accepted steps");
 }
 

@@ -455,7 +455,7 @@ class Variants(unittest.TestCase):
             plain, warned = without[name], read_picture(self.folder, name)
             rows = plain.shape[0]
             self.assertGreater(warned.shape[0], rows + 60)
-            np.testing.assert_allclose(warned[:rows - 20], plain[:rows - 20], atol=1)   # of 255: OpenGL's rounding
+            np.testing.assert_allclose(warned[:rows - 20], plain[:rows - 20], atol=1)   # of 255: rounding
             words = is_color(warned, (158, 51, 13), 8)
             self.assertEqual(np.count_nonzero(words[:rows - 20]), 0)
             self.assertGreaterEqual(len(groups(words.any(axis=1))), 3, "lines")
