@@ -41,7 +41,7 @@ def convergence_index_or_blind(values):
 
 
 def fitted_line(values, nodes):
-    """Line and scatter, of the mesh part of the program's bar; no wait at the contact's end. nodes: in contact, of each mesh."""
+    """Line and scatter, of the mesh part of the program's bar. nodes: in contact, of each mesh."""
     size = nodes[-1] / numpy.array(nodes)
     slope, start = numpy.polyfit(size, values, 1, w=1 / size)
     residual = (((values - start - slope * size) / size) ** 2).sum()

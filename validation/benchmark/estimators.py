@@ -181,11 +181,11 @@ def text_of(everything, plan, folder):
                                  if name in DRAWN and cells.endswith(str(plan.looked_at[-1]))})
     own = [found.promised.own_error for found in everything]
     return (f"## Which estimator's bars hold?\n\n{len(everything)} blocks of set A, references from promise.md (their own "
-            f"error: {percent(statistics.median(own))} % in the median, {percent(max(own))} % at most). One run "
-            "a mesh, at the case's pressure; quads of order 1, `cells` along and up the block. Errors and bars are relative, "
-            "bars half their width. `fit`: line and scatter, of the mesh part of the program's bar. `times wider`: what all bars "
-            "of the rule would have to be multiplied with; `median bar then` compares rules that hold equally often. Rank correlations of 20 cases below 0.45 may be "
-            "chance. Bars as short as the reference's own error miss by that alone."
+            f"error: {percent(statistics.median(own))} % in the median, {percent(max(own))} % at most). One run a mesh, at "
+            "the case's pressure; quads of order 1, `cells` along and up the block. Errors and bars are relative, bars half "
+            "their width. `fit`: line and scatter, of the mesh part of the program's bar. `times wider`: what all bars of the "
+            "rule would have to be multiplied with; `median bar then` compares rules that hold equally often. Rank "
+            "correlations of 20 cases below 0.45 may be chance. Bars as short as the reference's own error miss by that alone."
             + missing_text(everything, plan) + "\n\n"
             + rule_table(judged) + "\n\n![estimators](estimators.png)\n\n"
             "### Error of the elastic state before the first rapid event\n\nBy recovery of stress, relative to the energy "
