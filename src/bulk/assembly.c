@@ -170,21 +170,27 @@ void bulk_hold(int32_t dof, Bulk *bulk)
 }
 
 // int N_a ds on a straight edge: halves, or Simpson's 1/6, 1/6, 4/6 (end, end, middle).
+static void share_edge(double length, int32_t nodes, double weight[3])
+{
+    weight[0] = weight[1] = nodes == 2 ? length / 2 : length / 6;
+    weight[2] = length * 4 / 6;
+}
+
 static void edge_weights(const Mesh *mesh, const MeshCurve *curve, int32_t edge, double weight[3])
 {
     const int32_t *nodes = curve->edge_nodes + (int64_t)edge * curve->nodes_per_edge;
     const double *a = mesh->position + 2 * nodes[0], *b = mesh->position + 2 * nodes[1];
-    double length = hypot(b[0] - a[0], b[1] - a[1]);
-    weight[0] = weight[1] = curve->nodes_per_edge == 2 ? length / 2 : length / 6;
-    weight[2] = length * 4 / 6;
+    share_edge(hypot(b[0] - a[0], b[1] - a[1]), curve->nodes_per_edge, weight);
 }
 
-// w_i = int N_i ds of the curve, at its mesh nodes: what turns a nodal reaction into a stress.
+// w_i = int N_i dx of the curve, at its mesh nodes: what turns a nodal reaction into a stress.
 void curve_add_weights(const Mesh *mesh, const MeshCurve *curve, double *weight)
 {
     for (int32_t edge = 0; edge < curve->edge_count; edge++) {
+        const int32_t *nodes = curve->edge_nodes + (int64_t)edge * curve->nodes_per_edge;
         double share[3];
-        edge_weights(mesh, curve, edge, share);
+        share_edge(fabs(mesh->position[2 * nodes[1]] - mesh->position[2 * nodes[0]]),
+                   curve->nodes_per_edge, share);
         for (int32_t a = 0; a < curve->nodes_per_edge; a++)
             weight[curve->edge_nodes[edge * curve->nodes_per_edge + a]] += share[a];
     }

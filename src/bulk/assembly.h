@@ -31,7 +31,8 @@ void bulk_add_traction(const Mesh *mesh, const MeshCurve *curve, const double tr
 // entries stay.
 void bulk_hold(int32_t dof, Bulk *bulk);
 
-// The weights of a curve's nodes: int_curve N_a ds, added to weight[node]; [mesh->node_count].
+// The weights of a curve's nodes over the plane: int_curve N_a dx, added to weight[node];
+// [mesh->node_count].
 void curve_add_weights(const Mesh *mesh, const MeshCurve *curve, double *weight);
 
 #endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Contact is unilateral against the rigid line z = 0, node by node. So nodes must stand on the
-// line, in distinct places, on the block's edge, with nothing of the block below.
+// Contact is unilateral against the rigid line z = 0, node by node, each straight below it. So nodes
+// must stand on the line or over it, over distinct places, in one order along the curve, on the
+// block's edge, with nothing of the block below.
 #include "bulk/mesh.h"
 
 #include "base/memory.h"
@@ -10,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A contact node counts as on z = 0, and two nodes as in one place, within this times the block's
+// A contact node counts as on z = 0, and two nodes as over one place, within this times the block's
 // extent: coordinates computed by gmsh are exact to about 1e-12 of it.
 static const double PLACE_TOLERANCE = 1e-9;
 
@@ -18,6 +19,12 @@ static const double PLACE_TOLERANCE = 1e-9;
 static double extent(const Mesh *mesh)
 {
     return fmax(mesh->x_max - mesh->x_min, mesh->z_max - mesh->z_min);
+}
+
+double mesh_gap(const Mesh *mesh, int32_t node)
+{
+    double z = mesh->position[2 * node + 1];
+    return z > PLACE_TOLERANCE * extent(mesh) ? z : 0;
 }
 
 // By x, then z. `position` comes third, as qsort_r passes it: no state outside the call.
@@ -99,22 +106,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The error names the node farthest off the line.
-static bool check_flat(const Mesh *mesh, const MeshCurve *curve, Error *err)
-{
-    int32_t worst = curve->nodes[0];
-    for (int32_t k = 1; k < curve->node_count; k++)
-        if (fabs(mesh->position[2 * curve->nodes[k] + 1]) > fabs(mesh->position[2 * worst + 1]))
-            worst = curve->nodes[k];
-    if (fabs(mesh->position[2 * worst + 1]) > PLACE_TOLERANCE * extent(mesh))
-        FAIL(err, ERROR_INPUT,
-             "%s: contact group '%s' is not flat at z = 0: node %lld at x = %g has z = %g",
-             mesh->path, curve->name, (long long)mesh->node_number[worst],
-             mesh->position[2 * worst], mesh->position[2 * worst + 1]);
-cleanup:
-    return error_is_clean(err);
-}
-
 // Each edge of the contact is on one element only, as else it lies inside the block, and on one
 // contact curve only.
 static bool check_boundary(const Mesh *mesh, const MeshContact *contact, Error *err)
@@ -171,8 +162,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Two nodes in one place: the sides of a crack, or parts of a mesh that were not joined. Nodes are
-// in order of x, so that only neighbours are compared.
+// Two nodes over one place: the sides of a crack, parts of a mesh that were not joined, or a curve
+// that goes straight up. Nodes are in order of x, so that only neighbours are compared.
 static bool check_places(const Mesh *mesh, const MeshContact *contact, Error *err)
 {
     double tolerance = PLACE_TOLERANCE * extent(mesh);
@@ -183,29 +174,73 @@ static bool check_places(const Mesh *mesh, const MeshContact *contact, Error *er
              mesh->path, mesh->z_min, contact->curves[0].name);
     for (int32_t k = 1; k < contact->node_count; k++) {
         int32_t a = contact->nodes[k - 1], b = contact->nodes[k];
-        if (mesh->position[2 * b] - mesh->position[2 * a] <= tolerance)
-            FAIL(
-                err, ERROR_INPUT,
-                "%s: nodes %lld and %lld of contact group '%s' are both at x = %g: the mesh is not "
-                "glued together there",
-                mesh->path, (long long)mesh->node_number[a], (long long)mesh->node_number[b],
-                contact->curves[contact->curve_of[k]].name, mesh->position[2 * b]);
+        const char *name = contact->curves[contact->curve_of[k]].name;
+        const double *at_a = mesh->position + 2 * a, *at_b = mesh->position + 2 * b;
+        if (at_b[0] - at_a[0] > tolerance) continue;
+        if (fabs(at_b[1] - at_a[1]) > tolerance)
+            FAIL(err, ERROR_INPUT,
+                 "%s: contact group '%s' goes straight up at x = %g, from z = %g to %g: a face is "
+                 "no "
+                 "contact",
+                 mesh->path, name, at_b[0], at_a[1], at_b[1]);
+        FAIL(err, ERROR_INPUT,
+             "%s: nodes %lld and %lld of contact group '%s' are both at x = %g: the mesh is not "
+             "glued together there",
+             mesh->path, (long long)mesh->node_number[a], (long long)mesh->node_number[b], name,
+             at_b[0]);
     }
 cleanup:
     return error_is_clean(err);
 }
 
-// Flatness first: later checks rely on it.
+// A block that was drawn at another height.
+static bool check_height(const Mesh *mesh, const MeshContact *contact, Error *err)
+{
+    int32_t lowest = contact->nodes[0];
+    for (int32_t k = 1; k < contact->node_count; k++)
+        if (mesh->position[2 * contact->nodes[k] + 1] < mesh->position[2 * lowest + 1])
+            lowest = contact->nodes[k];
+    if (mesh_gap(mesh, lowest) > 0)
+        FAIL(err, ERROR_INPUT,
+             "%s: no contact node lies on z = 0: the lowest, node %lld at x = %g, has z = %g",
+             mesh->path, (long long)mesh->node_number[lowest], mesh->position[2 * lowest],
+             mesh->position[2 * lowest + 1]);
+cleanup:
+    return error_is_clean(err);
+}
+
+// A curve that turns back has nodes of another stretch between those of an edge.
+static bool check_order(const Mesh *mesh, const MeshContact *contact, Error *err)
+{
+    int32_t *place = NEW_ARRAY(int32_t, mesh->node_count, err);
+    if (!place) goto cleanup;
+    for (int32_t k = 0; k < contact->node_count; k++) place[contact->nodes[k]] = k;
+    for (int32_t c = 0; c < contact->curve_count; c++) {
+        const MeshCurve *curve = &contact->curves[c];
+        for (int32_t k = 0; k < curve->edge_count; k++) {
+            const int32_t *nodes = curve->edge_nodes + k * curve->nodes_per_edge;
+            if (abs(place[nodes[1]] - place[nodes[0]]) == curve->nodes_per_edge - 1) continue;
+            FAIL(err, ERROR_INPUT,
+                 "%s: contact group '%s' turns back over itself near x = %g, z = %g", mesh->path,
+                 curve->name, mesh->position[2 * nodes[0]], mesh->position[2 * nodes[0] + 1]);
+        }
+    }
+cleanup:
+    memory_free(place);
+    return error_is_clean(err);
+}
+
+// Places first: the order relies on them.
 bool mesh_contact(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], int32_t name_count,
                   MeshContact *contact, Error *err)
 {
     *contact = (MeshContact){0};
     TRY(pick_curves(mesh, names, name_count, contact, err));
-    for (int32_t c = 0; c < contact->curve_count; c++)
-        TRY(check_flat(mesh, &contact->curves[c], err));
     TRY(check_boundary(mesh, contact, err));
     TRY(merge_nodes(mesh, contact, err));
     TRY(check_places(mesh, contact, err));
+    TRY(check_height(mesh, contact, err));
+    TRY(check_order(mesh, contact, err));
 cleanup:
     return error_is_clean(err);
 }

@@ -16,6 +16,14 @@
 // How far outside the strip a rod node may lie, relative to the block's height: rounding only.
 static const double STRIP_TOLERANCE = 1e-9;
 
+static bool is_flat(const Mesh *mesh, const MeshContact *contact)
+{
+    bool flat = true;
+    for (int32_t i = 0; i < contact->node_count; i++)
+        flat = flat && mesh_gap(mesh, contact->nodes[i]) == 0;
+    return flat;
+}
+
 // Fills all that belongs to the contact: nodes by ascending x, places, weights, pads and their
 // names. On failure what was made so far stays in *interface, for interface_destroy.
 static bool build_contact(const Mesh *mesh, const InterfaceDef *def, Interface *interface,
@@ -47,6 +55,8 @@ static bool build_contact(const Mesh *mesh, const InterfaceDef *def, Interface *
         interface->weight[i] = weight[node];
         interface->pad[i] = contact.curve_of[i];
     }
+    if (!is_flat(mesh, &contact) && (interface->gap = NEW_ARRAY(double, count, err)))
+        for (int32_t i = 0; i < count; i++) interface->gap[i] = mesh_gap(mesh, interface->node[i]);
 cleanup:
     memory_free(weight);
     mesh_contact_destroy(&contact);
@@ -169,6 +179,7 @@ void interface_destroy(Interface *interface)
     memory_free(interface->node);
     memory_free(interface->x);
     memory_free(interface->weight);
+    memory_free(interface->gap);
     memory_free(interface->pad);
     memory_free(interface->pad_name);
     memory_free(interface->rod_node);

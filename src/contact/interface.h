@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Where the block meets the world: contact nodes on the rigid plane z = 0 and rod nodes on the
+// Where the block meets the world: contact nodes over the rigid plane z = 0, on it or with a gap,
+// each straight above its place (right where slopes are small), and rod nodes on the
 // trailing face. Lumped (nodal): one weight and one 2-vector reaction a contact node. Consistent
 // integration of the contact gave a 17 % wrong resultant in a static test.
 //
@@ -15,6 +16,8 @@ typedef struct Interface {
     int32_t *node;   // [contact_count] mesh node, ascending x; owned
     double *x;   // [contact_count] position, length; owned
     double *weight;   // [contact_count] integral of the shape function, length; owned
+    double *gap;   // [contact_count] over the substrate before anything moves, length; NULL: 0
+        // everywhere; owned
     int32_t *pad;   // [contact_count] which contact curve, from 0; owned
     int32_t pad_count;
     char (*pad_name)[GROUP_NAME_SIZE];   // [pad_count] of the contact curves; owned
@@ -50,6 +53,11 @@ static inline int32_t interface_normal(int32_t i)
 static inline int32_t interface_rod(const Interface *interface, int32_t j)
 {
     return 2 * interface->contact_count + j;
+}
+
+static inline double interface_gap(const Interface *interface, int32_t i)
+{
+    return interface->gap ? interface->gap[i] : 0;
 }
 
 // ERROR_INPUT: no such curve, contact not on z = 0, no rod node inside the strip (says where the

@@ -44,6 +44,7 @@ bool model_read_mesh(Model *model, Error *err)
     TRY(mesh_build(&file, scene->mesh.file, &model->mesh, err));
     const Mesh *mesh = &model->mesh;
     model->length = mesh->x_max - mesh->x_min;
+    model->middle = 0.5 * (mesh->x_min + mesh->x_max);
     model->height = mesh->z_max - mesh->z_min;
     model->elements = mesh->element_count;
     TRY(model_mark_regions(model, err));

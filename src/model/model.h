@@ -30,6 +30,7 @@ typedef struct Model {
     ReducedBulk reduced;   // count 0: the full mesh is stepped
     BulkOperator system;   // what is stepped: the reduced bulk or the full one
     double length, height;   // L, H of the block, length
+    double middle;   // x of its middle, length
     int32_t elements, full_dofs;   // of the mesh
     ObservationScales scales;   // what forces, times and velocities are measured with
     bool from_cache;   // the basis was: nothing of the full mesh was factored

@@ -11,6 +11,7 @@
 #include "model/assemble.h"
 #include "model/basis_cache.h"
 #include "model/contact_laws.h"
+#include "model/gaps.h"
 #include "model/shape_cache.h"
 #include "scene/materials.h"
 
@@ -70,6 +71,7 @@ static bool adopt_shape(Model *model, Shape *shape, Error *err)
     shape->interface = (Interface){0};
     model->length = shape->sizes.length;
     model->height = shape->sizes.height;
+    model->middle = shape->sizes.middle;
     model->elements = (int32_t)shape->sizes.elements;
     model->full_dofs = (int32_t)shape->sizes.full_dofs;
     model->rod_region = (int32_t)shape->sizes.rod_region;
@@ -148,6 +150,7 @@ static bool reduce_bulk(Model *model, const char *key, Error *err)
     ReductionBlock block = {0};
     Shape shape = {.sizes = {.length = model->length,
                              .height = model->height,
+                             .middle = model->middle,
                              .area = bulk->area,
                              .elements = model->elements,
                              .full_dofs = bulk->dof_count,
@@ -314,6 +317,7 @@ bool model_obtain(const Scene *scene, const StageNotice *notice, Model *model, E
         TRY(make_operator(model, key, err));
     model->system.machine = model_machine(model);
     TRY(model_lay_laws(model, err));
+    TRY(model_lay_gaps(model, err));
     set_scales(model);
 cleanup:
     shape_destroy(&shape);

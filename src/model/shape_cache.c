@@ -17,10 +17,10 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { COUNTS = 3 };
+enum { COUNTS = 4 };   // contact and rod nodes, pads, gaps
 
 // Stands in every key, beside the basis's: a new meaning of the arrays below needs a new number.
-static const char FORMAT[] = "shape 9";
+static const char FORMAT[] = "shape 10";
 
 // Names travel as the bytes of doubles, filled up with zeros.
 enum {
@@ -152,6 +152,8 @@ static bool read_shape(const CacheFile *file, Shape *shape, Error *err)
     double dofs = shape->sizes.full_dofs, nodes = dofs / 2;
     if (!(dofs < INT32_MAX && shape->sizes.elements >= 0 && shape->sizes.elements < INT32_MAX))
         return false;
+    double rod = shape->sizes.rod_region, contact = shape->sizes.contact_region;
+    if (!(rod >= 0 && rod < MATERIALS_MAX && contact >= 0 && contact < MATERIALS_MAX)) return false;
     memcpy(shape->basis, basis, HASH_TEXT_SIZE);
     shape->basis[HASH_TEXT_SIZE - 1] = 0;
     Interface *interface = &shape->interface;
@@ -165,6 +167,8 @@ static bool read_shape(const CacheFile *file, Shape *shape, Error *err)
            read_numbers(file, "weight", interface->contact_count, &interface->weight, err) &&
            read_indices(file, "pad", interface->contact_count, counts[2], &interface->pad, err) &&
            read_names(file, interface, err) &&
+           (counts[3] == 0 || (counts[3] == interface->contact_count &&
+                               read_numbers(file, "gap", counts[3], &interface->gap, err))) &&
            read_indices(file, "rod_node", interface->rod_count, nodes, &interface->rod_node, err) &&
            read_numbers(file, "rod_z", interface->rod_count, &interface->rod_z, err) &&
            read_numbers(file, "rod_share", interface->rod_count, &interface->rod_share, err) &&
@@ -213,7 +217,8 @@ static bool store_shape(const char *key, const Shape *shape, Error *err)
     char path[CACHE_PATH_SIZE];
     const Interface *interface = &shape->interface;
     int32_t contact = interface->contact_count, rod = interface->rod_count, m = interface->count;
-    double counts[COUNTS] = {contact, rod, interface->pad_count}, basis[BASIS_NUMBERS] = {0};
+    double counts[COUNTS] = {contact, rod, interface->pad_count, interface->gap ? contact : 0},
+           basis[BASIS_NUMBERS] = {0};
     int64_t names = (int64_t)interface->pad_count * NAME_NUMBERS;
     memcpy(basis, shape->basis, HASH_TEXT_SIZE);
     double *copy = NEW_ARRAY(double, 2 * contact + rod + m + names, err), *name_copy;
@@ -227,6 +232,7 @@ static bool store_shape(const char *key, const Shape *shape, Error *err)
         list_indices("node", interface->node, contact, copy),
         list_numbers("x", interface->x, contact),
         list_numbers("weight", interface->weight, contact),
+        list_numbers("gap", interface->gap, interface->gap ? contact : 0),
         list_indices("pad", interface->pad, contact, copy + contact),
         list_numbers("pad_name", name_copy, names),
         list_indices("rod_node", interface->rod_node, rod, copy + 2 * contact),

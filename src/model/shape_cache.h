@@ -23,9 +23,10 @@ typedef struct ShapeSizes {
     double full_dofs;   // unknowns of the mesh
     double load_size;   // largest nodal load per unit of load_reference()
     double load_resultant;   // of the loads towards the plane, per unit of load_reference()
+    double rod_reach;   // greatest x of a rod node from the trailing end, over L; 0: no rod
+    double middle;   // x of the block's middle, length
     double rod_region, contact_region;   // numbers of their materials
     double region_area[MATERIALS_MAX];   // of one material 0, length^2
-    double rod_reach;   // greatest x of a rod node from the trailing end, over L; 0: no rod
 } ShapeSizes;
 
 typedef struct Shape {

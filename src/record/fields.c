@@ -190,7 +190,7 @@ static bool write_line(Fields *fields, const Observation *seen, const char *name
         double slip_rate = state->slip_rate[t];
         columns[0][i] = slip_rate;
         columns[1][i] = state->displacement[dofs[t]];
-        columns[2][i] = state->displacement[dofs[n]];
+        columns[2][i] = state->displacement[dofs[n]] + interface_gap(interface, i);
         columns[3][i] = state->reaction[n] / interface->weight[i];
         columns[4][i] = -state->reaction[t] / interface->weight[i];
         columns[5][i] =

@@ -71,7 +71,7 @@ Observation observe(const StepControl *control, const ObservationScales *scales)
     for (int32_t i = 0; i < interface->contact_count; i++) {
         seen.normal_force += state->reaction[interface_normal(i)];
         double height = state->displacement[seen.system->interface_dofs[interface_normal(i)]];
-        seen.penetration = fmax(seen.penetration, -height);
+        seen.penetration = fmax(seen.penetration, -height - interface_gap(interface, i));
         seen.max_slip_rate = fmax(seen.max_slip_rate, fabs(state->slip_rate[interface_tangent(i)]));
     }
     Moments moments = sum_moments(control);

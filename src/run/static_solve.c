@@ -11,6 +11,7 @@
 #include "bulk/element.h"
 #include "contact/contact_check.h"
 #include "model/contact_laws.h"
+#include "model/gaps.h"
 #include "run/result_folder.h"
 
 #include <math.h>
@@ -51,13 +52,9 @@ static void static_solution_destroy(StaticSolution *solution)
 static void fill_bounds(const Model *model, const StaticSolution *solution, double *bound)
 {
     const Interface *interface = &model->interface;
-    double radius = model->scene->contact.radius;
-    double middle = 0.5 * (model->mesh.x_min + model->mesh.x_max);
     memset(bound, 0, (size_t)interface->count * sizeof(double));
-    for (int32_t i = 0; i < interface->contact_count && radius > 0; i++) {
-        double x = interface->x[i] - middle;
-        bound[interface_normal(i)] = -x * x / (2 * radius);
-    }
+    for (int32_t i = 0; i < interface->contact_count; i++)
+        bound[interface_normal(i)] = -interface_gap(interface, i);
     for (int32_t j = 0; j < interface->rod_count; j++)
         bound[interface_rod(interface, j)] = solution->rod_way;
 }
@@ -150,6 +147,7 @@ static bool static_solve(Model *model, StaticSolution *solution, Error *err)
     RodKind kind = scene->rod.kind == ROD_BONDED ? ROD_IS_BONDED : ROD_PUSHES;
     TRY(model_build_rod(model, kind, &solution->rod, err));
     TRY(model_lay_laws(model, err));
+    TRY(model_lay_gaps(model, err));
     TRY((solution->node_laws = NEW_ARRAY(FrictionLaw, interface->contact_count, err)));
     for (int32_t i = 0; i < interface->contact_count; i++)
         solution->node_laws[i] = friction_constant(friction_at(&model->law, i)->mu_static);

@@ -127,7 +127,13 @@ static const SceneKey keys[] = {
     {"contact.radius", KEY_NUMBER, offsetof(Scene, contact.radius), "length", RANGE_NOT_NEGATIVE,
      "0",
      .sentence = "The substrate falls away from the middle of the block as x^2 / (2 radius); 0: it "
-                 "is flat. Read by `amontons static` only."},
+                 "is flat."},
+    {"contact.gap", KEY_TEXT, offsetof(Scene, contact.gap), "1", RANGE_ANY, NULL, .may_lack = true,
+     .sentence =
+         "How far the substrate lies below z = 0: a formula of x, as in `max(0, 0.1 - x)^2 / "
+         "0.4`, a trailing edge rounded by a radius of 0.2, or `points(x, 0, 1e-3, 0.5, 0, "
+         "...)`, a measured profile. It adds to radius and to what the mesh's own contact "
+         "curves leave."},
     {"load.pressure", KEY_NUMBER, offsetof(Scene, load.pressure), "stress", RANGE_NOT_NEGATIVE,
      NULL, .sentence = "Uniform pressure P_ext on groups.top."},
     {"load.tractions", KEY_TRACTIONS, offsetof(Scene, load), "stress", RANGE_ANY, "[]",

@@ -53,6 +53,7 @@ typedef struct Scene {
     SceneContactLaws contact_laws;   // friction.contacts
     struct {
         double radius;   // of the substrate's curvature; 0: flat
+        char gap[SCENE_TEXT_SIZE];   // formula of x, length; empty: 0
     } contact;
     struct {
         double pressure;

@@ -203,9 +203,9 @@ static double resolve_contact(ExplicitReference *scheme, int32_t i, State *state
     int32_t t = interface_tangent(i), n = interface_normal(i);
     int32_t node = scheme->def.interface->node[i];
     double step = scheme->def.step, kick = scheme->kick[node];
-    double gap = scheme->now[NODE_SIZE * node + 1], *u = scheme->next + NODE_SIZE * node,
-           *v = u + 2;
-    double bound = -gap / step;
+    double *u = scheme->next + NODE_SIZE * node, *v = u + 2;
+    double initial = interface_gap(scheme->def.interface, i);
+    double gap = scheme->now[NODE_SIZE * node + 1] + initial, bound = -gap / step;
     scheme->bound[n] = bound;
     if (v[1] >= bound) {
         state->status[i] = CONTACT_OPEN;
@@ -224,7 +224,7 @@ static double resolve_contact(ExplicitReference *scheme, int32_t i, State *state
         v[0] = slip_rate;
         v[1] = bound;
         u[0] = scheme->now[NODE_SIZE * node] + step * slip_rate;
-        u[1] = 0;
+        u[1] = -initial;
     }
     state->slip_rate[t] = v[0];
     state->slip_rate[n] = v[1];

@@ -70,7 +70,7 @@ static void fill_bounds(Sdirk *scheme, const double *predictor, double time, dou
     scheme->reach = scaled_step;
     for (int32_t i = 0; i < interface->contact_count; i++) {
         int32_t n = interface_normal(i);
-        scheme->bound[n] = -predictor[dofs[n]] / scaled_step;
+        scheme->bound[n] = (-predictor[dofs[n]] - interface_gap(interface, i)) / scaled_step;
     }
     for (int32_t j = 0; j < interface->rod_count; j++) {
         int32_t x = interface_rod(interface, j);

@@ -53,6 +53,9 @@ static bool check_scene(const Scene *scene, Error *err)
         FAIL(err, ERROR_INPUT,
              "%s: friction.contacts, friction.along: the 1D model has one law along its line",
              path);
+    if (scene->contact.radius > 0 || *scene->contact.gap)
+        FAIL(err, ERROR_INPUT,
+             "%s: contact.radius, contact.gap: the 1D model's line lies on a flat substrate", path);
     if (scene->materials.count > 0)
         FAIL(
             err, ERROR_INPUT,
@@ -115,11 +118,15 @@ static bool measure_block(const Scene *scene, Model1d *model, Error *err)
     double ends = mesh.position[2 * contact.nodes[contact.node_count - 1]];
     bool whole = begins - mesh.x_min <= FLAT * model->length &&
                  mesh.x_max - ends <= FLAT * model->length;
-    if (contact.curve_count != 1 || !whole)
+    bool flat = true;
+    for (int32_t i = 0; i < contact.node_count; i++)
+        flat = flat && mesh_gap(&mesh, contact.nodes[i]) == 0;
+    if (contact.curve_count != 1 || !whole || !flat)
         FAIL(err, ERROR_INPUT,
-             "%s: the 1D model has one contact along the whole block, from x = %g to %g; here "
-             "%d contact curves reach from %g to %g",
-             scene->mesh.file, mesh.x_min, mesh.x_max, contact.curve_count, begins, ends);
+             "%s: the 1D model has one flat contact along the whole block, from x = %g to %g; here "
+             "%d contact curves%s reach from %g to %g",
+             scene->mesh.file, mesh.x_min, mesh.x_max, contact.curve_count,
+             flat ? "" : " that are not flat", begins, ends);
 cleanup:
     mesh_contact_destroy(&contact);
     mesh_destroy(&mesh);

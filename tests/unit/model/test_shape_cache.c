@@ -108,6 +108,10 @@ static void test_what_changes_the_key(void **state)
         {6, "rod: {velocity: 1e-4, height: 0.2}"},
         {6, "rod: {kind: none}"},
         {LINES, "reduction: {use: always}"},
+        {LINES, "materials: {body: {young: 3}}"},
+        {LINES, "materials: {pads: {young: 3}}"},
+        {LINES, "materials: {body: {density: 3}}"},
+        {LINES, "materials: {body: {eta2: 3}}"},
     };
     enum { COUNT = sizeof changes / sizeof *changes };
     write_text("other.geo", "Point(1) = {0, 0, 1};\n");
@@ -212,11 +216,12 @@ static void make_shape(uint64_t seed, Shape *shape)
 {
     enum { M = 7 };
     Random random = {.state = seed};
-    *shape = (Shape){.sizes = {1.5, 0.5, 0.75, 36, 98, 0.01, 1.4, 0.1}};
+    *shape = (Shape){.sizes = {1.5, 0.5, 0.75, 36, 98, 0.01, 1.4, 0.1, 0.75, 1, 2, {0.5, 0.25}}};
     shape->interface = (Interface){.contact_count = 3,
                                    .node = index_array(&random, 3, 49),
                                    .x = random_array(&random, 3),
                                    .weight = random_array(&random, 3),
+                                   .gap = random_array(&random, 3),
                                    .pad = index_array(&random, 3, 2),
                                    .pad_count = 2,
                                    .rod_count = 1,
@@ -247,6 +252,7 @@ static void assert_same_shape(const Shape *a, const Shape *b)
     assert_memory_equal(i->dofs, j->dofs, 7 * sizeof(int32_t));
     assert_memory_equal(i->x, j->x, 3 * sizeof(double));
     assert_memory_equal(i->weight, j->weight, 3 * sizeof(double));
+    assert_memory_equal(i->gap, j->gap, 3 * sizeof(double));
     assert_memory_equal(i->rod_z, j->rod_z, sizeof(double));
     assert_memory_equal(i->rod_share, j->rod_share, sizeof(double));
     assert_memory_equal(i->rod_face, j->rod_face, sizeof i->rod_face);

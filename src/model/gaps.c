@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "model/gaps.h"
+
+#include "base/formula.h"
+#include "base/memory.h"
+
+#include <math.h>
+
+static bool no_name(const void *context, const char *name, double *value)
+{
+    (void)context, (void)name, (void)value;
+    return false;
+}
+
+static bool add_formula(const char *text, Interface *interface, Error *err)
+{
+    static const FormulaNames names = {no_name, NULL, "x", "is no number here: x alone"};
+    Formula formula;
+    double ignored;
+    TRY(formula_read(text, &names, &formula, err));
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        double gap = formula_at(&formula, interface->x[i], &ignored);
+        if (!(gap >= 0 && isfinite(gap)))
+            FAIL(err, ERROR_INPUT, "at x = %g the gap is %g; a number >= 0 is needed",
+                 interface->x[i], gap);
+        interface->gap[i] += gap;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// The middle is that of the block, which begins at x = 0 or anywhere.
+static void add_parabola(const Model *model, double radius, Interface *interface)
+{
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        double x = interface->x[i] - model->middle;
+        interface->gap[i] += x * x / (2 * radius);
+    }
+}
+
+bool model_lay_gaps(Model *model, Error *err)
+{
+    const Scene *scene = model->scene;
+    Interface *interface = &model->interface;
+    double radius = scene->contact.radius;
+    if (!(radius > 0) && !*scene->contact.gap) return true;
+    if (!interface->gap) TRY((interface->gap = NEW_ARRAY(double, interface->contact_count, err)));
+    if (radius > 0) add_parabola(model, radius, interface);
+    if (*scene->contact.gap)
+        TRY(scene_blame(scene, "contact.gap", add_formula(scene->contact.gap, interface, err),
+                        err));
+cleanup:
+    return error_is_clean(err);
+}

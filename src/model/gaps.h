@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The shape of the substrate: contact.radius and contact.gap. Called by model/obtain and
+// run/static_solve when the interface is known.
+#ifndef AMONTONS_MODEL_GAPS_H
+#define AMONTONS_MODEL_GAPS_H
+
+#include "model/model.h"
+
+// Adds them to the gaps that the mesh's own curves leave; without them the interface stays as it is.
+// ERROR_INPUT: a gap that is not finite or negative, with x.
+bool model_lay_gaps(Model *model, Error *err);
+
+#endif
