@@ -25,6 +25,8 @@ DefineConstant[
                             // "alternate": as regular, but the diagonals of triangles alternate
                             // "free": unstructured; nx and nz cells on the sides only, which
                             // must be even for quads
+    crown = 0,              // how much higher the ends of the contact lie than its middle, which
+                            // touches the substrate: a parabola of radius length^2 / (8 crown)
     grade_x = 1,            // length of the middle cell over that of the end cells, about
     grade_z = 1,            // height of the top cell over that of the cell at the contact
     refine = 1              // so many times as many cells along each side, for a study of the mesh
@@ -41,6 +43,10 @@ If (nx < 1 || nz < 1 || nx != Floor(nx) || nz != Floor(nz))
 EndIf
 If (refine <= 0)
     Error("refine must be above 0 (1: as told), found %g", refine);
+    Abort;
+EndIf
+If (crown < 0 || crown >= height)
+    Error("crown must be from 0 on and below height = %g, found %g", height, crown);
     Abort;
 EndIf
 If (order != 1 && order != 2)
@@ -78,11 +84,16 @@ If (StrCmp(layout, "free") == 0 && StrCmp(shape, "quad") == 0 &&
 EndIf
 
 // --- geometry -----------------------------------------------------------------------------------
-Point(1) = {0, 0, 0};
-Point(2) = {length, 0, 0};
+Point(1) = {0, crown, 0};
+Point(2) = {length, crown, 0};
 Point(3) = {length, height, 0};
 Point(4) = {0, height, 0};
-Line(1) = {1, 2};
+If (crown > 0)
+    Point(5) = {length / 2, -crown, 0};
+    Bezier(1) = {1, 5, 2};
+Else
+    Line(1) = {1, 2};
+EndIf
 Line(2) = {2, 3};
 Line(3) = {3, 4};
 Line(4) = {4, 1};

@@ -186,6 +186,42 @@ def line_contact(study):
                               "relative error", {"a": (cells, errors["a"]), "c": (cells, errors["c"])}, True))
 
 
+SLOW = {"radius": 1.0, "force": 2e-3, "mu": 0.5}
+
+
+def shapes(study):
+    """The same contact with the parabola in the mesh (`crown` of block.geo, R = 10) and as a formula."""
+    mesh = "{length: 2, height: 1, nx: 40, nz: 20, order: 2, grade_x: 0.02, grade_z: 40%s}"
+    for name, radius, force, crown, contact in (
+            ("drawn in the mesh", 10, 2e-4, ", crown: 0.05", "{radius: 0}"),
+            ("as contact.gap", 1, 2e-3, "", "{gap: (x - 1)^2 / 2}")):
+        ours = Static(study, HERE / "line_contact.yaml", "hertz-shape",
+                      {"mesh.set": mesh % crown, "contact": contact, "load.pressure": force / 2}, slack=10)
+        x, r = ours.position[ours.contact, 0] - 1, ours.reaction[ours.contact, 1]
+        a = np.sqrt(4 * force * radius * (1 - NU**2) / np.pi)
+        mine = 2 * np.sqrt((x**2 * r).sum() / r.sum())
+        study.add(GROUP, f"Hertz, the parabola {name}, Q9 40x20", "half-width a", a, mine, abs(mine / a - 1),
+                  5e-3)
+
+
+def slow_contact(study):
+    """Hertz, then Cattaneo and Mindlin, as the slow limit of a run: the block settles without friction and
+    is then led slowly along by a rod that holds nearly all of its face upright. Moments are taken
+    about the middle of the pressure, which rolls a little (1e-3 of R at the end)."""
+    run = Run(study, HERE / "line_contact_run.yaml", "mindlin-run", {}, ledger=1e-3)
+    x, weight, force, mu = run["x"], run["weight"], SLOW["force"], SLOW["mu"]
+    a = np.sqrt(4 * force * SLOW["radius"] * (1 - NU**2) / np.pi)
+    press, shear = run["pressure"] * weight, run["shear"] * weight
+    first = 2 * np.sqrt(((x - 1)**2 * press[0]).sum() / press[0].sum())
+    study.add(GROUP, "Hertz, a run at rest, Q9 40x20", "half-width a", a, first, abs(first / a - 1), 5e-3)
+    middle = (x * press[-1]).sum() / press[-1].sum()
+    second = ((x - middle)**2 * shear[-1]).sum() / (mu * force)
+    c, share = (a**2 * (a**2 - 4 * second)) ** 0.25, shear[-1].sum() / (mu * force)
+    study.add(GROUP, f"Cattaneo-Mindlin, a slow run to Q = {share:.2f} mu P'",
+              "stick half-width c (second moment of tau)", a * np.sqrt(1 - share), c,
+              abs(c / a / np.sqrt(1 - share) - 1), 1e-2)
+
+
 def controls(study):
     def in_time(s):
         ssnv128_in_time(s, "sdirk2", 16)
@@ -205,4 +241,7 @@ def run(study):
         threshold_in_time(study, scheme)
     threshold(study)
     line_contact(study)
+    shapes(study)
+    if not study.quick:
+        slow_contact(study)
     controls(study)

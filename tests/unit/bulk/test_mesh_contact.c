@@ -129,6 +129,32 @@ static void test_gaps(void **state)
     mesh_destroy(&mesh);
 }
 
+static void test_faces_and_folds(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"contact"};
+    static const int32_t round[][2] = {{0, 1}, {2, 1}, {2, 3}, {3, 7}};
+    static const int32_t(*const pairs[])[2] = {round};
+    double places[8][2];
+    Error err = {0};
+    Mesh mesh;
+    MeshFile file;
+    memcpy(places, PLACES, sizeof places);
+    for (int32_t fold = 0; fold < 3; fold++) {
+        places[7][0] = fold == 0 ? 3 : fold == 1 ? 2.5 : 3.5;
+        file = hand_mesh(8, (const double(*)[2])places, ELEMENT_Q4, 3, SQUARES);
+        hand_curve(&file, names[0], 4, pairs[0]);
+        if (!mesh_build(&file, "block.msh", &mesh, &err)) fail_msg("%s", err.message);
+        if (fold < 2)
+            refuse(&mesh, NULL, 0, "contact group 'contact'",
+                   fold ? "turns back" : "goes straight up at x = 3, from z = 0 to 1");
+        MeshContact contact;
+        if (fold == 2) assert_true(mesh_contact(&mesh, NULL, 0, &contact, &err));   // leans out
+        if (fold == 2) mesh_contact_destroy(&contact);
+        mesh_destroy(&mesh);
+    }
+}
+
 static void test_below_the_substrate(void **state)
 {
     (void)state;
@@ -214,6 +240,7 @@ int main(void)
         cmocka_unit_test(test_neighbours),
         cmocka_unit_test(test_missing),
         cmocka_unit_test(test_gaps),
+        cmocka_unit_test(test_faces_and_folds),
         cmocka_unit_test(test_below_the_substrate),
         cmocka_unit_test(test_overlap),
         cmocka_unit_test(test_inside_and_unglued),
