@@ -76,9 +76,9 @@ void mesh_destroy(Mesh *mesh);
 bool mesh_curve(const Mesh *mesh, const char *name, MeshCurve *curve, Error *err);
 
 // The contact line from curves called `names` [name_count]; no names: every curve called "contact"
-// or "contact_...", in the order of their first nodes' x. Each must lie over z = 0 and one node on
-// it, no node straight over another, on the block's edge, no two on the same edge, and the block not
-// below z = 0: ERROR_INPUT names group and node.
+// or "contact_...", in the order of their first nodes' x. Each must lie over z = 0 and one
+// node on it, no node straight over another, on the block's edge, no two on the same edge, and the
+// block not below z = 0: ERROR_INPUT names group and node.
 bool mesh_contact(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], int32_t name_count,
                   MeshContact *contact, Error *err);
 // How high a contact node stands over z = 0; exactly 0 where only rounding is left.

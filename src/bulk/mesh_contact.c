@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Contact is unilateral against the rigid line z = 0, node by node, each straight below it. So nodes
-// must stand on the line or over it, over distinct places, in one order along the curve, on the
-// block's edge, with nothing of the block below.
+// Contact is unilateral against the rigid line z = 0, node by node, each straight above its place.
+// So nodes must stand on the line or over it, over distinct places, in one order along the curve,
+// on the block's edge, with nothing of the block below.
 #include "bulk/mesh.h"
 
 #include "base/memory.h"

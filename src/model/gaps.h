@@ -6,8 +6,8 @@
 
 #include "model/model.h"
 
-// Adds them to the gaps that the mesh's own curves leave; without them the interface stays as it is.
-// ERROR_INPUT: a gap that is not finite or negative, with x.
+// Adds them to the gaps that the mesh's own curves leave; without them the interface stays as it
+// is. ERROR_INPUT: a gap that is not finite or negative, with x.
 bool model_lay_gaps(Model *model, Error *err);
 
 #endif
