@@ -123,7 +123,7 @@ static bool measure_block(const Scene *scene, Model1d *model, Error *err)
         flat = flat && mesh_gap(&mesh, contact.nodes[i]) == 0;
     if (contact.curve_count != 1 || !whole || !flat)
         FAIL(err, ERROR_INPUT,
-             "%s: the 1D model has one flat contact along the whole block, from x = %g to %g; here "
+             "%s: the 1D model has one contact along the whole block, flat from x = %g to %g; here "
              "%d contact curves%s reach from %g to %g",
              scene->mesh.file, mesh.x_min, mesh.x_max, contact.curve_count,
              flat ? "" : " that are not flat", begins, ends);
