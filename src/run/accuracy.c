@@ -368,9 +368,13 @@ static void warn_of_bar(const Accuracy *accuracy, RunWarnings *warnings)
         warnings_add(warnings, "error bar not met: the mesh's part of it is not known (%s: %s)",
                      why_unknown(accuracy), accuracy->levels.ended);
     else
-        warnings_add(warnings, "error bar not met: %s is known to %.1f %%, asked for %.1f %% (%s)",
-                     name, 100 * answer->bar / answer->value, 100 * accuracy->levels.wanted,
-                     accuracy->levels.ended);
+        warnings_add(warnings,
+                     "error bar not met: %s is known to %.1f %%%s, asked for %.1f %% (%s)", name,
+                     100 * answer->bar / answer->value,
+                     levels_known(&accuracy->levels, accuracy->levels.asked) < LEVELS_LEAST
+                         ? " from two meshes, which agree by chance"
+                         : "",
+                     100 * accuracy->levels.wanted, accuracy->levels.ended);
 }
 
 // Branches, not the mesh, are why the bar is not met, and more runs may mend it.
