@@ -10,7 +10,7 @@ import numpy
 from figure import draw
 from measured_run import markdown_table
 
-CELLS = (10, 20, 40, 80)     # along a block, and up it
+CELLS = (10, 20, 40, 56, 80)     # along a block, and up it
 SURE = 0.95
 
 
