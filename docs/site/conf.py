@@ -40,7 +40,7 @@ html_js_files = [("contrib/auto-render.js", {"defer": "defer"}), ("formulas.js",
 def as_sphinx_reads(app, page, source):
     """GitHub's words for what Sphinx calls otherwise; the contents stand at the end of the first page."""
     text = source[0].replace("```math\n", "```{math}\n")
-    text = re.sub(r"\[([^\]]+)\]\(([\w./]*\btables\.md)\)", r"{download}`\1 <\2>`", text)
+    text = re.sub(r"\[([^\]]+)\]\(([\w./]*\b(?:tables|bars)\.md)\)", r"{download}`\1 <\2>`", text)
     if page == root_doc:
         app.env.note_dependency(str(SITE / "contents.txt"))
         text += "\n" + (SITE / "contents.txt").read_text()
