@@ -17,7 +17,7 @@ _amontons() {
         mapfile -t COMPREPLY < <(compgen -W "$(_amontons_words)" -- "$word")
     elif [[ $before == --set ]]; then
         # A `=` ends the word for bash: the value is the user's to write.
-        keys=$(amontons info keys 2>/dev/null | grep -oE '^. .[a-z_0-9]+\.[a-z_0-9.]+' | cut -c 4-)
+        keys=$(amontons info keys 2>/dev/null | grep -oE '^. .[a-z_0-9]+\.[A-Za-z_0-9.]+' | cut -c 4-)
         mapfile -t COMPREPLY < <(compgen -S = -W "$keys" -- "$word")
         compopt -o nospace 2>/dev/null
     elif [[ $word == -* ]]; then

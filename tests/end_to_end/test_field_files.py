@@ -31,7 +31,7 @@ CELLS = [
     ("triangle6", 22, [12, 14, 24, 13, 19, 18]),
 ]
 LINES = [[0, 1], [1, 2], [2, 3], [3, 4]]
-SERIES, STEPS, NODES = 15, 300, 5
+SERIES, STEPS, NODES = 16, 300, 5
 
 
 def read_with_vtk(reader, path):
@@ -142,7 +142,7 @@ class FieldFiles(unittest.TestCase):
                     self.assertIsInstance(dataset.attrs["unit"], str)
                     self.assertGreater(len(dataset.attrs["description"]), 3)
             self.assertEqual(len(found), SERIES)
-            # Each series is one of the 15 patterns, and no two are the same one.
+            # Each series is one of these patterns, and no two are the same one.
             patterns = {((7 * s + 3 * step + node) % 250).astype(float).tobytes(): s
                         for s in range(SERIES)}
             scalars = {((7 * s + 3 * step[:, 0]) % 250).astype(float).tobytes(): s

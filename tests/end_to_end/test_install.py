@@ -158,7 +158,8 @@ class Installed(unittest.TestCase):
     def test_completion(self):
         self.assertEqual(self.completions("amontons", "st"), ["static", "stability"])
         self.assertEqual(self.completions("amontons", "run", "--over"), ["--overwrite"])
-        self.assertEqual(self.completions("amontons", "run", "--set", "load.pr"), ["load.pressure="])
+        self.assertEqual(self.completions("amontons", "run", "--set", "load.pre"), ["load.pressure="])
+        self.assertEqual(self.completions("amontons", "run", "--set", "time.until.U"), ["time.until.U="])
         (self.folder / "mine.yaml").touch()
         (self.folder / "mine.txt").touch()
         self.assertEqual(self.completions("amontons", "run", "mi"), ["mine.yaml"])

@@ -87,6 +87,7 @@ static const char *const OWN[] = {"run.json",
                                   "fields/bulk_1000000.vtu.part",
                                   "fields/interface_000003.vtp",
                                   "figures/force.png",
+                                  "figures/force.svg",
                                   "figures/force.png.part"};
 static const char *const OTHERS[] = {"notes.txt",
                                      "scene.yaml",
@@ -95,7 +96,7 @@ static const char *const OTHERS[] = {"notes.txt",
                                      "fields/bulk.vtu",
                                      "fields/bulk_000001.vtu.old",
                                      "fields/mine_000001.vtu",
-                                     "figures/force.svg",
+                                     "figures/mine.svg",
                                      "figures/photograph.png",
                                      "figures/readme"};
 enum { OWN_COUNT = sizeof OWN / sizeof *OWN, OTHER_COUNT = sizeof OTHERS / sizeof *OTHERS };
