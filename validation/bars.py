@@ -38,12 +38,15 @@ def why(row):
     return "; ".join(sorted({text.strip().split(":")[0] for text in row["warnings"].split(" // ") if text.strip()}))
 
 
-def table(rows):
+def number(text, form):
+    return format(float(text), form) if text else ""
+
+
+def table(rows, study):
     keys = [key for key in rows[0] if key not in NO_KEYS and len({row[key] for row in rows}) > 1
-            and key not in ("time.until.U", "mesh.set.height", "mesh.set.floor")]
+            and not any(f"{key}: = " in line for line in study.splitlines())]   # formulas follow from the others
     lines = [[*(f"{float(row[key]):.4g}" if row[key][:1].isdigit() else row[key] for key in keys),
-              *(answer(row, name) for name in ANSWERS), f"{float(row['slip_cells'] or 'nan'):.3g}",
-              f"{float(row['total_s'] or 'nan'):.1f}", why(row)] for row in rows]
+              *(answer(row, name) for name in ANSWERS), number(row["slip_cells"], ".3g"), number(row["total_s"], ".1f"), why(row)] for row in rows]
     return markdown_table([*keys, *ANSWERS, "cells that slip runs away on", "s", "warned of"], lines)
 
 
@@ -69,7 +72,7 @@ def main():
         rows = list(csv.DictReader((folder / "sweep.csv").open()))
         title = study.read_text().split("title: ")[1].split("\n")[0]
         version = json.loads((folder / rows[0]["run"] / "run.json").read_text())["version"]
-        page.append(f"## {title}\n\n`amontons sweep {study.resolve().relative_to(ROOT)}`, version {version}\n\n{table(rows)}")
+        page.append(f"## {title}\n\n`amontons sweep {study.resolve().relative_to(ROOT)}`, version {version}\n\n{table(rows, study.read_text())}")
         seconds = sum(getattr(after, key) - getattr(before, key) for key in ("ru_utime", "ru_stime"))
         if seconds > 1:   # else nothing was computed
             print(f"{study.name}: {seconds:.0f} s of processor time", file=sys.stderr)

@@ -247,16 +247,18 @@ static bool try_level(Accuracy *accuracy, double refine, bool *coarse, Error *er
     return error_is_clean(err);
 }
 
-// Meshes whose cells are still too long for slip are passed over, the last one that may be is not.
+// Meshes whose cells are still too long for slip are passed over, while there is time for a finer.
 static bool add_level(Accuracy *accuracy, double refine, Error *err)
 {
     bool coarse = true;
     for (int32_t k = accuracy->levels.count + 1; coarse; k++) {
-        bool last = k >= LEVELS_MAX || seconds_left(accuracy) < 0;
         coarse = false;
-        TRY(try_level(accuracy, refine, last ? NULL : &coarse, err));
+        TRY(try_level(accuracy, refine, k >= LEVELS_MAX ? NULL : &coarse, err));
         refine = last_level(accuracy)->refine;
-        accuracy->levels.count -= coarse;
+        if (!coarse) break;
+        accuracy->out_of_time = GROWTH * last_level(accuracy)->seconds > seconds_left(accuracy);
+        accuracy->levels.count--;
+        if (accuracy->out_of_time) goto cleanup;
     }
     TRY(add_runs(accuracy, RUNS_FIRST - 1, err));
 cleanup:
