@@ -10,6 +10,20 @@
 #include "base/error.h"
 #include "io/mesh_file.h"
 
+// What `field` may show: X(symbol, name, words, unit in SI, unit in normalised scenes). Stresses
+// hold the viscous part.
+#define BLOCK_QUANTITIES(X)                                                                        \
+    X(BLOCK_VON_MISES, "von_mises", "von Mises stress", "Pa", "~{E}")                              \
+    X(BLOCK_STRESS_XX, "stress_xx", "stress ~{\u03c3}_{xx}", "Pa", "~{E}")                         \
+    X(BLOCK_STRESS_ZZ, "stress_zz", "stress ~{\u03c3}_{zz}", "Pa", "~{E}")                         \
+    X(BLOCK_STRESS_XZ, "stress_xz", "stress ~{\u03c3}_{xz}", "Pa", "~{E}")                         \
+    X(BLOCK_PRESSURE, "pressure", "pressure \u2212(~{\u03c3}_{xx} + ~{\u03c3}_{zz})/2", "Pa",      \
+      "~{E}")                                                                                      \
+    X(BLOCK_VELOCITY, "velocity", "velocity |~{v}|", "m/s", "(~{L}_{0} / ~{t}_{0})")               \
+    X(BLOCK_DISPLACEMENT, "displacement", "displacement |~{u}|", "m", "~{L}_{0}")                  \
+    X(BLOCK_ENERGY, "strain_energy", "strain energy density", "J/m^{3}", "~{E}")                   \
+    X(BLOCK_DISSIPATION, "dissipation", "dissipation rate", "W/m^{3}", "(~{E} / ~{t}_{0})")
+
 // X(symbol, name, title)
 #define RENDER_FIGURES(X)                                                                          \
     X(FIGURE_FORCE, "force", "F_T/F_N against U, with an inset of the precursors")                 \

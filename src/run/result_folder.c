@@ -32,7 +32,9 @@ static const char *const OWN_FILES[] = {
 enum { OWN_FILE_COUNT = sizeof OWN_FILES / sizeof OWN_FILES[0] };
 
 #define FIGURE_FILE(id, name, words) name ".png", name ".pdf", name ".svg",
-static const char *const FIGURES[] = {RENDER_FIGURES(FIGURE_FILE) "accuracy.png", "accuracy.json"};
+#define FIELD_FILE(id, name, ...) FIGURE_FILE(id, "field-" name, )   // of a quantity
+static const char *const FIGURES[] = {
+    RENDER_FIGURES(FIGURE_FILE) BLOCK_QUANTITIES(FIELD_FILE) "accuracy.png", "accuracy.json"};
 
 // A file in its place or a folder that cannot be written to is told at once.
 static bool make_folder(const char *folder, Error *err)
@@ -58,11 +60,9 @@ static void strip_part(const char *name, char *bare)
 
 static bool is_figure(const char *name)
 {
-    const char *dot = strrchr(name, '.');
     for (size_t k = 0; k < sizeof FIGURES / sizeof FIGURES[0]; k++)
         if (strcmp(FIGURES[k], name) == 0) return true;
-    return strncmp(name, "field-", 6) == 0 && dot &&   // of a quantity: field-stress_xx.png
-           (strcmp(dot, ".png") == 0 || strcmp(dot, ".pdf") == 0 || strcmp(dot, ".svg") == 0);
+    return false;
 }
 
 // bulk_000012.vtu, interface_000012.vtp (record/fields).

@@ -88,6 +88,7 @@ static const char *const OWN[] = {"run.json",
                                   "fields/interface_000003.vtp",
                                   "figures/force.png",
                                   "figures/force.svg",
+                                  "figures/field-stress_xz.png",
                                   "figures/force.png.part"};
 static const char *const OTHERS[] = {"notes.txt",
                                      "scene.yaml",
@@ -97,6 +98,7 @@ static const char *const OTHERS[] = {"notes.txt",
                                      "fields/bulk_000001.vtu.old",
                                      "fields/mine_000001.vtu",
                                      "figures/mine.svg",
+                                     "figures/field-trip.png",
                                      "figures/photograph.png",
                                      "figures/readme"};
 enum { OWN_COUNT = sizeof OWN / sizeof *OWN, OTHER_COUNT = sizeof OTHERS / sizeof *OTHERS };
