@@ -13,7 +13,6 @@
 enum { PARTS_MAX = 16, LATTICE_MAX = (PARTS_MAX + 1) * (PARTS_MAX + 1) };
 
 static const double PART_SIZE = 8;   // pixels: a part's side
-static const double SLACK = 1e-9;   // of a part: what lies between two belongs to both
 
 typedef struct Corner {
     Point at;   // pixels
@@ -32,54 +31,102 @@ static int32_t corner_count(ElementKind kind)
     return kind == ELEMENT_T3 || kind == ELEMENT_T6 ? 3 : 4;
 }
 
-// Parts along a side: one where all is linear.
-static int32_t choose_parts(const Block *block, const Axes *axes, int32_t e)
+// Along each side as many parts as its length asks for, whichever element it belongs to: elements
+// side by side leave no crack. Inside as many as along the side that has most. A T3 stays whole:
+// beside a quadrilateral that is cut a pixel may be missed.
+typedef struct Parts {
+    int32_t inside, side[4];
+} Parts;
+
+static Parts choose_parts(const Block *block, const Axes *axes, int32_t e)
 {
     const int32_t *nodes = block->frame.element_nodes + block->frame.first_node[e];
     ElementKind kind = (ElementKind)block->frame.kind[e];
     int32_t corners = corner_count(kind);
-    double longest = 0;
-    if (kind == ELEMENT_T3) return 1;
+    Parts parts = {1, {1, 1, 1, 1}};
+    if (kind == ELEMENT_T3) return parts;
     for (int32_t k = 0; k < corners; ++k) {
         Point a = node_place(block, axes, nodes[k]);
         Point b = node_place(block, axes, nodes[(k + 1) % corners]);
-        longest = fmax(longest, hypot(b.x - a.x, b.y - a.y));
+        double wanted = ceil(hypot(b.x - a.x, b.y - a.y) / PART_SIZE);
+        parts.side[k] = (int32_t)fmin(fmax(wanted, 2), PARTS_MAX);
+        if (parts.side[k] > parts.inside) parts.inside = parts.side[k];
     }
-    return (int32_t)fmin(fmax(ceil(longest / PART_SIZE), 2), PARTS_MAX);
+    return parts;
 }
 
-// lattice: [(parts + 1)^2], row by row along eta; of a triangle only where i + j <= parts.
-static void fill_lattice(const Block *block, const Axes *axes, int32_t e, int32_t parts,
+// Of `inside` parts the i-th, moved to where a side's own parts meet.
+static double side_place(const Parts *parts, int32_t side, int32_t i)
+{
+    int32_t count = parts->side[side];
+    return round((double)i * count / parts->inside) / count;
+}
+
+// From 0 to 1 along both axes of an element.
+static void lattice_place(const Parts *parts, bool triangle, int32_t i, int32_t j, double place[2])
+{
+    int32_t last = parts->inside;
+    place[0] = (double)i / last;
+    place[1] = (double)j / last;
+    if (j == 0) place[0] = side_place(parts, 0, i);
+    if (!triangle && i == last) place[1] = side_place(parts, 1, j);
+    if (!triangle && j == last) place[0] = side_place(parts, 2, i);
+    if (i == 0) place[1] = side_place(parts, triangle ? 2 : 3, j);
+    if (triangle && i > 0 && j > 0 && i + j == last) {
+        place[1] = side_place(parts, 1, j);
+        place[0] = 1 - place[1];
+    }
+}
+
+// lattice: [(inside + 1)^2], row by row along eta; of a triangle only where i + j <= inside.
+static void fill_lattice(const Block *block, const Axes *axes, int32_t e, const Parts *parts,
                          Corner *lattice)
 {
     const int32_t *nodes = block->frame.element_nodes + block->frame.first_node[e];
     ElementKind kind = (ElementKind)block->frame.kind[e];
-    int32_t count = element_node_count(kind);
+    int32_t count = element_node_count(kind), last = parts->inside;
     bool triangle = corner_count(kind) == 3;
-    for (int32_t j = 0; j <= parts; ++j)
-        for (int32_t i = 0; i <= (triangle ? parts - j : parts); ++i) {
-            double xi = (double)i / parts, eta = (double)j / parts, x = 0, z = 0, value = 0;
-            ShapeValues shape = triangle ? shape_at(kind, xi, eta)
-                                         : shape_at(kind, 2 * xi - 1, 2 * eta - 1);
+    for (int32_t j = 0; j <= last; ++j)
+        for (int32_t i = 0; i <= (triangle ? last - j : last); ++i) {
+            double at[2], x = 0, z = 0, value = 0;
+            lattice_place(parts, triangle, i, j, at);
+            ShapeValues shape = triangle ? shape_at(kind, at[0], at[1])
+                                         : shape_at(kind, 2 * at[0] - 1, 2 * at[1] - 1);
             for (int32_t a = 0; a < count; ++a) {
                 x += shape.value[a] * block->place[nodes[a]][0];
                 z += shape.value[a] * block->place[nodes[a]][1];
                 value += shape.value[a] * block->value[nodes[a]];
             }
-            lattice[j * (parts + 1) + i] = (Corner){axes_place(axes, x, z), value};
+            lattice[j * (last + 1) + i] = (Corner){axes_place(axes, x, z), value};
         }
 }
 
-// All triangles of all elements; ends where `work` gives false.
-static bool each_triangle(const Block *block, const Axes *axes, TriangleFunction work,
-                          void *context)
+// Whether an element may have this value: shape functions of order 2 leave the range of the nodes
+// by less than its width.
+static bool may_reach(const Block *block, int32_t e, double level)
+{
+    const FieldFrame *frame = &block->frame;
+    double low = INFINITY, high = -INFINITY;
+    for (int32_t k = frame->first_node[e]; k < frame->first_node[e + 1]; ++k) {
+        double value = block->value[frame->element_nodes[k]];
+        low = fmin(low, value);
+        high = fmax(high, value);
+    }
+    return level >= low - (high - low) && level <= high + (high - low);
+}
+
+// All triangles of all elements, or of those that may reach *level; ends where `work` gives false.
+static bool each_triangle(const Block *block, const Axes *axes, const double *level,
+                          TriangleFunction work, void *context)
 {
     Corner lattice[LATTICE_MAX];
     bool going = true;
     for (int32_t e = 0; going && e < block->frame.element_count; ++e) {
-        int32_t parts = choose_parts(block, axes, e), row = parts + 1;
+        if (level && !may_reach(block, e, *level)) continue;
+        Parts chosen = choose_parts(block, axes, e);
+        int32_t parts = chosen.inside, row = parts + 1;
         bool triangle = corner_count((ElementKind)block->frame.kind[e]) == 3;
-        fill_lattice(block, axes, e, parts, lattice);
+        fill_lattice(block, axes, e, &chosen, lattice);
         for (int32_t j = 0; going && j < parts; ++j)
             for (int32_t i = 0; going && i < (triangle ? parts - j : parts); ++i) {
                 const Corner *low = lattice + j * row + i, *high = low + row;
@@ -95,54 +142,41 @@ static bool each_triangle(const Block *block, const Axes *axes, TriangleFunction
 
 // --- pixels --------------------------------------------------------------------------------------
 
-// Barycentric coordinates of a pixel's middle say whether it is inside.
-static bool fill_triangle(void *context, const Corner c[3])
+// What is drawn, and its colours.
+typedef struct Fill {
+    const Box *box;
+    double low, range;   // the quantity at colour 0, and up to colour 1
+    GlCorner *corners;   // [3 * count] owned
+    int32_t count, room;
+    Error *err;
+} Fill;
+
+// false: no memory. What has no place or no number is left out.
+static bool fill_add(void *context, const Corner corner[3])
 {
-    BlockRaster *raster = context;
-    double ax = c[1].at.x - c[0].at.x, ay = c[1].at.y - c[0].at.y;
-    double bx = c[2].at.x - c[0].at.x, by = c[2].at.y - c[0].at.y, area = ax * by - ay * bx;
-    double left = fmin(c[0].at.x, fmin(c[1].at.x, c[2].at.x)) - raster->box.left;
-    double right = fmax(c[0].at.x, fmax(c[1].at.x, c[2].at.x)) - raster->box.left;
-    double top = fmin(c[0].at.y, fmin(c[1].at.y, c[2].at.y)) - raster->box.top;
-    double bottom = fmax(c[0].at.y, fmax(c[1].at.y, c[2].at.y)) - raster->box.top;
-    if (area == 0 || !isfinite(left + right + top + bottom)) return true;
-    int32_t first = (int32_t)fmax(ceil(left - 0.5 - SLACK), 0);
-    int32_t last = (int32_t)fmin(floor(right - 0.5 + SLACK), raster->width - 1);
-    int32_t end = (int32_t)fmin(floor(bottom - 0.5 + SLACK), raster->height - 1);
-    for (int32_t row = (int32_t)fmax(ceil(top - 0.5 - SLACK), 0); row <= end; ++row) {
-        float *line = raster->values + (int64_t)row * raster->width;
-        double y = row + 0.5 + raster->box.top - c[0].at.y;
-        for (int32_t column = first; column <= last; ++column) {
-            double x = column + 0.5 + raster->box.left - c[0].at.x;
-            double a = (x * by - y * bx) / area, b = (ax * y - ay * x) / area;
-            if (a < -SLACK || b < -SLACK || a + b > 1 + SLACK) continue;
-            line[column] =
-                (float)(c[0].value + a * (c[1].value - c[0].value) + b * (c[2].value - c[0].value));
-        }
-    }
+    Fill *fill = context;
+    for (int32_t k = 0; k < 3; ++k)
+        if (!isfinite(corner[k].at.x + corner[k].at.y + corner[k].value)) return true;
+    GlCorner *longer =
+        memory_grow(fill->corners, fill->count, &fill->room, 3 * sizeof(GlCorner), fill->err);
+    if (!longer) return false;
+    fill->corners = longer;
+    GlCorner *to = longer + 3 * (int64_t)fill->count++;
+    for (int32_t k = 0; k < 3; ++k)
+        to[k] = (GlCorner){(float)(corner[k].at.x - fill->box->left),
+                           (float)(corner[k].at.y - fill->box->top),
+                           (float)((corner[k].value - fill->low) / fill->range)};
     return true;
 }
 
-bool block_raster_fill(const Block *block, const Axes *axes, const Box *box, BlockRaster *raster,
-                       Error *err)
+bool block_colors_draw(Canvas *canvas, const Block *block, const Axes *axes, double low,
+                       double high, Error *err)
 {
-    *raster = (BlockRaster){.box = *box,
-                            .width = (int32_t)lround(box->right - box->left),
-                            .height = (int32_t)lround(box->bottom - box->top)};
-    if (raster->width < 2 || raster->height < 2)
-        FAIL(err, ERROR_INPUT, "the picture is too small for its axes");
-    int64_t count = (int64_t)raster->width * raster->height;
-    TRY(raster->values = NEW_ARRAY(float, count, err));
-    for (int64_t k = 0; k < count; ++k) raster->values[k] = NAN;
-    each_triangle(block, axes, fill_triangle, raster);
-cleanup:
+    Fill fill = {.box = &axes->box, .low = low, .range = high - low, .err = err};
+    if (each_triangle(block, axes, NULL, fill_add, &fill))
+        canvas_heat_triangles(canvas, &axes->box, fill.corners, 3 * (int64_t)fill.count);
+    memory_free(fill.corners);
     return error_is_clean(err);
-}
-
-void block_raster_destroy(BlockRaster *raster)
-{
-    memory_free(raster->values);
-    *raster = (BlockRaster){0};
 }
 
 // --- lines ---------------------------------------------------------------------------------------
@@ -188,7 +222,7 @@ bool block_contour_draw(const Page *page, const Block *block, const Axes *axes, 
                         const Stroke *stroke, Error *err)
 {
     Pieces pieces = {.level = level, .err = err};
-    if (each_triangle(block, axes, cut_triangle, &pieces))
+    if (each_triangle(block, axes, &level, cut_triangle, &pieces))
         shape_line(page->canvas, stroke, pieces.points, 3 * (int64_t)pieces.count);
     memory_free(pieces.points);
     return error_is_clean(err);

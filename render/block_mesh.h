@@ -8,17 +8,10 @@
 #include "render/axes.h"
 #include "render/block.h"
 
-// Pixels of a part of the picture, a value each.
-typedef struct BlockRaster {
-    Box box;   // whole pixels
-    int32_t width, height;
-    float *values;   // [height * width] first row at the top; NaN: outside of the block; owned
-} BlockRaster;
-
-// The value at the middle of each pixel of `box`. axes: where the block's places lie.
-bool block_raster_fill(const Block *block, const Axes *axes, const Box *box, BlockRaster *raster,
-                       Error *err);
-void block_raster_destroy(BlockRaster *raster);   // zeroed is fine
+// The block in colours, from the quantity `low` to `high`, or beyond, in the frame of the axes,
+// which is whole pixels.
+bool block_colors_draw(Canvas *canvas, const Block *block, const Axes *axes, double low,
+                       double high, Error *err);
 
 // Lines where the quantity is `level`, and a line round the block.
 bool block_contour_draw(const Page *page, const Block *block, const Axes *axes, double level,

@@ -119,22 +119,6 @@ cleanup:
 
 // --- the block -----------------------------------------------------------------------------------
 
-static bool draw_colors(const Page *page, const BlockPage *map, const Block *block,
-                        const Axes *axes, Error *err)
-{
-    BlockRaster raster = {0};
-    double low = map->bar.low, range = map->bar.high - low;
-    TRY(block_raster_fill(block, axes, &axes->box, &raster, err));
-    for (int64_t k = 0; k < (int64_t)raster.width * raster.height; ++k) {
-        double value = ((double)raster.values[k] * map->factor - low) / range;
-        raster.values[k] = isnan(value) ? (float)HEAT_MISSING : (float)fmin(fmax(value, 0), 1);
-    }
-    canvas_heat(page->canvas, &raster.box, raster.values, raster.width, raster.height);
-cleanup:
-    block_raster_destroy(&raster);
-    return error_is_clean(err);
-}
-
 // At the numbers of the bar.
 static bool draw_contours(const Page *page, const BlockPage *map, const Block *block,
                           const Axes *axes, Error *err)
@@ -216,7 +200,8 @@ bool block_page_draw(const Page *page, const BlockPage *map, const Block *block,
     Stroke outline = {.color = INK, .width = OUTLINE_WIDTH * unit};
     Stroke edge = {.color = CONTOUR, .width = EDGE_WIDTH * unit};
     Stroke ground = {.color = INK, .width = OUTLINE_WIDTH * unit};
-    TRY(draw_colors(page, map, block, axes, err));
+    TRY(block_colors_draw(page->canvas, block, axes, map->bar.low / map->factor,
+                          map->bar.high / map->factor, err));
     if (map->edges) block_edges_draw(page, block, axes, &edge);
     TRY(draw_contours(page, map, block, axes, err));
     TRY(block_outline_draw(page, block, axes, &outline, err));

@@ -166,33 +166,41 @@ void canvas_set_map(Canvas *canvas, const uint8_t *colors, Color below)
                                  (uint8_t)lroundf(255 * below.blue));
 }
 
-static uint32_t heat_pixel(const Canvas *canvas, float value)
+// Cairo places what OpenGL draws: an image of its own, so that PDF and SVG hold the same pixels.
+static void draw_pixels(Canvas *canvas, const Box *box, const GlImageDef *wanted)
 {
-    if (!(value >= -1.5f)) return 0;   // transparent
-    if (value < 0) return canvas->below;
-    return canvas->map[lroundf(fminf(value, 1) * (MAP_SIZE - 1))];
+    GlImageDef def = *wanted;
+    cairo_surface_t *image = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, def.width, def.height);
+    def.stride = cairo_image_surface_get_stride(image) / (int32_t)sizeof(uint32_t);
+    def.colors = canvas->map;
+    def.color_count = MAP_SIZE;
+    def.below = canvas->below;
+    uint32_t *pixels = (uint32_t *)(void *)cairo_image_surface_get_data(image);
+    if (cairo_surface_status(image)) {
+        error_set(&canvas->failure, ERROR_LIBRARY, __FILE__, __LINE__,
+                  "a map of %d by %d values: %s", def.width, def.height,
+                  cairo_status_to_string(cairo_surface_status(image)));
+    } else if (gl_image_draw(GL_OSMESA, &def, pixels, &canvas->failure)) {
+        cairo_surface_mark_dirty(image);
+        canvas_image(canvas, box, image);
+    }
+    cairo_surface_destroy(image);
 }
 
 // One pixel of an image a value, not interpolated: what is seen is a number that was computed,
 // never a mixture.
 void canvas_heat(Canvas *canvas, const Box *box, const float *values, int32_t columns, int32_t rows)
 {
-    cairo_surface_t *image = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, columns, rows);
-    if (cairo_surface_status(image)) {
-        error_set(&canvas->failure, ERROR_LIBRARY, __FILE__, __LINE__,
-                  "a map of %d by %d values: %s", columns, rows,
-                  cairo_status_to_string(cairo_surface_status(image)));
-    } else {
-        uint8_t *line = cairo_image_surface_get_data(image);
-        for (int32_t row = 0; row < rows; ++row) {
-            for (int32_t k = 0; k < columns; ++k)
-                ((uint32_t *)(void *)line)[k] = heat_pixel(canvas, *values++);
-            line += cairo_image_surface_get_stride(image);
-        }
-        cairo_surface_mark_dirty(image);
-        canvas_image(canvas, box, image);
-    }
-    cairo_surface_destroy(image);
+    draw_pixels(canvas, box, &(GlImageDef){.width = columns, .height = rows, .values = values});
+}
+
+void canvas_heat_triangles(Canvas *canvas, const Box *box, const GlCorner *corners, int64_t count)
+{
+    draw_pixels(canvas, box,
+                &(GlImageDef){.width = (int32_t)lround(box->right - box->left),
+                              .height = (int32_t)lround(box->bottom - box->top),
+                              .corners = corners,
+                              .corner_count = count});
 }
 
 // Exact pixels: no filter, and no edge that mixes with the paper.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A picture being drawn with Cairo, and its file: PNG, PDF or SVG, laid out alike. canvas, shapes
-// and text are all that knows Cairo.
+// and text are all that knows Cairo. Maps are images that OpenGL draws (gl_image), placed by Cairo.
 //
 // Positions are pixels of the PNG, (0, 0) the upper left corner of the picture, y downwards; whole
 // numbers lie between pixels. Drawing calls return nothing: the first failure is kept and reported
@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "render/color.h"
+#include "render/gl_image.h"
 
 typedef struct Canvas Canvas;
 typedef struct _cairo cairo_t;   // as cairo.h has it
@@ -61,6 +62,10 @@ void canvas_set_map(Canvas *canvas, const uint8_t *colors, Color below);
 // map (larger: as 1), or a HeatLevel. Values are not blended into each other.
 void canvas_heat(Canvas *canvas, const Box *box, const float *values, int32_t columns,
                  int32_t rows);
+
+// Triangles in `box`, whole pixels wide and high: three corners each, in pixels from its upper left
+// corner; between the corners values are linear. Below 0 is drawn as 0.
+void canvas_heat_triangles(Canvas *canvas, const Box *box, const GlCorner *corners, int64_t count);
 
 // Fills `box` with an image, pixel by pixel.
 void canvas_image(Canvas *canvas, const Box *box, cairo_surface_t *image);

@@ -181,6 +181,7 @@ class Layers(unittest.TestCase):
             "hdf5.h": r"src/io/array_(file_module|attribute|disk|series)\.[ch]",
             "libfyaml.h": r"src/io/yaml_\w+\.[ch]",
             "cairo[\\w-]*.h": CAIRO,
+            "(?:osmesa|egl|gl|glext).h": r"render/gl_image\.c",
             "png.h": r"render/png_encode\.c",
             "vtk\\w*.h": r"src/io/field_file_module\.cc",
         }
@@ -240,12 +241,15 @@ class Modules(unittest.TestCase):
             self.assertEqual(foreign, [], module.name)
 
     def test_program_loads_no_heavy_library(self):
-        """gmsh, HDF5, VTK and Cairo come with their modules, on first use."""
+        """gmsh, HDF5, VTK and Cairo come with their modules, on first use; OpenGL with the first image, within the module."""
         program = MODULES / "amontons"
         needed = subprocess.run(["ldd", program], capture_output=True, text=True, check=True).stdout
         self.assertIn("libamontons.so", needed)
         for library in ("libgmsh", "libhdf5", "libcurl", "libvtk", "libcairo"):
             self.assertNotIn(library, needed)
+        drawn = subprocess.run(["ldd", MODULES / "amontons_render.so"], capture_output=True, text=True, check=True).stdout
+        for library in ("libOSMesa", "libEGL", "libGL.so"):
+            self.assertNotIn(library, drawn)
         if "libubsan" not in needed:   # which is in C++ itself
             self.assertNotIn("libstdc++", needed)
 

@@ -103,19 +103,15 @@ static void draw_and_read(ElementKind kind)
     Patch patch;
     Block block = patch_make(kind, &patch);
     Axes axes = square_axes();
-    BlockRaster raster = {0};
     uint8_t map[3 * MAP_SIZE], *pixels = NULL;
     int32_t seen = 0;
     for (int32_t i = 0; i < block.frame.node_count; i++)
         patch.value[i] = field_at(kind, patch.place[i][0], patch.place[i][1]);
-    assert_true(block_raster_fill(&block, &axes, &axes.box, &raster, &err));
-    for (int64_t k = 0; k < SIZE * SIZE; k++)
-        if (isnan(raster.values[k])) raster.values[k] = HEAT_MISSING;
     Canvas *canvas = canvas_create(&def, &err);
     assert_non_null(canvas);
     color_map_fill(map);
     canvas_set_map(canvas, map, BLACK);
-    canvas_heat(canvas, &axes.box, raster.values, SIZE, SIZE);
+    assert_true(block_colors_draw(canvas, &block, &axes, 0, 1, &err));
     assert_true(canvas_read(canvas, &pixels, &err));
     for (int32_t row = 0; row < SIZE; row++)
         for (int32_t column = 0; column < SIZE; column++) {
@@ -132,7 +128,6 @@ static void draw_and_read(ElementKind kind)
     assert_true(seen > 0.35 * SIZE * SIZE);
     memory_free(pixels);
     canvas_destroy(canvas);
-    block_raster_destroy(&raster);
 }
 
 static void every_element_shows_its_field(void **state)
