@@ -2,50 +2,17 @@
 """A spring between drive and rod: a stiff block on it does what a rigid one does, by an integrator of its own; a stiff
 spring is none; both schemes and statics agree; what cannot be is refused."""
 import json
-import os
-import shutil
-import subprocess
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-import h5py
 import numpy
 
-SOURCE = Path(os.environ["AMONTONS_SOURCE"])
-PROGRAM = Path(os.environ["AMONTONS_BIN"], "amontons")
-EXAMPLE = SOURCE / "validation/drive/stick_slip.yaml"
-sys.path.insert(0, str(EXAMPLE.parent))
-import rigid_block  # noqa: E402
+from drive_fixture import EXAMPLES, Driven, rigid_block
 
-SCENE = f"""mesh: {{file: {SOURCE}/meshes/block.geo, set: {{nx: 8, nz: 4}}}}
-material: {{poisson: 0.34}}
-friction: {{mu_static: 0.38, mu_kinetic: 0.1, critical_velocity: 3.4e-4}}
-load: {{pressure: 0.003}}
-rod: {{velocity: 1e-4}}
-time: {{until: {{U: 0.006}}}}
-"""
+EXAMPLE = EXAMPLES / "stick_slip.yaml"
 
 
-class Machine(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = Path(tempfile.mkdtemp(prefix="amontons-machine-"))
-        cls.addClassCleanup(shutil.rmtree, cls.folder)
-        (cls.folder / "scene.yaml").write_text(SCENE)
-
-    def call(self, command, *settings, scene="scene.yaml", status=0, flags=()):
-        words = [word for setting in settings for word in ("--set", setting)]
-        done = subprocess.run([PROGRAM, command, scene, *words, *flags], capture_output=True, text=True, cwd=self.folder)
-        self.assertEqual(done.returncode, status, done.stderr)
-        return done.stderr
-
-    def run_scene(self, name, *settings, scene="scene.yaml"):
-        folder = self.folder / name
-        self.call("run", *settings, scene=scene, flags=("-q", "-o", folder))
-        with h5py.File(folder / "history.h5") as file:
-            return {key: item[()] for group in ("series", "events") for key, item in file[group].items()}
+class Machine(Driven):
+    UNTIL = 0.006
 
     def test_rigid_block(self):
         """Three slips: when, from which force to which, how fast."""

@@ -1,31 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Rod and load by programs, ends by events: a stiff block does what a rigid one does, by an integrator of its own; U
 and the load are those of the tables; both schemes agree; a run that is cut and gone on with is the same; refusals."""
-import os
 import re
-import shutil
-import subprocess
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-import h5py
 import numpy
 
-SOURCE = Path(os.environ["AMONTONS_SOURCE"])
-PROGRAM = Path(os.environ["AMONTONS_BIN"], "amontons")
-EXAMPLE = SOURCE / "validation/drive/program.yaml"
-sys.path.insert(0, str(EXAMPLE.parent))
-import rigid_block  # noqa: E402
+from drive_fixture import EXAMPLES, Driven, rigid_block
 
-SCENE = f"""mesh: {{file: {SOURCE}/meshes/block.geo, set: {{nx: 8, nz: 4}}}}
-material: {{poisson: 0.34}}
-friction: {{mu_static: 0.38, mu_kinetic: 0.1, critical_velocity: 3.4e-4}}
-load: {{pressure: 0.003}}
-rod: {{velocity: 1e-4}}
-time: {{until: {{U: 0.005}}}}
-"""
+EXAMPLE = EXAMPLES / "program.yaml"
 BY_WAY = ("load.program={U: [0, 0.001, 0.002], factor: [1, 1, 1.2]}", "rod.program={U: [0, 0.001, 0.004], factor: [1, 1, 3]}")
 BY_TIME = ("load.program={t: [0, 5, 5, 10], factor: [1, 1, 1.1, 1], repeat: true}",
            "rod.program={t: [0, 10, 20, 20, 30], factor: [1, 1, 0, 0.5, 1], repeat: true}", "time.until={t: 50}")
@@ -41,24 +24,8 @@ def load(t):
     return 0.003 * (1 + 0.3 * min(max((t - 15000) / 5000, 0), 1))
 
 
-class Programs(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = Path(tempfile.mkdtemp(prefix="amontons-programs-"))
-        cls.addClassCleanup(shutil.rmtree, cls.folder)
-        (cls.folder / "scene.yaml").write_text(SCENE)
-
-    def call(self, command, *settings, scene="scene.yaml", status=0, flags=()):
-        words = [word for setting in settings for word in ("--set", setting)]
-        done = subprocess.run([PROGRAM, command, scene, *words, *flags], capture_output=True, text=True, cwd=self.folder)
-        self.assertEqual(done.returncode, status, done.stderr)
-        return done.stderr
-
-    def run_scene(self, name, *settings, scene="scene.yaml", flags=()):
-        folder = self.folder / name
-        self.call("run", *settings, scene=scene, flags=("-q", "-o", folder, *flags))
-        with h5py.File(folder / "history.h5") as file:
-            return {key: item[()] for group in ("series", "events") for key, item in file[group].items()}
+class Programs(Driven):
+    UNTIL = 0.005
 
     def test_rigid_block(self):
         """Forwards with one load, back with another one; the second sliding ends the run."""

@@ -4,6 +4,16 @@ Stick is exact, slip is stepped by Runge and Kutta's method of order 4. It share
 import math
 
 
+def runge_kutta(acceleration, t, x, v, step):
+    """The velocity after a step of order 4, and the way gone in it."""
+    half = step / 2
+    a1 = acceleration(t, x, v)
+    a2 = acceleration(t + half, x + half * v, v + half * a1)
+    a3 = acceleration(t + half, x + half * (v + half * a1), v + half * a2)
+    a4 = acceleration(t + step, x + step * (v + half * a2), v + step * a3)
+    return v + step * (a1 + 2 * a2 + 2 * a3 + a4) / 6, step * (v + step * (a1 + a2 + a3) / 6)
+
+
 def cycles(mass, load, stiffness, drive, law, count, step=0.01):
     """The first `count` slips: (t, F) where each begins, (t, F) where it ends, F's largest, the fastest x'.
 
@@ -21,13 +31,8 @@ def cycles(mass, load, stiffness, drive, law, count, step=0.01):
         slip = {"t_start": time, "F_start": mu_static * load, "fastest": 0.0, "F_max": 0.0}
         velocity = 0.0
         while True:
-            t, x, v, half = time, position, velocity, step / 2
-            a1 = acceleration(t, x, v)
-            a2 = acceleration(t + half, x + half * v, v + half * a1)
-            a3 = acceleration(t + half, x + half * (v + half * a1), v + half * a2)
-            a4 = acceleration(t + step, x + step * (v + half * a2), v + step * a3)
-            ahead = v + step * (a1 + 2 * a2 + 2 * a3 + a4) / 6
-            moved = step * (v + step * (a1 + a2 + a3) / 6)
+            t, x, v = time, position, velocity
+            ahead, moved = runge_kutta(acceleration, t, x, v, step)
             if ahead <= 0 and v > 0:   # at rest within the step
                 part = v / (v - ahead)
                 time, position = t + part * step, x + part * moved
@@ -66,13 +71,9 @@ def march(mass, load, stiffness, drive, law, until, step=0.02, resting=1.0):
         time, velocity, side = high, 0.0, math.copysign(1, pull(high, position))
         begins.append((time, pull(time, position)))
         while True:
-            t, x, v, half = time, position, velocity, step / 2
-            a1 = acceleration(t, x, v)
-            a2 = acceleration(t + half, x + half * v, v + half * a1)
-            a3 = acceleration(t + half, x + half * (v + half * a1), v + half * a2)
-            a4 = acceleration(t + step, x + step * (v + half * a2), v + step * a3)
-            velocity = v + step * (a1 + 2 * a2 + 2 * a3 + a4) / 6
-            time, position = t + step, x + step * (v + step * (a1 + a2 + a3) / 6)
+            v = velocity
+            velocity, moved = runge_kutta(acceleration, time, position, v, step)
+            time, position = time + step, position + moved
             if side * velocity <= 0 and side * v > 0:
                 ends.append((time, pull(time, position)))
                 break
