@@ -5,7 +5,7 @@
 #include "render/block.h"
 
 #include "base/memory.h"
-#include "bulk/shape.h"
+#include "io/shape.h"
 
 #include <limits.h>
 #include <math.h>

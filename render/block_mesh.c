@@ -5,7 +5,7 @@
 #include "render/block_mesh.h"
 
 #include "base/memory.h"
-#include "bulk/shape.h"
+#include "io/shape.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
 
 #include "base/memory.h"
 #include "bulk/mesh_edges.h"
-#include "bulk/shape.h"
+#include "io/shape.h"
 
 #include <math.h>
 #include <stdio.h>

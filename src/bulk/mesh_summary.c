@@ -2,7 +2,7 @@
 // Counts and sizes of a mesh.
 #include "bulk/mesh.h"
 
-#include "bulk/shape.h"
+#include "io/shape.h"
 
 #include <math.h>
 #include <stddef.h>

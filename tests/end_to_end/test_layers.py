@@ -41,7 +41,7 @@ def allowed(folder, include):
     if folder == "render":
         return include.startswith(("base/", "render/")) or include in (
             "io/mesh_file.h", "io/field_read.h", "io/folder.h", "io/part_file.h", "io/result_file.h", "io/yaml_document.h",
-            "bulk/shape.h")   # fields inside an element
+            "io/shape.h")   # fields inside an element
     if folder == "cli":
         return include in PUBLIC or include.startswith("cli/")
     if include in (*PUBLIC, "render/render.h"):

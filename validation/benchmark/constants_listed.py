@@ -191,8 +191,6 @@ NOT_A_CHOICE = {
     "bulk/reduction.c": {"VISCOSITIES_MAX": SIZE},
     "bulk/growing_basis.c": {"TAKEN_MAX": "rounding: modes orthogonal to 1e-11"},
     "bulk/reduction_block.c": {"GRID": "single precision that a cache stores"},
-    "bulk/shape.c": {"TRIANGLE_NODES": "the element", "SQUARE_NODES": "the element"},
-    "bulk/shape.h": {"QUADRATURE_POINTS_MAX": "3 x 3"},
     "record/events.c": {"FIRST_ROOM": SIZE},
     "record/drops.c": {"FIRST_ROOM": SIZE},
     "record/fields.c": {"types": "VTK's", "PATH_SIZE": SIZE, "FIRST_ROOM": SIZE, "NAME_SIZE": SIZE,

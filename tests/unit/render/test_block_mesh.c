@@ -4,7 +4,7 @@
 #include "render/block_mesh.h"
 
 #include "base/memory.h"
-#include "bulk/shape.h"
+#include "io/shape.h"
 #include "near.h"
 
 enum { SIZE = 300, NODES = 18 };

@@ -5,7 +5,7 @@
 //   Q8  corner: (1 + xi_a xi)(1 + eta_a eta)(xi_a xi + eta_a eta - 1) / 4,
 //       mid-side: (1 - xi^2)(1 + eta_a eta) / 2, or with xi and eta exchanged
 // Reference: Hughes, The Finite Element Method (1987), section 3.6 and appendix 3.I.
-#include "bulk/shape.h"
+#include "io/shape.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Shape functions of the five elements and the quadrature that goes with them, on the reference
 // element: triangles xi, eta >= 0, xi + eta <= 1; quadrilaterals -1 <= xi, eta <= 1. Node order is
-// gmsh's. Used by bulk/mesh (checks), bulk/element (matrices) and bulk/recovery (stresses).
+// gmsh's. Used by bulk (checks, matrices, recovered stresses) and render (fields in an element).
 //
 //     2           2            3---2      3-6-2      3-6-2
 //     |\          5 4          |   |      7   5      7 8 5
 //     0-1  T3     0-3-1  T6    0---1 Q4   0-4-1 Q8   0-4-1 Q9
-#ifndef AMONTONS_BULK_SHAPE_H
-#define AMONTONS_BULK_SHAPE_H
+#ifndef AMONTONS_IO_SHAPE_H
+#define AMONTONS_IO_SHAPE_H
 
 #include "io/mesh_file.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Shape functions against what defines them: 1 at their node, 0 at the others, sum 1, slopes by
 // finite differences, polynomials reproduced; quadrature against exact integrals.
-#include "bulk/shape.h"
+#include "io/shape.h"
 
 #include <math.h>
 #include <setjmp.h>
