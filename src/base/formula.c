@@ -100,24 +100,21 @@ static void close_bracket(Reading *reading)
     if (error_is_clean(reading->err) && !take(reading, ')')) refuse(reading, "a closing bracket");
 }
 
+// min and max take their arguments two at a time: min(a, b, c) is min(min(a, b), c).
 static void read_function(Reading *reading, int32_t function)
 {
     int32_t wanted = functions[function].arguments, count = 1;
     read_sum(reading);
-    while (count != wanted && error_is_clean(reading->err)) {
-        if (take(reading, ',')) {
-            read_sum(reading);
-            count++;
-        } else if (wanted == MANY) {
-            break;
-        } else {
-            refuse(reading, "a comma");
-        }
+    if (wanted == 2 && next_of(reading) != ',') refuse(reading, "a comma");
+    while (wanted != 1 && error_is_clean(reading->err) && take(reading, ',')) {
+        read_sum(reading);
+        count++;
+        if (wanted == 2) add(reading, (Operation)function, 0);
     }
     if (wanted == MANY && (count < 5 || count % 2 == 0) && error_is_clean(reading->err))
         refuse(reading, "x and two points or more, each of two numbers,");
     close_bracket(reading);
-    add(reading, (Operation)function, count);
+    if (wanted != 2) add(reading, (Operation)function, count);
 }
 
 // The variable, a number that has a name, or a function with its bracket.
@@ -244,11 +241,12 @@ static Dual power(Dual a, Dual b)
     return (Dual){value, by_base + chain(value * log(a.value), b.slope)};
 }
 
-// The line through the points [x, y, ...] [count] next to x. NaN where they do not ascend.
+// The line through the points [x, y, ...] [count] next to x. The same x twice is a jump, where the
+// first of its values holds. NaN where they descend.
 static Dual along_points(Dual x, const Dual *point, int32_t count)
 {
     for (int32_t k = 2; k < count; k += 2)
-        if (!(point[k].value > point[k - 2].value)) return (Dual){NAN, NAN};
+        if (!(point[k].value >= point[k - 2].value)) return (Dual){NAN, NAN};
     if (x.value <= point[0].value) return (Dual){point[1].value, 0};
     for (int32_t k = 2; k < count; k += 2) {
         if (x.value > point[k].value) continue;

@@ -5,9 +5,10 @@
 //
 //     sum = product {(+|-) product}     product = power {(*|/) power}
 //     power = - power | unit [^ power]
-//     unit = number | name | function(sum) | function(sum, sum) | (sum)
-//     function = sqrt, exp, log, tanh, abs; of two: min, max
-//     points(x, x_1, y_1, x_2, y_2, ...): lines through points of ascending x, level beyond
+//     unit = number | name | function(sum {, sum}) | (sum)
+//     function = sqrt, exp, log, tanh, abs; of two or more: min, max
+//     points(x, x_1, y_1, x_2, y_2, ...): lines through points of ascending x, level beyond; the
+//     same x twice is a jump
 #ifndef AMONTONS_BASE_FORMULA_H
 #define AMONTONS_BASE_FORMULA_H
 

@@ -41,6 +41,9 @@ static void test_values(void **state)
                  {"exp(1) * log(2)", 2.718281828459045 * 0.6931471805599453},
                  {"tanh (0.5)", 0.46211715726000979},
                  {"abs(-3) + min(2, 1) * max(2, 1)", 5},
+                 {"min(4, 3, 1, 2) + 10 * max(4, 7, 1, 5)", 71},
+                 {"points(1, 0, 5, 1, 5, 1, 3, 2, 4)", 5},   // a jump: the first value holds there
+                 {"points(1.5, 0, 5, 1, 5, 1, 3, 2, 4) + points(0, 0, 1, 0, 2)", 4.5},
                  {"2.3e-6 / mesh.set.length", 2.3e-6 / 4}};
     for (size_t k = 0; k < sizeof known / sizeof known[0]; k++) {
         Error err = {0};
@@ -66,7 +69,7 @@ static void test_refusals(void **state)
                  {"sqrt", "`sqrt` is no number"},
                  {"exp(1, 2)", "`, 2)`: expected a closing bracket"},
                  {"points(1, 2, 3)", "`)`: expected x and two points"},
-                 {"points(1, 0, 1, 0, 1)", "not finite"},
+                 {"points(1, 0, 1, -1, 1)", "not finite"},
                  {"min(1)", "`)`: expected a comma"},
                  {"3 $ 4", "`$ 4`: expected an operator"},
                  {"0x10", "`0x10`: expected a decimal number"},
@@ -99,6 +102,8 @@ static void test_derivatives(void **state)
                                         "abs(v - 0.5) + abs(v)",
                                         "min(v, 0.4)",
                                         "max(v ^ 2, v)",
+                                        "min(v ^ 2, v, 0.9)",
+                                        "points(v, 0, 1, 0.4, 3, 0.4, 2, 2, 0.5)",
                                         "points(v ^ 2, 0, 1, 0.4, 3, 2, 0.5)",
                                         "-v ^ 3"};
     FormulaNames names = {look_up, NULL, "v", "is unknown"};
