@@ -269,7 +269,7 @@ static bool comes_back(const Fields *fields, double U)
 // or ends.
 static bool is_due(Fields *fields, const Observation *seen)
 {
-    bool due = fields->written == 0;
+    bool due = fields->written == 0 || fields->def.every_step;
     if (fields->def.every_U > 0 && (seen->U >= fields->next_U || comes_back(fields, seen->U))) {
         fields->next_U = (floor(seen->U / fields->def.every_U) + 1) * fields->def.every_U;
         due = true;

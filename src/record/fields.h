@@ -13,7 +13,7 @@
 
 typedef struct FieldsDef {
     double every_U, every_t;   // 0: not by this; length, time
-    bool at_events;
+    bool every_step, at_events;
 } FieldsDef;
 
 typedef struct Fields {

@@ -6,9 +6,12 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "run/pictures.h"
+#include "run/warnings.h"
+#include "scene/window.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 // A name a line; freed by the caller. NULL: without names, or memory is short.
 static char *join_pad_names(const Interface *interface, Error *err)
@@ -22,7 +25,7 @@ static char *join_pad_names(const Interface *interface, Error *err)
 }
 
 // mu_M and l_c are NaN in the head: they are known at the end only.
-bool output_open_history(Simulation *simulation, Error *err)
+static bool open_history(Simulation *simulation, Error *err)
 {
     const Scene *scene = &simulation->scene;
     const Model *model = &simulation->model;
@@ -58,7 +61,6 @@ bool output_open_history(Simulation *simulation, Error *err)
     TRY(error_is_clean(err));
     TRY(history_create(simulation->folder.path, &head, &simulation->model.interface,
                        &simulation->contact, &simulation->history, err));
-    recorders_add(&simulation->recorders, &simulation->history, history_record);
 cleanup:
     memory_free(pads);
     return error_is_clean(err);
@@ -77,20 +79,69 @@ bool output_store_warnings(Simulation *simulation, Error *err)
     return array_file_set_text(simulation->history.file, "warnings", lines, err);
 }
 
-bool output_open_fields(Simulation *simulation, Error *err)
+static bool open_fields(Simulation *simulation, Error *err)
 {
     const Scene *scene = &simulation->scene;
     FieldsDef def = {.every_U = scene->output.fields_every_U,
                      .every_t = scene->output.fields_every_t,
+                     .every_step = scene->output.fields_every_step,
                      .at_events = scene->output.fields_at_events};
     TRY(fields_create(&def, simulation->folder.path, &simulation->model.mesh,
                       &simulation->model.interface, &simulation->fields, err));
     simulation->fields.materials = simulation->model.materials.list;
     simulation->fields.law = &simulation->model.law;
     simulation->fields.events = &simulation->events;
-    recorders_add(&simulation->recorders, &simulation->fields, fields_record);
 cleanup:
     return error_is_clean(err);
+}
+
+// In a part of the run only what is inside the window is written: fields, and the history where it
+// is asked.
+bool output_open(Simulation *simulation, Error *err)
+{
+    const Scene *scene = &simulation->scene;
+    Window *window = &simulation->window;
+    WindowDef def = scene_window(scene);
+    *window = window_of(&def, &simulation->events);
+    if (scene->output.history) {
+        TRY(open_history(simulation, err));
+        recorders_add(!def.given                     ? &simulation->recorders
+                      : scene->output.window.history ? &window->inside
+                                                     : &window->outside,
+                      &simulation->history, history_record);
+    }
+    if (scene->output.fields) {
+        TRY(open_fields(simulation, err));
+        recorders_add(def.given ? &window->inside : &simulation->recorders, &simulation->fields,
+                      fields_record);
+    }
+    if (def.given) recorders_add(&simulation->recorders, window, window_record);
+cleanup:
+    return error_is_clean(err);
+}
+
+void output_warn_of_window(Simulation *simulation)
+{
+    const Window *window = &simulation->window;
+    if (!window->def.given || window->steps > 0) return;
+    if (window_is_sought(window))
+        warnings_add(&simulation->warnings,
+                     "nothing written in output.window: the block slid %d time%s", window->slidings,
+                     window->slidings == 1 ? "" : "s");
+    else
+        warnings_add(&simulation->warnings,
+                     "nothing written in output.window: the run, to U = %g and t = %g, does not "
+                     "come to it",
+                     simulation->seen.U, simulation->seen.t);
+}
+
+// What was to be written in a window that the run did not come to is not drawn; the run was warned.
+static bool has_data(const Simulation *simulation, const char *figure)
+{
+    const Window *window = &simulation->window;
+    if (!window->def.given) return true;
+    bool fields = strcmp(figure, "field") == 0;
+    return simulation->history.rows > 1 && (!fields || simulation->fields.written > 0);
 }
 
 // By the module `render`, loaded here and only here.
@@ -98,12 +149,14 @@ bool output_draw_figures(Simulation *simulation, Error *err)
 {
     const SceneNames *wanted = &simulation->scene.output.figures;
     const char *names[SCENE_LIST_MAX];
-    if (wanted->count == 0) return true;
-    for (int32_t k = 0; k < wanted->count; k++) names[k] = wanted->name[k];
-    PictureRequest request = {.figures = names, .figure_count = wanted->count};
+    int32_t count = 0;
+    for (int32_t k = 0; k < wanted->count; k++)
+        if (has_data(simulation, wanted->name[k])) names[count++] = wanted->name[k];
+    if (count == 0) return true;
+    PictureRequest request = {.figures = names, .figure_count = count};
     double started = clock_seconds();
     if (!pictures_draw(simulation->folder.path, &request, err)) return false;
-    simulation->figures = wanted->count;
+    simulation->figures = count;
     simulation->figures_seconds = clock_seconds() - started;
     return true;
 }

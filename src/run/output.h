@@ -6,9 +6,9 @@
 
 #include "run/simulation_state.h"
 
-bool output_open_history(Simulation *simulation, Error *err);
+bool output_open(Simulation *simulation, Error *err);   // history and fields
+void output_warn_of_window(Simulation *simulation);   // where nothing lay in it
 bool output_store_warnings(Simulation *simulation, Error *err);   // before the history's finish
-bool output_open_fields(Simulation *simulation, Error *err);
 bool output_draw_figures(Simulation *simulation, Error *err);   // from the finished history
 
 #endif

@@ -145,7 +145,7 @@ static void archive_end(Simulation *simulation, Archive *archive)
         simulation->t_end = steering_end(simulation);
 }
 
-// All but the report, which counts what the others allocate.
+// Where the computation stands.
 static bool archive_parts(Simulation *simulation, Archive *archive, Error *err)
 {
     const Interface *interface = &simulation->model.interface;
@@ -167,8 +167,18 @@ static bool archive_parts(Simulation *simulation, Archive *archive, Error *err)
     contact_arrays_archive(&simulation->contact, archive);
     archive_errors(&simulation->errors, archive);
     archive_warnings(&simulation->warnings, archive);
+cleanup:
+    return error_is_clean(err);
+}
+
+// And what was written of it.
+static bool archive_output(Simulation *simulation, Archive *archive, Error *err)
+{
     TRY(fields_archive(&simulation->fields, archive, err));
     TRY(history_archive(&simulation->history, archive, err));
+    if (!simulation->window.def.given) goto cleanup;
+    window_archive(&simulation->window, archive);
+    TRY(kept_states_archive(&simulation->kept, archive, err));
 cleanup:
     return error_is_clean(err);
 }
@@ -176,7 +186,7 @@ cleanup:
 // --- save and restore ---------------------------------------------------------------------------
 
 // In two passes: the first measures. What it allocates itself is not the loop's.
-bool amontons_simulation_save(Simulation *simulation, SavedState *state, Error *err)
+static bool save(Simulation *simulation, bool output, SavedState *state, Error *err)
 {
     Archive archive = archive_measure();
     Hash hash = hash_start();
@@ -188,7 +198,8 @@ bool amontons_simulation_save(Simulation *simulation, SavedState *state, Error *
     for (int pass = 0; pass < 2; pass++) {
         TRY(archive_head(simulation, &archive, &time, err));
         TRY(archive_parts(simulation, &archive, err));
-        archive_report(simulation, in_loop, &archive);
+        if (output) TRY(archive_output(simulation, &archive, err));
+        if (output) archive_report(simulation, in_loop, &archive);
         if (pass == 1) break;
         state->size = archive.at + CHECKSUM_SIZE;
         TRY((state->bytes = memory_bytes(state->size, err)));
@@ -202,6 +213,16 @@ cleanup:
     if (!error_is_clean(err)) amontons_state_free(state);
     simulation->allocations_before += memory_counters().allocations - before;
     return error_is_clean(err);
+}
+
+bool amontons_simulation_save(Simulation *simulation, SavedState *state, Error *err)
+{
+    return save(simulation, true, state, err);
+}
+
+bool saved_state_keep(Simulation *simulation, SavedState *state, Error *err)
+{
+    return save(simulation, false, state, err);
 }
 
 // What the state's archive holds, checked as a whole.
@@ -227,20 +248,31 @@ bool saved_state_fits(Simulation *simulation, const SavedState *state, double *t
 }
 
 // The arrays that a caller sees are those of the step that was saved.
-bool amontons_simulation_restore(Simulation *simulation, const SavedState *state, Error *err)
+static bool restore(Simulation *simulation, bool output, const SavedState *state, Error *err)
 {
     Archive archive;
     double time;
     TRY(open_archive(state, &archive, err));
     TRY(archive_head(simulation, &archive, &time, err));
     TRY(archive_parts(simulation, &archive, err));
+    if (output) TRY(archive_output(simulation, &archive, err));
     simulation->seen = observe(&simulation->control, &simulation->model.scales);
     TRY(contact_arrays_record(&simulation->contact, &simulation->seen, err));
-    archive_report(simulation, 0, &archive);
+    if (output) archive_report(simulation, 0, &archive);
     TRY(archive_check(&archive, true, err));
 cleanup:
     if (!error_is_clean(err)) error_context(err, "the state cannot be put back");
     return error_is_clean(err);
+}
+
+bool amontons_simulation_restore(Simulation *simulation, const SavedState *state, Error *err)
+{
+    return restore(simulation, true, state, err);
+}
+
+bool saved_state_take_back(Simulation *simulation, const SavedState *state, Error *err)
+{
+    return restore(simulation, false, state, err);
 }
 
 bool amontons_state_write(const SavedState *state, const char *path, Error *err)

@@ -11,4 +11,9 @@
 // *time: the state's.
 bool saved_state_fits(Simulation *simulation, const SavedState *state, double *time, Error *err);
 
+// Where the computation stands, without what was written of it and what the report counts: for
+// run/rewind. Taken back, the simulation goes the same way again.
+bool saved_state_keep(Simulation *simulation, SavedState *state, Error *err);
+bool saved_state_take_back(Simulation *simulation, const SavedState *state, Error *err);
+
 #endif

@@ -9,6 +9,7 @@
 #include "run/checkpoint.h"
 #include "run/explicit_loop.h"
 #include "run/output.h"
+#include "run/rewind.h"
 #include "run/saved_state.h"
 #include "run/start.h"
 #include "run/summary.h"
@@ -44,22 +45,21 @@ static bool report_step(void *self, const Observation *seen, Error *err)
 // Events come first: the others read them.
 static bool open_recorders(Simulation *simulation, Error *err)
 {
-    const Scene *scene = &simulation->scene;
     TRY(events_create(&simulation->model.interface, simulation->model.scales.slip_velocity,
                       &simulation->events, err));
     recorders_add(&simulation->recorders, &simulation->events, events_record);
-    TRY(drops_create(&simulation->events, scene->time.periodic_tolerance, &simulation->drops, err));
+    TRY(drops_create(&simulation->events, simulation->scene.time.periodic_tolerance,
+                     &simulation->drops, err));
     recorders_add(&simulation->recorders, &simulation->drops, drops_record);
     TRY(pads_create(&simulation->model.interface, &simulation->events, &simulation->pads, err));
     recorders_add(&simulation->recorders, &simulation->pads, pads_record);
     TRY(contact_arrays_create(&simulation->model.interface, &simulation->model.law,
                               &simulation->contact, err));
     recorders_add(&simulation->recorders, &simulation->contact, contact_arrays_record);
-    if (writes_results(simulation) && scene->output.history)
-        TRY(output_open_history(simulation, err));
-    if (writes_results(simulation) && scene->output.fields)
-        TRY(output_open_fields(simulation, err));
-    recorders_add(&simulation->recorders, simulation, report_step);
+    if (writes_results(simulation)) TRY(output_open(simulation, err));
+    bool in_part = simulation->window.def.given;
+    recorders_add(in_part ? &simulation->window.outside : &simulation->recorders, simulation,
+                  report_step);
 cleanup:
     return error_is_clean(err);
 }
@@ -304,6 +304,7 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
     double started = clock_seconds();
     simulation->timing.outside -= clock_processor_seconds();
     if (!failure) TRY(checkpoint_at_end(simulation, err));
+    if (!failure) output_warn_of_window(simulation);
     events_close(&simulation->events, &simulation->seen);
     simulation->errors.reduction = ladder_reduction_error(&simulation->control.ladder);
     Answers answers = answers_to_report(simulation);
@@ -361,6 +362,7 @@ void amontons_simulation_destroy(Simulation *simulation)
     step_control_destroy(&simulation->control);
     rod_destroy(&simulation->rod);
     model_destroy(&simulation->model);
+    kept_states_destroy(&simulation->kept);
     result_folder_release(&simulation->folder);
     memory_free(simulation->block_motion);
     memory_free(simulation);
@@ -382,8 +384,10 @@ bool simulation_loop(Simulation *simulation, Error *err)
 {
     const volatile sig_atomic_t *stop = simulation->options.stop;
     bool finished = simulation->goes_on && simulation_is_finished(simulation);
+    TRY(rewind_start(simulation, err));
     while (!finished) {
         TRY(amontons_simulation_step(simulation, NULL, &finished, err));
+        TRY(rewind_follow(simulation, &finished, err));
         checkpoint_when_due(simulation);
         if (stop && *stop) TRY(stop_here(simulation, err));
     }

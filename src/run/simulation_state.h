@@ -11,6 +11,7 @@
 #include "record/contact_arrays.h"
 #include "record/fields.h"
 #include "record/history.h"
+#include "run/kept_states.h"
 #include "run/report.h"
 #include "run/result_folder.h"
 #include "stepping/explicit_reference.h"
@@ -36,6 +37,8 @@ struct Simulation {
     History history;
     Fields fields;
     Recorders recorders;
+    Window window;   // part of the run that is written; one of the recorders where it is given
+    KeptStates kept;   // where the window may begin; owned
     double
         *block_motion;   // [nodes * 4] displacement, velocity of the mesh; NULL: not asked; owned
     double t_end;   // time; INFINITY: the rod no longer goes where the scene ends

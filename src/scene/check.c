@@ -6,6 +6,7 @@
 #include "amontons.h"
 #include "scene/materials.h"
 #include "scene/programs.h"
+#include "scene/window.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -278,9 +279,41 @@ static bool check_time(const Check *check)
     return true;
 }
 
+// What it begins with, what it ends with, what is written in it.
+static bool check_window(const Check *check)
+{
+    const Scene *scene = check->scene;
+    const SceneWindow *window = &scene->output.window;
+    WindowDef def = scene_window(scene);
+    if (is_given(check, "output.window.around") && def.around == 0)
+        return blame(check, "output.window.around",
+                     "found `%.60s`; allowed: `sliding` and its number, from 1, as in `sliding 3`",
+                     window->around);
+    if (is_given(check, "output.window.last") && def.last == 0)
+        return blame(check, "output.window.last",
+                     "found `%.60s`; allowed: from `1 sliding` to `%d slidings`", window->last,
+                     WINDOW_SLIDINGS_MAX);
+    if (def.around > 0 && def.last > 0)
+        return blame(check, "output.window.last", "give either this or around");
+    if (!(def.to_U > def.from_U))
+        return blame(check, "output.window.to_U", "%g is not more than from_U (%g)", def.to_U,
+                     def.from_U);
+    if (!(def.to_t > def.from_t))
+        return blame(check, "output.window.to_t", "%g is not more than from_t (%g)", def.to_t,
+                     def.from_t);
+    if (window->history && !scene->output.history)
+        return blame(check, "output.window.history", "output.history is false");
+    if (def.given && !scene->output.fields && !window->history)
+        return blame(check, "output.window",
+                     "nothing is written in it: output.fields is none; give it, as in {every_step: "
+                     "true}, or history: true for the steps of history.h5");
+    return true;
+}
+
 static bool check_output(const Check *check)
 {
     const Scene *scene = check->scene;
+    if (!check_window(check)) return false;
     if (scene->output.figures.count > 0 && !scene->output.history)
         return blame(check, "output.figures",
                      "pictures are drawn from the history: they need "

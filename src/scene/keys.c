@@ -291,8 +291,32 @@ static const SceneKey keys[] = {
     {"output.fields.every_t", KEY_NUMBER, offsetof(Scene, output.fields_every_t), "time",
      RANGE_NOT_NEGATIVE, "0",
      .sentence = "A file each time this much time has passed; 0: not by time."},
+    {"output.fields.every_step", KEY_FLAG, offsetof(Scene, output.fields_every_step), "1",
+     RANGE_ANY, NULL, .may_lack = true,
+     .sentence = "true: a file at each step that the solver takes; best in an output.window."},
     {"output.fields.at_events", KEY_FLAG, offsetof(Scene, output.fields_at_events), "1", RANGE_ANY,
      "false", .sentence = "A file at the start and stop of each precursor and sliding."},
+    {"output.window.from_U", KEY_NUMBER, offsetof(Scene, output.window.from_U), "length",
+     RANGE_NOT_NEGATIVE, NULL, .may_lack = true,
+     .sentence = "Fields are written in a part of the run only: from this displacement of the "
+                 "rod's drive on. What is given of output.window must hold together."},
+    {"output.window.to_U", KEY_NUMBER, offsetof(Scene, output.window.to_U), "length",
+     RANGE_POSITIVE, NULL, .may_lack = true, .sentence = "Up to this displacement."},
+    {"output.window.from_t", KEY_NUMBER, offsetof(Scene, output.window.from_t), "time",
+     RANGE_NOT_NEGATIVE, NULL, .may_lack = true, .sentence = "From this time on."},
+    {"output.window.to_t", KEY_NUMBER, offsetof(Scene, output.window.to_t), "time", RANGE_POSITIVE,
+     NULL, .may_lack = true, .sentence = "Up to this time."},
+    {"output.window.around", KEY_TEXT, offsetof(Scene, output.window.around), "1", RANGE_ANY, NULL,
+     .may_lack = true,
+     .sentence = "`sliding 3`: the third time that the whole block slides, from the step before "
+                 "slip gets rapid to the one in which all is slow again."},
+    {"output.window.last", KEY_TEXT, offsetof(Scene, output.window.last), "1", RANGE_ANY, NULL,
+     .may_lack = true,
+     .sentence = "`2 slidings`: from the end of the sliding before the last two to the end of the "
+                 "run; at most 16."},
+    {"output.window.history", KEY_FLAG, offsetof(Scene, output.window.history), "1", RANGE_ANY,
+     NULL, .may_lack = true,
+     .sentence = "true: history.h5 has the steps of the window only; else all."},
     {"output.figures", KEY_NAMES, offsetof(Scene, output.figures), "1", RANGE_ANY, "[]",
      .sentence = "The pictures to draw at the end.", .choices = figure_choices},
 };
@@ -357,10 +381,10 @@ static const char *last_word(const char *name)
 // whole name, then in its last word.
 const char *scene_key_nearest(const char *name)
 {
-    static const char *const groups[] = {"mesh",    "groups",      "material",    "friction",
-                                         "contact", "load",        "rod",         "start",
-                                         "time",    "time.until",  "accuracy",    "reduction",
-                                         "output",  "rod.program", "load.program"};
+    static const char *const groups[] = {"mesh",    "groups",      "material",     "friction",
+                                         "contact", "load",        "rod",          "start",
+                                         "time",    "time.until",  "accuracy",     "reduction",
+                                         "output",  "rod.program", "load.program", "output.window"};
     enum { GROUP_COUNT = sizeof groups / sizeof groups[0], COUNT = GROUP_COUNT + KEY_COUNT };
     const char *names[COUNT], *words[COUNT];
     for (int32_t k = 0; k < GROUP_COUNT; k++) names[k] = groups[k];
@@ -414,7 +438,7 @@ void scene_key_allowed(const SceneKey *key, char *words, int32_t size)
         [KEY_SUPPORTS] = "a list of at most 32 maps {group: NAME, direction: x, z or both}",
         [KEY_CONTACT_LAWS] = "a list of at most 16 maps {group: NAME, mu_static: NUMBER, ...}",
         [KEY_MATERIALS] = "a map of at most 16 maps, as in {pads: {young: 0.01, eta1: 0.1}}",
-        [KEY_FIELDS] = "none, or a map of every_U, every_t, at_events",
+        [KEY_FIELDS] = "none, or a map of every_U, every_t, every_step, at_events",
     };
     const char *text = key->type == KEY_NUMBER ? ranges[key->range].words : by_type[key->type];
     bool names = key->type == KEY_NAMES && key->choices;

@@ -373,7 +373,7 @@ static bool set_fields(const SceneKey *key, const SceneValue *value, Scene *scen
         report_wrong(key, value, err);
     scene->output.fields = is_map;
     scene->output.fields_every_U = scene->output.fields_every_t = 0;
-    scene->output.fields_at_events = false;
+    scene->output.fields_every_step = scene->output.fields_at_events = false;
     return error_is_clean(err);
 }
 

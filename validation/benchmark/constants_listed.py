@@ -204,6 +204,7 @@ NOT_A_CHOICE = {
         "STEPS": "of error bars: what this table's tolerances move"},
     "record/error_bars.h": {"LEVELS_MAX": SIZE, "LEVEL_RUNS_MAX": SIZE},
     "record/history.c": {"FLUSH_EVERY": "seconds of a run that a kill may cost"},
+    "record/window.h": {"WINDOW_SLIDINGS_MAX": "slidings that a scene may ask for as the last: room for their states"},
     "record/observation.h": {"RECORDERS_MAX": SIZE},
     "model/regions.c": {"HEIGHT_TOLERANCE": ROUNDING},
     "model/basis_cache.c": {"WAIT_MAX": "seconds for another run's basis", "COUNTS": "stored"},

@@ -38,6 +38,8 @@ CASES = {
     "block, full mesh": (FIG1, [*SMALL, "output.fields=none", "reduction.use=never"]),
     "block, explicit": (FIG1, [*SMALL, "output.fields=none", "mesh.set.nx=8", "mesh.set.nz=8",
                                 "time.scheme=explicit", "time.until.U=0.002"]),
+    "block, window": (FIG1, [*SMALL, "output.fields={every_step: true}", "output.window={last: 2 slidings}",
+                             "time.until.U=0.02"]),
     "four pads": (PADS, ["mesh.set.size_contact=0.025", "output.figures=[force]", "time.until.U=0.04"]),
     "block, SDIRK3, until periodic": (FIG1, [*SMALL, "output.fields=none", "time.scheme=sdirk3",
                                              "time.until={U: 0.06, periodic: true}"]),

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "record/window.h"
+
+#include <math.h>
+
+Window window_of(const WindowDef *def, const Events *events)
+{
+    return (Window){.def = *def, .events = events, .furthest = -INFINITY};
+}
+
+bool window_is_sought(const Window *window)
+{
+    return window->def.around > 0 || window->def.last > 0;
+}
+
+static bool is_open(const Window *window, const Observation *seen)
+{
+    const WindowDef *def = &window->def;
+    if (seen->U < def->from_U || seen->U > def->to_U) return false;
+    if (seen->t < def->from_t || seen->t > def->to_t) return false;
+    if (!window_is_sought(window)) return true;
+    return window->again && seen->t >= window->begin && seen->t <= window->end;
+}
+
+// A sliding goes from the step before its rapid event to the one in which all is slow again.
+static void follow_slidings(Window *window, const Observation *seen)
+{
+    const Events *events = window->events;
+    if (events->began) window->onset = window->before;
+    window->before = seen->t;
+    window->slides = window->slides || events->crossed;
+    window->ended = window->slides && events->ended;
+    if (!window->ended) return;
+    window->slides = false;
+    window->slidings++;
+    if (window->slidings != window->def.around) return;
+    window->found = true;
+    window->begin = window->onset;
+    window->end = seen->t;
+}
+
+static bool record_inside(Window *window, const Observation *seen, Error *err)
+{
+    if (!is_open(window, seen)) return true;
+    window->steps++;
+    return recorders_record(&window->inside, seen, err);
+}
+
+bool window_record(void *self, const Observation *seen, Error *err)
+{
+    Window *window = self;
+    TRY(record_inside(window, seen, err));
+    if (seen->t > window->furthest) TRY(recorders_record(&window->outside, seen, err));
+    if (!window->found) follow_slidings(window, seen);
+cleanup:
+    return error_is_clean(err);
+}
+
+void window_close(Window *window, double begin)
+{
+    if (window->found) return;
+    bool slides = window->slides && window->slidings + 1 == window->def.around;
+    bool slid = window->def.last > 0 && window->slidings >= window->def.last;
+    window->found = slides || slid;
+    window->begin = slides ? window->onset : begin;
+    window->end = INFINITY;
+}
+
+bool window_take_back(Window *window, const Observation *seen, Error *err)
+{
+    window->again = true;
+    window->furthest = window->before;
+    return record_inside(window, seen, err);
+}
+
+void window_archive(Window *window, Archive *archive)
+{
+    archive_section(archive, "window");
+    archive_integer(archive, &window->steps);
+    archive_integer(archive, &window->slidings);
+    archive_flag(archive, &window->slides);
+    archive_flag(archive, &window->ended);
+    archive_number(archive, &window->before);
+    archive_number(archive, &window->onset);
+    archive_flag(archive, &window->found);
+    archive_number(archive, &window->begin);
+    archive_number(archive, &window->end);
+    archive_flag(archive, &window->again);
+    archive_number(archive, &window->furthest);
+}

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// output.window of a scene, as the definition of record/window.
+#ifndef AMONTONS_SCENE_WINDOW_H
+#define AMONTONS_SCENE_WINDOW_H
+
+#include "record/window.h"
+#include "scene/scene.h"
+
+// `around` and `last` are 0 where they are not given, or not "sliding 3" and "2 slidings".
+WindowDef scene_window(const Scene *scene);
+
+#endif

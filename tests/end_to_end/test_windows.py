@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Output by window: the steps written are those of a run that writes all, the run itself is the same to the last bit, also
+where it was killed while the window was gone through; explicit steps; windows that the run does not come to."""
+import importlib.util
+import json
+import re
+import signal
+import subprocess
+import time
+
+import numpy
+
+from drive_fixture import EXAMPLES, PROGRAM, SOURCE, Driven
+
+EXAMPLE = EXAMPLES / "rupture.yaml"
+ALL = ("output.window={}", "output.fields=none")
+ROWS = "output.window.history=true"
+
+_found = importlib.util.spec_from_file_location("kills", SOURCE / "validation/kills/kills.py")
+kills = importlib.util.module_from_spec(_found)
+_found.loader.exec_module(kills)
+
+
+class Windows(Driven):
+    UNTIL = 0.03
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.all = cls.run_scene(cls(), "all", *ALL, scene=EXAMPLE)
+
+    def written(self, name):
+        times = re.findall(r'timestep="([^"]+)"', (self.folder / name / "fields.pvd").read_text())
+        self.assertEqual(len(list((self.folder / name / "fields").iterdir())), len(times))
+        return numpy.array(times[::2], dtype=float)
+
+    @staticmethod
+    def due(times, every):
+        """The first, then one in each interval."""
+        return numpy.append(True, numpy.diff(numpy.floor(times / every)) > 0)
+
+    def sliding(self, series, number):
+        """Rows from the step before the rapid event to its last one."""
+        rapid = numpy.flatnonzero(series["kind"] == 2)[number - 1]
+        first, last = (numpy.flatnonzero(series["time"] == series[key][rapid])[0] for key in ("t_start", "t_stop"))
+        return slice(first - 1, last + 1)
+
+    def test_around(self):
+        """The example: every step of the second sliding, in a run that is what it is without them."""
+        found = self.run_scene("around", scene=EXAMPLE)
+        for key, values in self.all.items():
+            numpy.testing.assert_array_equal(found[key], values, err_msg=key)
+        times = self.all["time"][self.sliding(self.all, 2)]
+        numpy.testing.assert_allclose(self.written("around"), times, rtol=1e-12)
+        self.assertIn(len(times), range(20, 100))
+        reports = [json.loads((self.folder / name / "run.json").read_text()) for name in ("all", "around")]
+        for key in ("results", "errors"):
+            self.assertEqual(reports[0][key], reports[1][key])
+        self.assertEqual(*(report["steps"]["accepted"] for report in reports))
+
+    def test_last(self):
+        """From the end of the first sliding of three; the history as well, and pictures of it."""
+        window = ("output.window={last: 2 slidings}", ROWS, "output.fields={every_t: 5}", "output.figures=[force]")
+        found = self.run_scene("last", *window, scene=EXAMPLE)
+        rows = slice(self.sliding(self.all, 1).stop - 1, None)
+        for key in ("time", "mu", "certified", "energy_error", "step_size"):
+            numpy.testing.assert_array_equal(found[key], self.all[key][rows], err_msg=key)
+        numpy.testing.assert_array_equal(found["t_stop"], self.all["t_stop"])
+        numpy.testing.assert_allclose(self.written("last"), found["time"][self.due(found["time"], 5)], rtol=1e-12)
+        again = self.call("run", *window, "time.until={U: 0.03, slidings: 4}", scene=EXAMPLE, status=2,
+                          flags=("-q", "-o", self.folder / "last", "--resume"))
+        self.assertIn("output.window.last: the slidings before t = 84.6", again)
+
+    def test_all_slidings_from_the_start(self):
+        found = self.run_scene("three", "output.window={last: 3 slidings}", ROWS, "output.fields=none", scene=EXAMPLE)
+        for key, values in self.all.items():
+            numpy.testing.assert_array_equal(found[key], values, err_msg=key)
+
+    def test_from_to(self):
+        found = self.run_scene("part", "output.window={from_U: 1e-3, to_U: 2e-3}", ROWS,
+                               "output.fields={every_t: 2}", scene=EXAMPLE)
+        U = self.all["rod_displacement"]
+        inside = (U >= 1e-3) & (U <= 2e-3)
+        numpy.testing.assert_array_equal(found["time"], self.all["time"][inside])
+        numpy.testing.assert_allclose(self.written("part"), found["time"][self.due(found["time"], 2)], rtol=1e-12)
+
+    def test_killed(self):
+        """While it goes through the window for the second time; no file has its name before it is whole."""
+        for name, window, every in (("around", "around: sliding 2", "every_step: true"), ("last", "last: 1 sliding", "every_t: 1")):
+            words = [PROGRAM, "run", EXAMPLE, "--set", f"output.window={{{window}}}", ROWS, f"output.fields={{{every}}}",
+                     "-q", "-o"]
+            subprocess.run([*words, self.folder / f"{name}-whole"], check=True)
+            cut = self.folder / f"{name}-cut"
+            process = subprocess.Popen([*words, cut, "--checkpoint", "0.02s"])
+            while not (cut / "fields/bulk_000005.vtu").exists():
+                self.assertIsNone(process.poll())
+                time.sleep(0.001)
+            process.kill()
+            process.wait()
+            self.assertEqual(process.returncode, -signal.SIGKILL)
+            for path in (cut / "fields").glob("*.vt?"):
+                self.assertTrue(path.read_text(errors="replace").rstrip().endswith("</VTKFile>"), path)
+            subprocess.run([*words, cut, "--resume"], check=True)
+            self.assertEqual(kills.differences(self.folder / f"{name}-whole", cut), [])
+
+    def test_explicit(self):
+        scheme = ("time.scheme=explicit", "time.until={t: 80}")
+        whole = self.run_scene("explicit-all", *ALL, *scheme, scene=EXAMPLE)
+        found = self.run_scene("explicit", ROWS, "output.fields=none", *scheme, scene=EXAMPLE)
+        numpy.testing.assert_array_equal(found["time"], whole["time"][self.sliding(whole, 2)])
+
+    def test_beyond_the_run(self):
+        """Said, and no reason to fail, though pictures were asked for."""
+        for name, window, said in (("fourth", "around: sliding 4", "the block slid 3 times"),
+                                   ("four", "last: 4 slidings", "the block slid 3 times"),
+                                   ("far", "from_U: 1", "does not come to it")):
+            found = self.run_scene(name, f"output.window={{{window}}}", ROWS, "output.figures=[force, field]", scene=EXAMPLE)
+            self.assertEqual(len(found["time"]), 0)
+            warnings = json.loads((self.folder / name / "run.json").read_text())["warnings"]
+            self.assertEqual(len(warnings), 1)
+            self.assertIn("nothing written in output.window: ", warnings[0])
+            self.assertIn(said, warnings[0])
+            self.assertFalse((self.folder / name / "fields.pvd").exists())
