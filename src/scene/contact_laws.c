@@ -16,7 +16,7 @@ static bool copy_word(const SceneValue *value, char *out, size_t size, Error *er
     const char *text = yaml_text(value->document, value->node);
     if (!*text || strlen(text) >= size)
         return yaml_refuse(value->document, value->node, "friction.contacts", "a text", err);
-    memcpy(memset(out, 0, size), text, strlen(text));
+    memcpy(memset(out, 0, size), text, strlen(text) + 1);
     return true;
 }
 

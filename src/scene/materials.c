@@ -91,9 +91,10 @@ static SceneMaterial *take_region(const SceneValue *value, const char *name, siz
 {
     SceneMaterials *materials = &scene->materials;
     SceneMaterial *region = NULL;
-    const SceneMaterial *found = find_region(materials, name, length);
+    bool fits = length > 0 && length < GROUP_NAME_SIZE;
+    const SceneMaterial *found = fits ? find_region(materials, name, length) : NULL;
     if (found) return &materials->region[found - materials->region];
-    if (length == 0 || length >= GROUP_NAME_SIZE || materials->count == SCENE_MATERIALS_MAX) {
+    if (!fits || materials->count == SCENE_MATERIALS_MAX) {
         yaml_key_error(value->document, value->node, err,
                        "%s: at most %d regions, with names of 1 to 63 bytes", MAP,
                        SCENE_MATERIALS_MAX);

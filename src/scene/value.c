@@ -170,7 +170,7 @@ static bool copy_text(const SceneKey *key, const SceneValue *value, size_t size,
     if (empty_name || strlen(text) >= size || strpbrk(text, "\n\r\t"))
         report_wrong(key, value, err);
     else
-        memcpy(memset(out, 0, size), text, strlen(text));
+        memcpy(memset(out, 0, size), text, strlen(text) + 1);
 cleanup:
     return error_is_clean(err);
 }
