@@ -2,7 +2,8 @@
 // Preloaded into the program (LD_PRELOAD), lets one call to the system fail: the variable
 // FILE_FAULT=write:12 the twelfth write of the process and its children, with ENOSPC (sync: EIO);
 // write:12+ that one and every later one, as on a full disk. FILE_FAULT=count:PATH: none fails, and
-// how many calls there were of each kind is appended to the file when a process ends.
+// the file has a line for each call when the first process ends: its kind, its number, and a number
+// that stands for who called it (the return addresses up to main, and those of the parents).
 //
 // Memory is that of our allocator, which alone calls aligned_alloc (base/memory).
 //
@@ -11,6 +12,7 @@
 // fclose.
 #include <dlfcn.h>
 #include <errno.h>
+#include <execinfo.h>
 #include <fcntl.h>
 #include <stdarg.h>
 #include <stdatomic.h>
@@ -43,15 +45,34 @@ static const char *const names[] = {
 #undef X
 };
 
-static atomic_int *counts;   // [KIND_COUNT] shared with children
+enum { CALLS_MAX = 20000, DEPTH = 60 };
+
+typedef struct Calls {
+    atomic_int count[KIND_COUNT];
+    uint64_t callers[KIND_COUNT][CALLS_MAX];
+} Calls;
+
+static Calls *calls;   // shared with children
+static bool listing;
+
+// FNV-1a over the return addresses; 1: this library's own frames.
+static uint64_t hash_callers(void)
+{
+    void *address[DEPTH];
+    uint64_t hash = 14695981039346656037u;
+    int depth = backtrace(address, DEPTH);
+    for (int k = 1; k < depth; k++) hash = (hash ^ (uintptr_t)address[k]) * 1099511628211u;
+    return hash;
+}
 
 // Whether this call shall fail.
 static bool is_due(int kind)
 {
     const char *wanted = getenv("FILE_FAULT");
     size_t length = strlen(names[kind]);
-    if (!counts || !wanted) return false;
-    int count = atomic_fetch_add(&counts[kind], 1) + 1;
+    if (!calls || !wanted) return false;
+    int count = atomic_fetch_add(&calls->count[kind], 1) + 1;
+    if (listing && count <= CALLS_MAX) calls->callers[kind][count - 1] = hash_callers();
     if (strncmp(wanted, names[kind], length) != 0 || wanted[length] != ':') return false;
     int first = atoi(wanted + length + 1);
     bool due = count == first || (count > first && wanted[strlen(wanted) - 1] == '+');
@@ -64,16 +85,23 @@ static bool is_due(int kind)
 
 __attribute__((constructor)) static void begin(void)
 {
-    void *shared = mmap(NULL, 4096, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    if (shared != MAP_FAILED) counts = shared;
+    const char *wanted = getenv("FILE_FAULT");
+    void *first[1];
+    void *shared =
+        mmap(NULL, sizeof(Calls), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    listing = wanted && strncmp(wanted, "count:", 6) == 0;
+    if (listing) backtrace(first, 1);   // loads what it needs
+    if (shared != MAP_FAILED) calls = shared;
 }
 
 __attribute__((destructor)) static void end(void)
 {
-    const char *wanted = getenv("FILE_FAULT");
-    if (!counts || !wanted || strncmp(wanted, "count:", 6) != 0) return;
-    FILE *file = REAL(fopen)(wanted + 6, "w");
-    for (int k = 0; file && k < KIND_COUNT; k++) fprintf(file, "%s %d\n", names[k], counts[k]);
+    if (!calls || !listing) return;
+    FILE *file = REAL(fopen)(getenv("FILE_FAULT") + 6, "w");
+    for (int kind = 0; file && kind < KIND_COUNT; kind++)
+        for (int k = 0; k < calls->count[kind] && k < CALLS_MAX; k++)
+            fprintf(file, "%s %d %llx\n", names[kind], k + 1,
+                    (unsigned long long)calls->callers[kind][k]);
     if (file) REAL(fclose)(file);
 }
 
