@@ -61,11 +61,45 @@ const int32_t *nodal_stress_points(const NodalStress *stress, const Mesh *mesh, 
     return (stress->points ? stress->points : mesh->element_nodes) + mesh->first_node[e];
 }
 
+// Of element `e` at its node `at`: the slopes d/dx, d/dz of its shape functions.
+static void slopes_at(const Mesh *mesh, int32_t e, int32_t at, double (*slope)[2])
+{
+    const int32_t *element = mesh->element_nodes + mesh->first_node[e];
+    int32_t nodes = mesh->first_node[e + 1] - mesh->first_node[e];
+    double position[ELEMENT_NODES_MAX][2], point[2], b[3][ELEMENT_DOFS_MAX];
+    for (int32_t a = 0; a < nodes; a++)
+        memcpy(position[a], mesh->position + 2 * element[a], sizeof position[a]);
+    shape_node(mesh->kind[e], at, &point[0], &point[1]);
+    element_strain_matrix(mesh->kind[e], (const double(*)[2])position, point, b);
+    for (int32_t a = 0; a < nodes; a++) {
+        slope[a][0] = b[0][2 * a];
+        slope[a][1] = b[1][2 * a + 1];
+    }
+}
+
+static bool prepare_slopes(const Mesh *mesh, NodalStress *stress, Error *err)
+{
+    int64_t count = 0;
+    for (int32_t e = 0; e < mesh->element_count; e++) {
+        int64_t nodes = mesh->first_node[e + 1] - mesh->first_node[e];
+        count += nodes * nodes;
+    }
+    stress->slope = memory_array(count, sizeof *stress->slope, err);
+    if (!stress->slope) return false;
+    double(*slope)[2] = stress->slope;
+    for (int32_t e = 0; e < mesh->element_count; e++) {
+        int32_t nodes = mesh->first_node[e + 1] - mesh->first_node[e];
+        for (int32_t a = 0; a < nodes; a++, slope += nodes) slopes_at(mesh, e, a, slope);
+    }
+    return true;
+}
+
 // Kept over a run and filled anew at each time that is written.
 bool nodal_stress_create(const Mesh *mesh, NodalStress *stress, Error *err)
 {
     *stress = (NodalStress){.point_count = mesh->node_count};
     if (mesh->region) TRY(split_nodes(mesh, stress, err));
+    TRY(prepare_slopes(mesh, stress, err));
     int64_t count = stress->point_count;
     stress->elastic = NEW_ARRAY(double, 3 * count, err);
     stress->total = NEW_ARRAY(double, 3 * count, err);
@@ -81,6 +115,7 @@ void nodal_stress_destroy(NodalStress *stress)
     memory_free(stress->total);
     memory_free(stress->von_mises);
     memory_free(stress->shares);
+    memory_free(stress->slope);
     memory_free(stress->points);
     memory_free(stress->extra_node);
     *stress = (NodalStress){0};
@@ -90,25 +125,22 @@ typedef struct Strains {
     double strain[3], rate[3];   // xx, zz, 2 xz
 } Strains;
 
-// Of element `e` at reference coordinates `point`: B u_e and B v_e; displacement, velocity: [dofs].
-static Strains strains_at(const Mesh *mesh, int32_t e, const double point[2],
+// element: [nodes] of the mesh; slope: [nodes] at the place asked for; B u_e and B v_e.
+static Strains strains_of(const int32_t *element, int32_t nodes, const double (*slope)[2],
                           const double *displacement, const double *velocity)
 {
-    const int32_t *element = mesh->element_nodes + mesh->first_node[e];
-    int32_t nodes = mesh->first_node[e + 1] - mesh->first_node[e];
-    double position[ELEMENT_NODES_MAX][2], b[3][ELEMENT_DOFS_MAX];
-    for (int32_t a = 0; a < nodes; a++)
-        memcpy(position[a], mesh->position + 2 * element[a], sizeof position[a]);
-    element_strain_matrix(mesh->kind[e], (const double(*)[2])position, point, b);
     Strains found = {0};
     for (int32_t a = 0; a < nodes; a++) {
-        for (int d = 0; d < 2; d++) {
-            int32_t dof = 2 * element[a] + d;
-            for (int r = 0; r < 3; r++) {
-                found.strain[r] += b[r][2 * a + d] * displacement[dof];
-                found.rate[r] += b[r][2 * a + d] * velocity[dof];
-            }
-        }
+        const double *u = displacement + 2 * element[a], *v = velocity + 2 * element[a];
+        double x = slope[a][0], z = slope[a][1];
+        found.strain[0] += x * u[0];
+        found.strain[1] += z * u[1];
+        found.strain[2] += z * u[0];   // two sums, as B's columns stand
+        found.strain[2] += x * u[1];
+        found.rate[0] += x * v[0];
+        found.rate[1] += z * v[1];
+        found.rate[2] += z * v[0];
+        found.rate[2] += x * v[1];
     }
     return found;
 }
@@ -128,22 +160,22 @@ void nodal_stress_recover(const Mesh *mesh, const Material *materials, const dou
                           const double *velocity, NodalStress *stress)
 {
     double elastic[3][3], viscous[3][3];
+    const double(*slope)[2] = (const double(*)[2])stress->slope;
     size_t points = (size_t)stress->point_count;
     memset(stress->elastic, 0, 3 * points * sizeof(double));
     memset(stress->total, 0, 3 * points * sizeof(double));
     memset(stress->von_mises, 0, points * sizeof(double));
     memset(stress->shares, 0, points * sizeof(int32_t));
     for (int32_t e = 0; e < mesh->element_count; e++) {
-        const int32_t *element = nodal_stress_points(stress, mesh, e);
+        const int32_t *point = nodal_stress_points(stress, mesh, e);
+        const int32_t *element = mesh->element_nodes + mesh->first_node[e];
         int32_t count = mesh->first_node[e + 1] - mesh->first_node[e];
         const Material *material = &materials[mesh_region(mesh, e)];
         material_elastic(material, elastic);
         material_viscous(material, viscous);
-        for (int32_t a = 0; a < count; a++) {
-            double point[2];
-            shape_node(mesh->kind[e], a, &point[0], &point[1]);
-            Strains at = strains_at(mesh, e, point, displacement, velocity);
-            int32_t node = element[a];
+        for (int32_t a = 0; a < count; a++, slope += count) {
+            Strains at = strains_of(element, count, slope, displacement, velocity);
+            int32_t node = point[a];
             for (int r = 0; r < 3; r++) {
                 double held = 0, damped = 0;
                 for (int c = 0; c < 3; c++) {

@@ -15,6 +15,7 @@ typedef struct NodalStress {
     double *total;   // [point_count * 3] elastic and viscous, stress; owned
     double *von_mises;   // [point_count] of the total stress, stress; owned
     int32_t *shares;   // [point_count] work: elements that met at the point; owned
+    double (*slope)[2];   // d/dx, d/dz of an element's shape functions at each of its nodes; owned
     int32_t point_count;   // from the mesh's nodes on
     int32_t *points;   // [mesh->first_node[elements]] in the place of element_nodes; owned; NULL:
         // points are nodes
