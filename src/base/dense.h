@@ -75,6 +75,8 @@ void dense_multiply(DenseView a, DenseView b, double factor, double keep, double
 // y = factor a x + keep y, y = factor a' x + keep y
 void dense_apply(DenseView a, const double *x, double factor, double keep, double *y);
 void dense_apply_transposed(DenseView a, const double *x, double factor, double keep, double *y);
+// y = a x for two vectors, the same bits as one by one: `a` comes from memory once.
+void dense_apply_both(DenseView a, const double *const x[2], double *const y[2]);
 
 double dense_dot(const double *x, const double *y, int32_t n);
 double dense_max_abs(const double *x, int32_t n);

@@ -128,6 +128,15 @@ void bulk_operator_recover(const BulkOperator *system, const double *x, double *
         reduced_bulk_recover(system->reduced, x, full);
 }
 
+void bulk_operator_recover_both(const BulkOperator *system, const double *const x[2],
+                                double *const full[2])
+{
+    if (system->reduced)
+        reduced_bulk_recover_both(system->reduced, x, full);
+    else
+        for (int k = 0; k < 2; k++) bulk_operator_recover(system, x[k], full[k]);
+}
+
 // The share of inertia in A, normalised as bulk/reduction has it.
 double bulk_operator_error(const BulkOperator *system, OperatorTerms terms)
 {

@@ -27,6 +27,12 @@ void reduced_bulk_recover(const ReducedBulk *reduced, const double *state, doubl
     dense_apply(modes, state, 1, 0, full);
 }
 
+void reduced_bulk_recover_both(const ReducedBulk *reduced, const double *const states[2],
+                               double *const full[2])
+{
+    dense_apply_both((DenseView){reduced->modes, reduced->full_dofs, reduced->count}, states, full);
+}
+
 // Between two levels the error is not measured; it stays below the larger of theirs (a test asks at
 // random).
 double reduced_bulk_error(const ReducedBulk *reduced, double inertia)

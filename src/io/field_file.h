@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Fields on a mesh for ParaView: .vtu (bulk), .vtp (the interface as lines) and the .pvd that lists
 // them against time. Written by VTK's own XML writers, in a module opened on first use: appended,
-// compressed (zlib level 1), 64-bit headers. Called by record/fields.
+// in zlib's blocks (the mesh compressed, values at nodes stored), 64-bit headers. Called by
+// record/field_files.
 #ifndef AMONTONS_IO_FIELD_FILE_H
 #define AMONTONS_IO_FIELD_FILE_H
 

@@ -33,6 +33,7 @@ bool checkpoint_now(Simulation *simulation, Error *err)
     double started = clock_seconds();
     find_path(simulation->folder.path, path);
     TRY(history_sync(&simulation->history, err));
+    TRY(fields_flush(&simulation->fields, err));
     TRY(amontons_simulation_save(simulation, &state, err));
     TRY(amontons_state_write(&state, path, err));
 cleanup:

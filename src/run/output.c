@@ -88,7 +88,7 @@ static bool open_fields(Simulation *simulation, Error *err)
                      .at_events = scene->output.fields_at_events};
     TRY(fields_create(&def, simulation->folder.path, &simulation->model.mesh,
                       &simulation->model.interface, &simulation->fields, err));
-    simulation->fields.materials = simulation->model.materials.list;
+    simulation->fields.files.materials = simulation->model.materials.list;
     simulation->fields.law = &simulation->model.law;
     simulation->fields.events = &simulation->events;
 cleanup:

@@ -303,7 +303,11 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
 {
     double started = clock_seconds();
     simulation->timing.outside -= clock_processor_seconds();
-    if (!failure) TRY(checkpoint_at_end(simulation, err));
+    Error second = {0};
+    if (failure)
+        fields_flush(&simulation->fields, &second);   // what was computed is written all the same
+    else
+        TRY(fields_flush(&simulation->fields, err) && checkpoint_at_end(simulation, err));
     if (!failure) output_warn_of_window(simulation);
     events_close(&simulation->events, &simulation->seen);
     simulation->errors.reduction = ladder_reduction_error(&simulation->control.ladder);

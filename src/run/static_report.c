@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "io/array_file.h"
 #include "io/json_writer.h"
-#include "record/fields.h"
+#include "record/field_files.h"
 #include "scene/keys.h"
 
 #include <math.h>
@@ -130,27 +130,27 @@ cleanup:
 }
 
 // velocity is 0: solution->work, which was emptied for it.
-static bool write_vtu(const char *folder, const StaticSolution *solution, Fields *fields,
+static bool write_vtu(const char *folder, const StaticSolution *solution, FieldFiles *files,
                       Error *err)
 {
     char path[PATH_SIZE];
     snprintf(path, sizeof path, "%s/static.vtu", folder);
     FieldState state = {.displacement = solution->displacement, .velocity = solution->work};
-    return fields_write_bulk(fields, &state, path, err);
+    return field_files_write_bulk(files, &state, path, err);
 }
 
 // solution->work is overwritten.
 bool static_report_write(const char *folder, const Model *model, StaticSolution *solution,
                          const StaticSummary *summary, Error *err)
 {
-    Fields fields = {0};
+    FieldFiles files = {0};
     for (int32_t k = 0; k < model->bulk.dof_count; k++) solution->work[k] = 0;
-    TRY(fields_prepare(&model->mesh, &model->interface, &fields, err));
-    fields.materials = model->materials.list;
-    TRY(write_vtu(folder, solution, &fields, err));
-    TRY(write_arrays(folder, model, solution, &fields.stress, err));
+    TRY(field_files_create(&model->mesh, &model->interface, &files, err));
+    files.materials = model->materials.list;
+    TRY(write_vtu(folder, solution, &files, err));
+    TRY(write_arrays(folder, model, solution, &files.stress, err));
     TRY(write_json(folder, model, solution, summary, err));
 cleanup:
-    fields_destroy(&fields);
+    field_files_destroy(&files);
     return error_is_clean(err);
 }

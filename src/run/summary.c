@@ -61,7 +61,7 @@ static void list_phases(const Simulation *simulation, RunSummary *summary)
     bool cached = model->from_cache, reduced = model->reduced.count > 0;
     bool fields = simulation->fields.written > 0;
     double inside = solver->seconds + certificate->seconds + control->ladder.seconds;
-    char note[96];
+    char note[96], written[96];
     add_phase(summary, "mesh", model->seconds_mesh, model->elements,
               model->mesh.element_count == 0 ? "skipped: the shape is in the cache"
               : fields && cached             ? "elements: fields need the mesh"
@@ -82,9 +82,10 @@ static void list_phases(const Simulation *simulation, RunSummary *summary)
               simulation->model.system.solves, "stages: products and substitutions");
     add_phase(summary, "history", simulation->history.seconds, simulation->history.rows,
               simulation->history.rows > 0 ? "rows" : "skipped: output.history is false");
+    snprintf(written, sizeof written, "times, recovered and written by VTK beside it in %.4f s",
+             simulation->fields.seconds_beside);
     add_phase(summary, "fields", simulation->fields.seconds, simulation->fields.written,
-              fields ? "times, recovered and written by VTK"
-                     : "skipped: output.fields is none, VTK is not loaded");
+              fields ? written : "skipped: output.fields is none, VTK is not loaded");
     add_phase(summary, "figures", simulation->figures_seconds, simulation->figures,
               simulation->figures > 0 ? "pictures"
                                       : "skipped: output.figures is empty, Cairo is not loaded");

@@ -172,9 +172,32 @@ static void test_sweep(void **state)
     assert_false(dense_sweep(a, N, 0, false, work));
 }
 
+// Long enough for several blocks of rows and a rest.
+static void test_two_vectors_at_once(void **state)
+{
+    (void)state;
+    enum { ROWS = 5003, COLUMNS = 37 };
+    static double a[ROWS * COLUMNS], x[2][COLUMNS], one[ROWS], y[2][ROWS];
+    Random random = {.state = 8};
+    for (int32_t k = 0; k < ROWS * COLUMNS; k++) a[k] = random_between(&random, -1, 1);
+    for (int32_t k = 0; k < 2 * COLUMNS; k++) x[0][k] = random_between(&random, -1, 1);
+    DenseView view = {a, ROWS, COLUMNS};
+    dense_apply_both(view, (const double *[]){x[0], x[1]}, (double *[]){y[0], y[1]});
+    for (int k = 0; k < 2; k++) {
+        dense_apply(view, x[k], 1, 0, one);
+        assert_memory_equal(y[k], one, sizeof one);
+        for (int32_t i = 0; i < ROWS; i += 101) {
+            double sum = 0;
+            for (int32_t j = 0; j < COLUMNS; j++) sum += a[j * ROWS + i] * x[k][j];
+            assert_near("a x", one[i], sum, 1e-13);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_two_vectors_at_once),
         cmocka_unit_test(test_cholesky_and_triangles),
         cmocka_unit_test(test_not_definite),
         cmocka_unit_test(test_lu),

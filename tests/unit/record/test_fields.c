@@ -46,7 +46,7 @@ static void start(FieldsDef def)
 {
     Error err = {0};
     assert_true(fields_create(&def, place, &rig.mesh, &rig.interface, &fields, &err));
-    fields.materials = &material;
+    fields.files.materials = &material;
     fields.law = &rig.law;
     fields.events = &events;
 }
@@ -110,6 +110,7 @@ static void test_many(void **state)
     static char list[100000];
     start((FieldsDef){.every_t = 1});
     for (int32_t k = 0; k < 150; k++) assert_true(record(k));
+    assert_true(fields_flush(&fields, &(Error){0}));
     place_read(place, "fields.pvd", list, sizeof list);
     const char *at = list;
     for (int32_t k = 0; k < 150; k++) {
@@ -158,6 +159,7 @@ static void test_memory_faults(void **state)
         fields.next_t = 0;
     }
     assert_true(record(100));   // and then they can
+    assert_true(fields_flush(&fields, &(Error){0}));
     assert_int_equal(fields.entry_count, 2 * 65);
     assert_string_equal(fields.entries[0].file, "fields/bulk_000000.vtu");
     assert_string_equal(fields.entries[129].file, "fields/interface_000064.vtp");

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Two counters: jobs `given` and `done`, each a ring's end. Whatever either side wrote before it
+// moved its counter the other sees: both move under the lock.
+#include "base/worker.h"
+
+#include "base/memory.h"
+
+#include <pthread.h>
+#include <signal.h>
+#include <string.h>
+
+struct Worker {
+    WorkerDef def;
+    pthread_t thread;
+    pthread_mutex_t lock;   // of all that follows
+    pthread_cond_t changed;
+    int64_t given, done;   // jobs
+    bool ends;
+    Error failure;   // of the first job that failed
+};
+
+// The lock is held but during the work.
+static void do_job(Worker *worker)
+{
+    bool works = error_is_clean(&worker->failure), last = worker->given == worker->done + 1;
+    int32_t slot = (int32_t)(worker->done % worker->def.slots);
+    Error failure = {0};
+    pthread_mutex_unlock(&worker->lock);
+    if (works) worker->def.work(worker->def.context, slot, last, &failure);
+    pthread_mutex_lock(&worker->lock);
+    if (works) worker->failure = failure;
+    worker->done++;
+    pthread_cond_broadcast(&worker->changed);
+}
+
+static void *run(void *self)
+{
+    Worker *worker = self;
+    pthread_mutex_lock(&worker->lock);
+    while (!worker->ends || worker->done < worker->given) {
+        if (worker->done < worker->given)
+            do_job(worker);
+        else
+            pthread_cond_wait(&worker->changed, &worker->lock);
+    }
+    pthread_mutex_unlock(&worker->lock);
+    return NULL;
+}
+
+// Signals are for the threads of whoever calls.
+static int start(Worker *worker)
+{
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    int cause = pthread_create(&worker->thread, NULL, run, worker);
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return cause;
+}
+
+bool worker_create(const WorkerDef *def, Worker **out, Error *err)
+{
+    *out = NULL;
+    Worker *worker = NEW_ARRAY(Worker, 1, err);
+    if (!worker) goto cleanup;
+    worker->def = *def;
+    pthread_mutex_init(&worker->lock, NULL);
+    pthread_cond_init(&worker->changed, NULL);
+    int cause = start(worker);
+    if (cause != 0) {
+        memory_free(worker);
+        FAIL(err, ERROR_MEMORY, "no thread to write in: %s", strerror(cause));
+    }
+    *out = worker;
+cleanup:
+    return error_is_clean(err);
+}
+
+// Until at most `waiting` jobs are not done.
+static bool wait_for(Worker *worker, int64_t waiting, Error *err)
+{
+    pthread_mutex_lock(&worker->lock);
+    while (worker->given - worker->done > waiting)
+        pthread_cond_wait(&worker->changed, &worker->lock);
+    Error failure = worker->failure;
+    pthread_mutex_unlock(&worker->lock);
+    if (error_is_clean(&failure)) return true;
+    *err = failure;
+    return false;
+}
+
+bool worker_slot(Worker *worker, int32_t *slot, Error *err)
+{
+    *slot = (int32_t)(worker->given % worker->def.slots);   // only the owner moves `given`
+    return wait_for(worker, worker->def.slots - 1, err);
+}
+
+void worker_submit(Worker *worker)
+{
+    pthread_mutex_lock(&worker->lock);
+    worker->given++;
+    pthread_cond_broadcast(&worker->changed);
+    pthread_mutex_unlock(&worker->lock);
+}
+
+bool worker_wait(Worker *worker, Error *err)
+{
+    return !worker || wait_for(worker, 0, err);
+}
+
+void worker_destroy(Worker *worker)
+{
+    if (!worker) return;
+    pthread_mutex_lock(&worker->lock);
+    worker->ends = true;
+    pthread_cond_broadcast(&worker->changed);
+    pthread_mutex_unlock(&worker->lock);
+    pthread_join(worker->thread, NULL);
+    pthread_cond_destroy(&worker->changed);
+    pthread_mutex_destroy(&worker->lock);
+    memory_free(worker);
+}

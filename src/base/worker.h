@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// One thread beside its owner, for what takes long and is waited for by nobody: jobs are done in
+// the order in which they were handed over. A job is the number of a slot, of which there are few:
+// its owner keeps what it needs there. Called by record/fields.
+//
+//   slot -> (the owner fills it) -> submit ... -> wait -> destroy
+#ifndef AMONTONS_BASE_WORKER_H
+#define AMONTONS_BASE_WORKER_H
+
+#include "base/error.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct Worker Worker;
+
+typedef struct WorkerDef {
+    int32_t slots;   // jobs that may be under way; whoever hands over more waits
+    // In the thread. `last`: no other job is waiting. After a failure no job is done any more.
+    bool (*work)(void *context, int32_t slot, bool last, Error *err);
+    void *context;   // not owned
+} WorkerDef;
+
+bool worker_create(const WorkerDef *def, Worker **worker, Error *err);
+// The slot to fill for the next job, once it is free. false: an earlier job failed, here and below.
+bool worker_slot(Worker *worker, int32_t *slot, Error *err);
+void worker_submit(Worker *worker);
+bool worker_wait(Worker *worker, Error *err);   // until every job is done
+void worker_destroy(Worker *worker);   // does what was handed over first
+
+#endif

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The bulk is recovered, its stresses found and written as .vtu, the interface as .vtp. What does
+// not change in a run (points, cells) is laid out once, in the 64-bit integers and three
+// coordinates that VTK wants; z of the model is VTK's y. VTK itself stays in its module:
+// io/field_file.
+#include "record/field_files.h"
+
+#include "base/memory.h"
+
+#include <string.h>
+
+// VTK's numbers of our element kinds; the node orders are the same.
+static uint8_t vtk_cell_type(ElementKind kind)
+{
+    static const uint8_t types[] = {[ELEMENT_T3] = 5,
+                                    [ELEMENT_T6] = 22,
+                                    [ELEMENT_Q4] = 9,
+                                    [ELEMENT_Q8] = 23,
+                                    [ELEMENT_Q9] = 28};
+    return types[kind];
+}
+
+// Of a point: points that follow the nodes stand where materials meet (bulk/recovery).
+static int64_t node_of(const FieldFiles *files, int64_t point)
+{
+    int64_t nodes = files->mesh->node_count;
+    return point < nodes ? point : files->stress.extra_node[point - nodes];
+}
+
+// VTK's cells: offsets [cells + 1] into connectivity, and a type each. Third coordinates stay 0.
+static bool fill_bulk_grid(FieldFiles *files, Error *err)
+{
+    const Mesh *mesh = files->mesh;
+    int64_t nodes = mesh->node_count, cells = mesh->element_count;
+    int64_t corners = mesh->first_node[cells], points = files->stress.point_count;
+    files->points = NEW_ARRAY(double, 3 * points, err);
+    files->vectors = NEW_ARRAY(double, 6 * points, err);
+    files->displacement = NEW_ARRAY(double, 2 * nodes, err);
+    files->velocity = NEW_ARRAY(double, 2 * nodes, err);
+    files->offsets = NEW_ARRAY(int64_t, cells + 1, err);
+    files->connectivity = NEW_ARRAY(int64_t, corners, err);
+    files->cell_types = NEW_ARRAY(uint8_t, cells, err);
+    if (!error_is_clean(err)) return false;
+    for (int64_t i = 0; i < points; i++) {
+        int64_t node = node_of(files, i);
+        files->points[3 * i] = mesh->position[2 * node];
+        files->points[3 * i + 1] = mesh->position[2 * node + 1];
+    }
+    const int32_t *all = nodal_stress_points(&files->stress, mesh, 0);
+    for (int64_t e = 0; e <= cells; e++) files->offsets[e] = mesh->first_node[e];
+    for (int64_t k = 0; k < corners; k++) files->connectivity[k] = all[k];
+    for (int64_t e = 0; e < cells; e++) files->cell_types[e] = vtk_cell_type(mesh->kind[e]);
+    return true;
+}
+
+// One segment between neighbours of the same pad: gaps between pads stay gaps.
+static bool fill_line_grid(FieldFiles *files, const Interface *interface, Error *err)
+{
+    int64_t count = interface->contact_count;
+    files->line_points = NEW_ARRAY(double, 3 * count, err);
+    files->line_offsets = NEW_ARRAY(int64_t, count + 1, err);
+    files->line_connectivity = NEW_ARRAY(int64_t, 2 * count, err);
+    files->line_types = NEW_ARRAY(uint8_t, count, err);
+    if (!error_is_clean(err)) return false;
+    for (int32_t i = 0; i < count; i++) {
+        files->line_points[3 * i] = interface->x[i];
+        if (i == 0 || interface->pad[i] != interface->pad[i - 1]) continue;
+        int32_t line = files->line_count++;
+        files->line_connectivity[2 * line] = i - 1;
+        files->line_connectivity[2 * line + 1] = i;
+        files->line_offsets[line + 1] = 2 * (line + 1);
+        files->line_types[line] = 3;   // VTK_LINE
+    }
+    return true;
+}
+
+bool field_files_create(const Mesh *mesh, const Interface *interface, FieldFiles *files, Error *err)
+{
+    *files = (FieldFiles){.mesh = mesh, .line_point_count = interface->contact_count};
+    return nodal_stress_create(mesh, &files->stress, err) && fill_bulk_grid(files, err) &&
+           fill_line_grid(files, interface, err);
+}
+
+void field_files_destroy(FieldFiles *files)
+{
+    nodal_stress_destroy(&files->stress);
+    memory_free(files->points);
+    memory_free(files->vectors);
+    memory_free(files->displacement);
+    memory_free(files->velocity);
+    memory_free(files->offsets);
+    memory_free(files->connectivity);
+    memory_free(files->cell_types);
+    memory_free(files->line_points);
+    memory_free(files->line_offsets);
+    memory_free(files->line_connectivity);
+    memory_free(files->line_types);
+    *files = (FieldFiles){0};
+}
+
+// state: [2 * nodes] displacement and velocity of the mesh. Three components, the third 0, as VTK
+// has no vectors of two.
+bool field_files_write_bulk(FieldFiles *files, const FieldState *state, const char *path,
+                            Error *err)
+{
+    const Mesh *mesh = files->mesh;
+    int64_t points = files->stress.point_count;
+    double *displacement = files->vectors, *velocity = files->vectors + 3 * points;
+    for (int64_t i = 0; i < points; i++) {
+        int64_t node = node_of(files, i);
+        for (int d = 0; d < 2; d++) {
+            displacement[3 * i + d] = state->displacement[2 * node + d];
+            velocity[3 * i + d] = state->velocity[2 * node + d];
+        }
+    }
+    nodal_stress_recover(mesh, files->materials, state->displacement, state->velocity,
+                         &files->stress);
+    FieldArray arrays[] = {
+        {.name = "displacement", .components = 3, .values = displacement},
+        {.name = "velocity", .components = 3, .values = velocity},
+        {.name = "stress_elastic", .components = 3, .values = files->stress.elastic},
+        {.name = "stress", .components = 3, .values = files->stress.total},
+        {.name = "von_mises", .components = 1, .values = files->stress.von_mises}};
+    FieldGrid grid = {.point_count = points,
+                      .points = files->points,
+                      .cell_count = mesh->element_count,
+                      .offsets = files->offsets,
+                      .connectivity = files->connectivity,
+                      .cell_types = files->cell_types,
+                      .time = state->time,
+                      .point_array_count = (int32_t)(sizeof arrays / sizeof arrays[0]),
+                      .point_arrays = arrays};
+    return field_file_write_vtu(path, &grid, err);
+}
+
+// x, v: the system's own unknowns, reduced or full.
+bool field_files_recover_bulk(FieldFiles *files, const FieldUnknowns *seen, const char *path,
+                              Error *err)
+{
+    bulk_operator_recover_both(seen->system, (const double *[]){seen->displacement, seen->velocity},
+                               (double *[]){files->displacement, files->velocity});
+    FieldState state = {
+        .displacement = files->displacement, .velocity = files->velocity, .time = seen->time};
+    return field_files_write_bulk(files, &state, path, err);
+}
+
+// line: [FIELD_LINE_ARRAYS][contact_count]; names and order are those of docs/results.md.
+bool field_files_write_line(FieldFiles *files, const double *line, double time, const char *path,
+                            Error *err)
+{
+    static const char *const names[FIELD_LINE_ARRAYS] = {
+        "slip_rate", "displacement_x", "gap", "pressure", "shear", "contact_density"};
+    FieldArray arrays[FIELD_LINE_ARRAYS];
+    int64_t count = files->line_point_count;
+    for (int k = 0; k < FIELD_LINE_ARRAYS; k++)
+        arrays[k] = (FieldArray){.name = names[k], .components = 1, .values = line + k * count};
+    FieldGrid grid = {.point_count = count,
+                      .points = files->line_points,
+                      .cell_count = files->line_count,
+                      .offsets = files->line_offsets,
+                      .connectivity = files->line_connectivity,
+                      .cell_types = files->line_types,
+                      .time = time,
+                      .point_array_count = FIELD_LINE_ARRAYS,
+                      .point_arrays = arrays};
+    return field_file_write_vtp(path, &grid, err);
+}

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// One time of the fields as ParaView sees it: the bulk as .vtu, the interface as .vtp. Called by
+// record/fields, in its writer's thread, and by run/static_report.
+#ifndef AMONTONS_RECORD_FIELD_FILES_H
+#define AMONTONS_RECORD_FIELD_FILES_H
+
+#include "bulk/interface_operator.h"
+#include "bulk/recovery.h"
+#include "contact/interface.h"
+#include "io/field_file.h"
+
+enum { FIELD_LINE_ARRAYS = 6 };
+
+// What every time of a mesh shares, and room for one.
+typedef struct FieldFiles {
+    const Mesh *mesh;   // not owned
+    const Material *materials;   // not owned; the caller's to set, before the first file
+    NodalStress stress;   // of the last .vtu; owned, like all that follows
+    double *points;   // [stress.point_count * 3]
+    double *vectors;   // [stress.point_count * 6] displacement, velocity
+    double *displacement, *velocity;   // [nodes * 2] of the whole mesh
+    int64_t *offsets, *connectivity;
+    uint8_t *cell_types;
+    double *line_points;   // [line_point_count * 3]
+    int64_t *line_offsets, *line_connectivity;
+    uint8_t *line_types;
+    int32_t line_point_count, line_count;
+} FieldFiles;
+
+// Of the whole mesh. Nothing is owned.
+typedef struct FieldState {
+    const double *displacement, *velocity;   // [2 * nodes]
+    double time;
+} FieldState;
+
+// Of the system that is stepped, reduced or not. Nothing is owned.
+typedef struct FieldUnknowns {
+    const BulkOperator *system;
+    const double *displacement, *velocity;   // [system->dof_count]
+    double time;
+} FieldUnknowns;
+
+bool field_files_create(const Mesh *mesh, const Interface *interface, FieldFiles *files,
+                        Error *err);
+void field_files_destroy(FieldFiles *files);
+
+bool field_files_write_bulk(FieldFiles *files, const FieldState *state, const char *path,
+                            Error *err);
+bool field_files_recover_bulk(FieldFiles *files, const FieldUnknowns *seen, const char *path,
+                              Error *err);
+// line: [FIELD_LINE_ARRAYS][line_point_count]: slip rate, u_x, gap, pressure, shear stress, contact
+// density.
+bool field_files_write_line(FieldFiles *files, const double *line, double time, const char *path,
+                            Error *err);
+
+#endif
