@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 
+#include <locale.h>
 #include <pthread.h>
 #include <signal.h>
 #include <string.h>
@@ -12,6 +13,7 @@
 struct Worker {
     WorkerDef def;
     pthread_t thread;
+    locale_t locale;   // of whoever made it: a thread of a caller may have its own; owned
     pthread_mutex_t lock;   // of all that follows
     pthread_cond_t changed;
     int64_t given, done;   // jobs
@@ -36,6 +38,7 @@ static void do_job(Worker *worker)
 static void *run(void *self)
 {
     Worker *worker = self;
+    uselocale(worker->locale);
     pthread_mutex_lock(&worker->lock);
     while (!worker->ends || worker->done < worker->given) {
         if (worker->done < worker->given)
@@ -64,10 +67,16 @@ bool worker_create(const WorkerDef *def, Worker **out, Error *err)
     Worker *worker = NEW_ARRAY(Worker, 1, err);
     if (!worker) goto cleanup;
     worker->def = *def;
+    worker->locale = duplocale(uselocale((locale_t)0));
+    if (!worker->locale) {
+        memory_free(worker);
+        FAIL(err, ERROR_MEMORY, "no memory for a thread to write in");
+    }
     pthread_mutex_init(&worker->lock, NULL);
     pthread_cond_init(&worker->changed, NULL);
     int cause = start(worker);
     if (cause != 0) {
+        freelocale(worker->locale);
         memory_free(worker);
         FAIL(err, ERROR_MEMORY, "no thread to write in: %s", strerror(cause));
     }
@@ -118,5 +127,6 @@ void worker_destroy(Worker *worker)
     pthread_join(worker->thread, NULL);
     pthread_cond_destroy(&worker->changed);
     pthread_mutex_destroy(&worker->lock);
+    freelocale(worker->locale);
     memory_free(worker);
 }

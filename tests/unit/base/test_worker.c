@@ -4,10 +4,13 @@
 
 #include "base/memory.h"
 
+#include <langinfo.h>
+#include <locale.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -109,6 +112,33 @@ static void after_a_failure_nothing_is_done(void **state)
     expect_all(&rig, 5);
 }
 
+static bool note_codes(void *context, int32_t slot, bool last, Error *err)
+{
+    (void)slot, (void)last, (void)err;
+    snprintf(context, 40, "%s", nl_langinfo(CODESET));
+    return true;
+}
+
+// Numbers are written with a comma in some: a caller's thread may have a locale of its own.
+static void the_thread_has_its_makers_locale(void **state)
+{
+    (void)state;
+    char codes[40] = "";
+    int32_t slot;
+    Error err = {0};
+    WorkerDef def = {.slots = 1, .work = note_codes, .context = codes};
+    Worker *worker = NULL;
+    locale_t other = newlocale(LC_ALL_MASK, "C.UTF-8", NULL), before = uselocale(other);
+    assert_true(worker_create(&def, &worker, &err));
+    uselocale(before);
+    freelocale(other);
+    assert_true(worker_slot(worker, &slot, &err));
+    worker_submit(worker);
+    worker_destroy(worker);
+    assert_string_equal(codes, "UTF-8");
+    assert_string_not_equal(nl_langinfo(CODESET), "UTF-8");
+}
+
 static void memory_may_be_short(void **state)
 {
     (void)state;
@@ -128,6 +158,7 @@ int main(void)
         cmocka_unit_test(jobs_are_done_in_order),
         cmocka_unit_test(what_was_handed_over_is_done_before_it_ends),
         cmocka_unit_test(after_a_failure_nothing_is_done),
+        cmocka_unit_test(the_thread_has_its_makers_locale),
         cmocka_unit_test(memory_may_be_short),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
