@@ -88,8 +88,8 @@ HABITS = [
      r"src/cli/|src/study/sweep/pool\.c|src/base/apart\.c",
      r"\b(printf|puts|putchar|perror|exit|_exit|abort)\(|\bfprintf\(\s*(stderr|stdout)"),
     ("changes what is the process's",
-     r"src/cli/|src/study/sweep/(pool|element)\.c|src/base/apart\.c|src/io/mesh_file_module\.c",
-     # there: processes of their own; what gmsh changes is put back
+     r"src/cli/|src/study/sweep/(pool|element)\.c|src/base/(apart|worker)\.c|src/io/mesh_file_module\.c",
+     # there: processes and a thread of their own; what gmsh changes is put back
      r"\b(setlocale|uselocale|signal|sigaction|setenv|unsetenv|putenv|chdir|fchdir|umask|srand)\("),
     ("allocates by itself", r"src/base/memory\.c",
      r"\b(malloc|calloc|realloc|aligned_alloc|strdup|strndup|asprintf)\("),
