@@ -91,6 +91,7 @@ static Scene *scene_of_run(const Accuracy *accuracy, double refine, double press
     scene->time.until_U *= LONGER;
     scene->time.until_t *= LONGER;
     scene->time.until_periodic = false;
+    scene->time.until_slidings = scene->time.until_mu_below = 0;   // its answer ends it
     scale_loads(scene, pressure);
     if (set_refine(scene, refine, err)) return scene;
     memory_free(scene);

@@ -59,6 +59,15 @@ class Accuracy(unittest.TestCase):
         self.assertRegex(ended.stdout, r"mu_M +0\.26\d+ \+- [\d.e-]+ \(mesh .*, branches .*, drops .*\)")
         self.assertTrue((self.folder / "history.h5").exists())
 
+    def test_ends_of_the_scene(self):
+        """A scene that ends early by an event: the runs behind its bar go on until their answer is known."""
+        ended = self.run_it("--to", "30%", settings=[*SETTINGS, "time.until={U: 0.03, slidings: 1, mu_below: 0.2}"])
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        report = self.report()
+        self.assertEqual(len(report["results"]["drops"]["list"]), 1)      # the run in full
+        for level in report["accuracy"]["levels"]:
+            self.assertTrue(all(run["peaks"] >= 8 for run in level["runs"]), level["runs"])
+
     def test_cut_short(self):
         """One mesh is done whatever time there is; its bar says that the mesh's part is not known."""
         ended = self.run_it("--to", "0.1%", "--within", "0.001s")
