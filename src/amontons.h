@@ -100,9 +100,9 @@ typedef struct RunSummary {
     double mu_M, mu_hold, mu_max;
     double mu_M_error, mu_hold_error;   // bars of 95 %, of the parts that are known; NaN: none is
     double mu_M_parts[3], mu_hold_parts[3];   // of the bars: mesh, branches, drops; NaN: not known
-    // Where the scene asked for an error bar (accuracy.mu): runs on the last mesh, its contact
-    // nodes, and why no more were computed (static storage). 0, NULL: it did not.
-    int32_t bar_runs, bar_nodes;
+    // Where the scene asked for an error bar (accuracy.mu): runs, meshes, contact nodes of the
+    // last, and why no more were computed (static storage). 0, NULL: it did not.
+    int32_t bar_runs, bar_meshes, bar_nodes;
     double bar_wanted, bar_window;   // over mu; of pressures, relative
     const char *bar_ended;
     double mu_M_spread;   // largest less smallest of the peaks in mu_M; NaN: fewer than two

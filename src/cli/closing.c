@@ -107,8 +107,10 @@ static void print_bar(const RunSummary *summary)
     else
         printf("  error bar       %.1f %% of %s, %.1f %% asked for: %s\n", 100 * part,
                slides ? "mu_M" : "mu_hold", 100 * summary->bar_wanted, summary->bar_ended);
-    printf("                  from %d runs on %d contact nodes, at pressures within %g %%\n",
-           summary->bar_runs, summary->bar_nodes, 100 * summary->bar_window);
+    printf("                  from %d runs on %d mesh%s of up to %d contact nodes, at pressures "
+           "within %g %%\n",
+           summary->bar_runs, summary->bar_meshes, summary->bar_meshes == 1 ? "" : "es",
+           summary->bar_nodes, 100 * summary->bar_window);
 }
 
 static void print_answers(const RunSummary *summary)

@@ -47,9 +47,9 @@ static void show_level(const LevelView *view, void *context)
     progress_format_left(view->seconds_next, left, sizeof left);
     if (!isnan(view->seconds_next))
         snprintf(next, sizeof next, "; a finer one would take about %s", left);
-    fprintf(stderr, "mesh %d: %d contact nodes, %s = %.4f%s from %d run%s in %.1f s%s\n",
-            view->level, view->contact_nodes, view->answer, view->value, bar, view->runs,
-            view->runs == 1 ? "" : "s", view->seconds, next);
+    fprintf(stderr, "mesh %d: %d contact nodes, %d run%s in %.1f s; so far %s = %.4f%s%s\n",
+            view->level, view->contact_nodes, view->runs, view->runs == 1 ? "" : "s", view->seconds,
+            view->answer, view->value, bar, next);
 }
 
 // "5min", "300s" or "300" as seconds; NaN: it is neither.

@@ -5,15 +5,15 @@
 // answer of the limit in 19 of 20 cases; its parts, added in quadrature:
 //
 //   drops      twice the standard error that the finite number of load drops leaves
-//   branches   twice the standard error of the mean over runs, their spread taken from all levels
-//   mesh       a straight line in the cell size is fitted to the levels' values by least squares
-//              (Eca and Hoekstra, J. Comput. Phys. 262, 2014). Added are half of what it still has
-//              to go from the finest level to none, between orders 1 and 2, and Student's 95 % of
-//              the scatter about it. Values scatter from mesh to mesh, as slip stops at nodes; the
-//              scatter is taken to fall with the cell size. Few levels may agree by chance, so a
-//              usual scatter counts as some levels more. At least what steps and reduction leave.
-//              Levels whose cells are too long for slip (`undamped`) have no part in it. Twice
-//              what mu rises by while the last nodes of the contact hold (`end_wait`) is added.
+//   branches   twice the standard error of the mean over runs, their spread taken from all levels;
+//              both weighed as the levels are
+//   mesh       value = a + b / n on n contact nodes is estimated from the levels together (Bayes:
+//              values scatter from mesh to mesh, as slip stops at nodes; the scatter of a level
+//              and the slope b are what they usually are, until levels are enough to say more).
+//              a, on cells of no size, is the answer, Student's 95 % of its deviation the part. At
+//              least what steps and reduction leave. Levels whose cells are too long for slip
+//              (`undamped`) have no part in it. Twice what mu rises by while the last nodes of
+//              the contact hold (`end_wait`) is added. One level: its own value, nothing known.
 //
 // How often bars hold, and by how much, is measured by validation/benchmark/promise.py.
 #ifndef AMONTONS_RECORD_ERROR_BARS_H
@@ -32,7 +32,7 @@ typedef struct LevelRun {
     int64_t steps;
 } LevelRun;
 
-// parts.mesh is NaN where it is not known, and the bar with it.
+// By all levels so far. parts.mesh is NaN where it is not known, and the bar with it.
 typedef struct ErrorBar {
     double value, bar;
     ErrorParts parts;

@@ -55,7 +55,7 @@ static void write_means(const Levels *levels, JsonWriter *json)
     static const char *const names[] = {"x", "y", "low", "high"};
     static const double sides[] = {0, 0, -1, 1};
     json_begin_object(json, NULL);
-    json_text(json, "label", "mean, error bar");
+    json_text(json, "label", "estimate so far, error bar");
     for (int32_t list = 0; list < 4; list++) {
         json_begin_list(json, names[list]);
         for (int32_t l = 0; l < levels->count; l++) {

@@ -133,7 +133,8 @@ static void note_levels(const Simulation *simulation, RunSummary *summary)
 {
     const Levels *levels = simulation->levels;
     const Level *last = &levels->list[levels->count - 1];
-    summary->bar_runs = last->run_count;
+    for (int32_t l = 0; l < levels->count; l++) summary->bar_runs += levels->list[l].run_count;
+    summary->bar_meshes = levels->count;
     summary->bar_nodes = last->contact_nodes;
     summary->bar_wanted = levels->wanted;
     summary->bar_window = simulation->scene.accuracy.window;
