@@ -27,6 +27,8 @@ DefineConstant[
                             // must be even for quads
     crown = 0,              // how much higher the ends of the contact lie than its middle, which
                             // touches the substrate: a parabola of radius length^2 / (8 crown)
+    edge_radius = 0,        // of a rounded trailing edge, a parabola; 0: sharp
+    edge_length = 0.2,      // how far along x it goes, where it is round
     grade_x = 1,            // length of the middle cell over that of the end cells, about
     grade_z = 1,            // height of the top cell over that of the cell at the contact
     refine = 1              // so many times as many cells along each side, for a study of the mesh
@@ -48,6 +50,27 @@ EndIf
 If (crown < 0 || crown >= height)
     Error("crown must be from 0 on and below height = %g, found %g", height, crown);
     Abort;
+EndIf
+If (edge_radius < 0)
+    Error("edge_radius must be above 0 (0: a sharp edge), found %g", edge_radius);
+    Abort;
+EndIf
+edge_height = 0;
+If (edge_radius > 0)
+    edge_height = edge_length ^ 2 / (2 * edge_radius);
+    If (edge_length <= 0 || edge_length >= length)
+        Error("edge_length must be above 0 and below length = %g, found %g", length, edge_length);
+        Abort;
+    EndIf
+    If (edge_height >= height)
+        Error("the rounded edge is %g high (edge_length^2 / (2 edge_radius)), the block %g",
+              edge_height, height);
+        Abort;
+    EndIf
+    If (crown > 0 || grade_x != 1)
+        Error("edge_radius goes without crown and grade_x, found %g and %g", crown, grade_x);
+        Abort;
+    EndIf
 EndIf
 If (order != 1 && order != 2)
     Error("order must be 1 or 2, found %g", order);
@@ -73,6 +96,10 @@ If (StrCmp(layout, "regular") != 0 && StrCmp(layout, "alternate") != 0 &&
 EndIf
 nx = refine * nx < 1 ? 1 : Floor(refine * nx + 0.5);
 nz = refine * nz < 1 ? 1 : Floor(refine * nz + 0.5);
+If (edge_radius > 0 && nx < 2)
+    Error("a rounded edge needs two cells along x, found %g", nx);
+    Abort;
+EndIf
 If (nx * nz > 1e7)
     Error("%g x %g cells are more than 1e7, which no computer here could step", nx, nz);
     Abort;
@@ -84,24 +111,33 @@ If (StrCmp(layout, "free") == 0 && StrCmp(shape, "quad") == 0 &&
 EndIf
 
 // --- geometry -----------------------------------------------------------------------------------
-Point(1) = {0, crown, 0};
+Point(1) = {0, crown + edge_height, 0};
 Point(2) = {length, crown, 0};
 Point(3) = {length, height, 0};
 Point(4) = {0, height, 0};
 If (crown > 0)
     Point(5) = {length / 2, -crown, 0};
     Bezier(1) = {1, 5, 2};
+ElseIf (edge_radius > 0)
+    Point(5) = {edge_length / 2, 0, 0};
+    Point(6) = {edge_length, 0, 0};
+    Bezier(1) = {1, 5, 6};
+    Line(5) = {6, 2};
 Else
     Line(1) = {1, 2};
 EndIf
 Line(2) = {2, 3};
 Line(3) = {3, 4};
 Line(4) = {4, 1};
-Curve Loop(1) = {1, 2, 3, 4};
+below[] = {1};   // the contact
+If (edge_radius > 0)
+    below[] += {5};
+EndIf
+Curve Loop(1) = {below[], 2, 3, 4};
 Plane Surface(1) = {1};
 
 Physical Surface("body") = {1};
-Physical Curve("contact") = {1};
+Physical Curve("contact") = {below[]};
 Physical Curve("leading") = {2};
 Physical Curve("top") = {3};
 Physical Curve("rod") = {4};
@@ -113,13 +149,19 @@ If (nz > 1)
     ratio_z = grade_z ^ (1 / (nz - 1));
 EndIf
 Transfinite Curve{1, 3} = nx + 1 Using Bump 1 / grade_x;
+If (edge_radius > 0)
+    nx_edge = Floor(nx * edge_length / length + 0.5);
+    nx_edge = nx_edge < 1 ? 1 : (nx_edge < nx ? nx_edge : nx - 1);
+    Transfinite Curve{1} = nx_edge + 1;
+    Transfinite Curve{5} = nx - nx_edge + 1;
+EndIf
 Transfinite Curve{2, -4} = nz + 1 Using Progression ratio_z;
 
 If (StrCmp(layout, "regular") == 0)
-    Transfinite Surface{1};
+    Transfinite Surface{1} = {1, 2, 3, 4};
 EndIf
 If (StrCmp(layout, "alternate") == 0)
-    Transfinite Surface{1} Alternate;
+    Transfinite Surface{1} = {1, 2, 3, 4} Alternate;
 EndIf
 If (StrCmp(shape, "quad") == 0)
     Recombine Surface{1};

@@ -3,6 +3,7 @@
 
 #include "base/formula.h"
 #include "base/memory.h"
+#include "scene/profile.h"
 
 #include <math.h>
 
@@ -29,6 +30,27 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Measured no farther than the contact nodes reach: what lies beyond is not guessed.
+static bool add_profile(const Scene *scene, Interface *interface, Error *err)
+{
+    static const double ROUNDING = 1e-9;   // of positions, over the contact's length
+    SceneProfile profile = {0};
+    int32_t last = interface->contact_count - 1;
+    double first_x = interface->x[0], last_x = interface->x[last];
+    double slack = ROUNDING * (last_x - first_x);
+    TRY(scene_profile_read(scene, &profile, err));
+    double begin = profile.x[0], end = profile.x[profile.count - 1];
+    if (begin > first_x + slack || end < last_x - slack)
+        FAIL(err, ERROR_INPUT,
+             "%s goes from x = %g to %g, the contact from %g to %g: it must reach over all of it",
+             scene->contact.profile, begin, end, first_x, last_x);
+    for (int32_t i = 0; i <= last; i++)
+        interface->gap[i] += scene_profile_at(&profile, interface->x[i]);
+cleanup:
+    scene_profile_destroy(&profile);
+    return error_is_clean(err);
+}
+
 // The middle is that of the block, which begins at x = 0 or anywhere.
 static void add_parabola(const Model *model, double radius, Interface *interface)
 {
@@ -43,12 +65,15 @@ bool model_lay_gaps(Model *model, Error *err)
     const Scene *scene = model->scene;
     Interface *interface = &model->interface;
     double radius = scene->contact.radius;
-    if (!(radius > 0) && !*scene->contact.gap) return true;
+    bool profile = *scene->contact.profile;
+    if (!(radius > 0) && !*scene->contact.gap && !profile) return true;
     if (!interface->gap) TRY((interface->gap = NEW_ARRAY(double, interface->contact_count, err)));
     if (radius > 0) add_parabola(model, radius, interface);
     if (*scene->contact.gap)
         TRY(scene_blame(scene, "contact.gap", add_formula(scene->contact.gap, interface, err),
                         err));
+    if (profile)
+        TRY(scene_blame(scene, "contact.profile", add_profile(scene, interface, err), err));
 cleanup:
     return error_is_clean(err);
 }

@@ -30,8 +30,8 @@ enum { WORD_SIZE = 32, CHECKSUM_SIZE = HASH_TEXT_SIZE - 1 };
 // What may differ: how far it goes, and what is only shown of it.
 static bool key_counts(const char *key)
 {
-    static const char *const free[] = {"title", "mesh.file", "friction.file", "reduction.cache",
-                                       "output.figures"};
+    static const char *const free[] = {"title",           "mesh.file",       "friction.file",
+                                       "contact.profile", "reduction.cache", "output.figures"};
     for (size_t k = 0; k < sizeof free / sizeof free[0]; k++)
         if (strcmp(key, free[k]) == 0) return false;
     return strncmp(key, "time.until", strlen("time.until")) != 0;

@@ -5,15 +5,15 @@
 #include "base/memory.h"
 #include "io/text_file.h"
 
-enum { VALUE_SIZE = 8192, PLUGIN_BYTES_MAX = 1 << 28 };
+enum { VALUE_SIZE = 8192, BYTES_MAX = 1 << 28 };
 
-// The functions of a friction law that is a plug-in, by the content of its file.
-static bool hash_plugin(const Scene *scene, Hash *hash, Error *err)
+// The functions of a friction law that is a plug-in, the points of a profile: the file's content.
+static bool hash_file(const char *path, Hash *hash, Error *err)
 {
     char *bytes = NULL;
     int32_t size = 0;
-    if (!*scene->own_friction.file) return true;
-    TRY(text_file_read(scene->own_friction.file, PLUGIN_BYTES_MAX, &bytes, &size, err));
+    if (!*path) return true;
+    TRY(text_file_read(path, BYTES_MAX, &bytes, &size, err));
     hash_bytes(hash, bytes, (size_t)size);
 cleanup:
     memory_free(bytes);
@@ -35,7 +35,8 @@ bool scene_hash(const Scene *scene, bool (*counts)(const char *key), Hash *hash,
     const SceneKey *keys = scene_keys(&count);
     char *words = NEW_ARRAY(char, VALUE_SIZE, err);
     TRY(words);
-    TRY(hash_plugin(scene, hash, err));
+    TRY(hash_file(scene->own_friction.file, hash, err));
+    TRY(hash_file(scene->contact.profile, hash, err));
     for (int32_t k = 0; k < count; k++) {
         const void *field = (const char *)scene + keys[k].offset;
         if (!counts(keys[k].name)) continue;

@@ -189,6 +189,8 @@ void scene_write_json(const Scene *scene, JsonWriter *json, const char *name, co
             write_file(scene->mesh.file, json, rest, folder);
         else if (strcmp(keys[k].name, "friction.file") == 0)
             write_file(scene->own_friction.file, json, rest, folder);
+        else if (strcmp(keys[k].name, "contact.profile") == 0)
+            write_file(scene->contact.profile, json, rest, folder);
         else
             write_value(&keys[k], scene, json, rest);
     }

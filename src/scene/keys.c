@@ -134,6 +134,10 @@ static const SceneKey keys[] = {
          "0.4`, a trailing edge rounded by a radius of 0.2, or `points(x, 0, 1e-3, 0.5, 0, "
          "...)`, a measured profile. It adds to radius and to what the mesh's own contact "
          "curves leave."},
+    {"contact.profile", KEY_TEXT, offsetof(Scene, contact.profile), "1", RANGE_ANY, NULL,
+     .may_lack = true,
+     .sentence = "The same as a file, relative to the scene's folder: a line for each point, x and "
+                 "gap, over all of the contact. A first line may give units, `x [mm], gap [um]`."},
     {"load.pressure", KEY_NUMBER, offsetof(Scene, load.pressure), "stress", RANGE_NOT_NEGATIVE,
      NULL, .sentence = "Uniform pressure P_ext on groups.top."},
     {"load.tractions", KEY_TRACTIONS, offsetof(Scene, load), "stress", RANGE_ANY, "[]",
@@ -298,8 +302,7 @@ static const SceneKey keys[] = {
      "false", .sentence = "A file at the start and stop of each precursor and sliding."},
     {"output.window.from_U", KEY_NUMBER, offsetof(Scene, output.window.from_U), "length",
      RANGE_NOT_NEGATIVE, NULL, .may_lack = true,
-     .sentence = "Fields are written in a part of the run only: from this displacement of the "
-                 "rod's drive on. What is given of output.window must hold together."},
+     .sentence = "Fields are written in a part of the run only: from this U on."},
     {"output.window.to_U", KEY_NUMBER, offsetof(Scene, output.window.to_U), "length",
      RANGE_POSITIVE, NULL, .may_lack = true, .sentence = "Up to this displacement."},
     {"output.window.from_t", KEY_NUMBER, offsetof(Scene, output.window.from_t), "time",
@@ -312,8 +315,7 @@ static const SceneKey keys[] = {
                  "slip gets rapid to the one in which all is slow again."},
     {"output.window.last", KEY_TEXT, offsetof(Scene, output.window.last), "1", RANGE_ANY, NULL,
      .may_lack = true,
-     .sentence = "`2 slidings`: from the end of the sliding before the last two to the end of the "
-                 "run; at most 16."},
+     .sentence = "`2 slidings`: from the end of the one before them to the end of the run."},
     {"output.window.history", KEY_FLAG, offsetof(Scene, output.window.history), "1", RANGE_ANY,
      NULL, .may_lack = true,
      .sentence = "true: history.h5 has the steps of the window only; else all."},

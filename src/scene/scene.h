@@ -54,6 +54,7 @@ typedef struct Scene {
     struct {
         double radius;   // of the substrate's curvature; 0: flat
         char gap[SCENE_TEXT_SIZE];   // formula of x, length; empty: 0
+        char profile[SCENE_TEXT_SIZE];   // file (scene/profile), resolved like mesh.file; empty: 0
     } contact;
     struct {
         double pressure;

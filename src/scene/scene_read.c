@@ -17,6 +17,7 @@
 #include "scene/keys.h"
 #include "scene/materials.h"
 #include "scene/own_law.h"
+#include "scene/profile.h"
 #include "scene/value.h"
 
 #include <locale.h>
@@ -310,12 +311,17 @@ static bool finish_reading(Reader *reader, const char *path, Scene *scene, Error
 {
     char key[KEY_NAME_SIZE];
     const char *word;
+    SceneProfile profile;   // read again when the contact is known
     bool done;
     TRY(scene_check(scene, reader->sources, reader->file, err));
     if (!friction_has_drop(&scene->friction))
         scene->friction.mu_kinetic = scene->friction.mu_static;
     TRY(resolve_file(path, "mesh.file", scene->mesh.file, err));
     TRY(resolve_file(path, "friction.file", scene->own_friction.file, err));
+    TRY(resolve_file(path, "contact.profile", scene->contact.profile, err));
+    done = scene_profile_read(scene, &profile, err);
+    scene_profile_destroy(&profile);
+    TRY(scene_blame(scene, "contact.profile", done, err));
     done = scene_own_law(scene, &word, err);
     snprintf(key, sizeof key, "friction.%s", word);
     TRY(scene_blame(scene, key, done, err));

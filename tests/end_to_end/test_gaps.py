@@ -102,6 +102,84 @@ class Gaps(unittest.TestCase):
         numpy.testing.assert_array_equal(first, again)
         self.assertEqual(first[0][[0, -1]].tolist(), [0, 0])   # the ends of the crown hang free
 
+    def test_profile(self):
+        """A file is the formula of its points, in any unit; what is kept of a run knows its content, not its name."""
+        points = [0.3, 0.004, 0.9, 0, 1.1, 0, 1.9, 0.006]
+        places = numpy.reshape([0, 0.01, *points, 2, 0.009], (-1, 2))
+        listed = "points(x, " + ", ".join(f"{number:g}" for number in places.flat) + ")"
+        (self.folder / "metre.csv").write_text("# plain\n" + "\n".join(f"{x:g},{gap:g}" for x, gap in places))
+        (self.folder / "units.csv").write_text("\ufeffx (cm); gap [mm]\r\n\r\n" + "".join(
+            f" {100 * x:g} ;\t{1000 * gap:g} \r\n" for x, gap in places))
+        si = ["units=si", "material={poisson: 0.499, plane: strain, young: 1, density: 1, eta1: 1, eta2: 1}"]
+        _, wanted = self.static("points", f"contact.gap={listed}")
+        for name, more in (("metre", []), ("units", si)):
+            _, force = self.static(name, f"contact.profile={name}.csv", *more)
+            numpy.testing.assert_allclose(force, wanted, rtol=0, atol=1e-9 * wanted.max(), err_msg=name)
+        brief = ["time.until.t=0.05", "time.scheme=explicit"]
+        explicit = [self.run_scene(f"explicit-{name}", setting, *brief)[2:] for name, setting in
+                    (("points", f"contact.gap={listed}"), ("file", "contact.profile=metre.csv"))]
+        for one, other in zip(*explicit):
+            numpy.testing.assert_allclose(one, other, rtol=0, atol=1e-7 * abs(one).max())
+
+        kept = self.folder / "kept.csv"
+        shutil.copy(self.folder / "metre.csv", kept)
+        words = ["contact.profile=kept.csv", "reduction.use=always"]
+        before = self.run_scene("kept", *words, "time.until.U=1e-3")[2]
+        study = self.folder / "study.yaml"
+        study.write_text("scene: scene.yaml\nset: {contact.profile: kept.csv, time.until.U: 1e-3}\n"
+                         "vary: {load.pressure: [0.03, 0.04]}\nrecord: [results.mu_max]\n")
+        sweep = [PROGRAM, "sweep", study, "-q", "-j", "1", "-o", self.folder / "sweep"]
+        tables = []
+        for text in (None, None, "0 0.01\n1 0\n2 0.01"):
+            if text:
+                kept.write_text(text)
+            subprocess.run(sweep, check=True, capture_output=True, cwd=self.folder, env=self.environment)
+            points = sorted((self.folder / "sweep/points").iterdir())
+            tables.append([len(points), (self.folder / "sweep/sweep.csv").read_text()])
+        self.assertEqual(tables[0], tables[1])
+        self.assertEqual([count for count, _ in tables], [2, 2, 4])
+        self.assertNotEqual(tables[1][1], tables[2][1])
+        said = self.call("run", *words, "time.until.U=2e-3", status=2, flags=("-q", "-o", self.folder / "kept", "--resume"))
+        self.assertIn("another scene or mesh", said)
+        after = self.run_scene("anew", *words, "time.until.U=1e-3")   # its basis is that of before
+        fresh = self.run_scene("fresh", *words, "time.until.U=1e-3", "reduction.cache=false")
+        self.assertTrue(after[0]["model"]["from_cache"])
+        numpy.testing.assert_array_equal(after[2], fresh[2])
+        self.assertFalse(numpy.array_equal(after[2][0], before[0]))
+
+    def test_profile_refused(self):
+        for text, words in (("0,0\n1,0\n0.5,0", [":3: x = 0.5 comes after 1"]), ("0,0\n1,nan\n2,0", [":2: found `1,nan`"]),
+                            ("0,0\n\n2,-1", [":3: at x = 2 the gap is -1"]), ("0,0\n1,0", ["goes from x = 0 to 1", "from 0 to 2"]),
+                            ("x [mm], gap [um]\n0,0\n2000,0", [":1: found a unit, `mm`", "normalised"]),
+                            ("0,0", ["has 1 point; two or more"]), ("0 0 1\n", [":1: found `0 0 1`", "two numbers"]),
+                            ("place\n0 0\n", ["names of the two columns"]), ("0,1e999\n2,0", [":1: at x = 0 the gap is inf"])):
+            (self.folder / "bad.csv").write_text(text)
+            said = self.call("run", "contact.profile=bad.csv", status=2, flags=("-o", self.folder / "no", "--overwrite"))
+            for word in ["contact.profile", "bad.csv", *words]:
+                self.assertIn(word, said)
+        said = self.call("info", "contact.profile=none.csv", status=2)
+        self.assertIn("none.csv: No such file", said)
+        (self.folder / "bad.csv").write_text("x [kg], gap\n0 0\n2 0\n")
+        said = self.call("info", "contact.profile=bad.csv", "units=si", "material={young: 1, density: 1, eta1: 1, eta2: 1}",
+                         "material.poisson=0.3", status=2)
+        self.assertIn("`kg` is no unit of length; allowed: m, mm, um", said)
+
+    def test_rounded_edge(self):
+        """Drawn in the mesh it is what the same floor makes of it; the examples run."""
+        peaks = []
+        for name in ("rounded", "rounded_mesh"):
+            self.scene = SOURCE / f"validation/friction/{name}.yaml"
+            report, x, pressing, _ = self.run_scene(name, "mesh.set.nx=20", "mesh.set.nz=20", "time.until={U: 8e-3, slidings: 2}")
+            peaks.append(numpy.array([[peak["U"], peak["mu"]] for peak in report["results"]["peaks"]]))
+            self.assertEqual(pressing[:, 0].max(), 0)      # the edge never comes down
+            self.assertLess((pressing[0] > 0).sum(), len(x))
+        self.assertEqual(peaks[0].shape, (2, 2))
+        numpy.testing.assert_allclose(*peaks, rtol=5e-3)
+        self.scene = SOURCE / "validation/friction/measured.yaml"
+        _, x, pressing, _ = self.run_scene("measured", "mesh.set.nx=20", "mesh.set.nz=10", "time.until.U=0.2 mm")
+        self.assertTrue(pressing[-1][x > 0.1].any())
+        self.assertEqual(pressing[:, x < 0.005].max(), 0)     # 45 um high
+
     def test_refused(self):
         for command, setting, words in (
                 ("run", "contact.gap=x - 1", ["contact.gap", "at x = 0 the gap is -1", ">= 0"]),

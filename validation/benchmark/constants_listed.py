@@ -211,6 +211,7 @@ NOT_A_CHOICE = {
     "record/window.h": {"WINDOW_SLIDINGS_MAX": "slidings that a scene may ask for as the last: room for their states"},
     "record/observation.h": {"RECORDERS_MAX": SIZE},
     "model/regions.c": {"HEIGHT_TOLERANCE": ROUNDING},
+    "model/gaps.c": {"ROUNDING": ROUNDING},
     "model/basis_cache.c": {"WAIT_MAX": "seconds for another run's basis", "COUNTS": "stored"},
     "model/assemble.c": {"NODE_BYTES": "memory"},
     "stepping/growth.c": {"NO_RATE": "rounding, with room: 0 that is not 0"},

@@ -53,9 +53,10 @@ static bool check_scene(const Scene *scene, Error *err)
         FAIL(err, ERROR_INPUT,
              "%s: friction.contacts, friction.along: the 1D model has one law along its line",
              path);
-    if (scene->contact.radius > 0 || *scene->contact.gap)
+    if (scene->contact.radius > 0 || *scene->contact.gap || *scene->contact.profile)
         FAIL(err, ERROR_INPUT,
-             "%s: contact.radius, contact.gap: the 1D model's line lies on a flat substrate", path);
+             "%s: contact.radius, gap, profile: the 1D model's line lies on a flat substrate",
+             path);
     if (scene->materials.count > 0)
         FAIL(
             err, ERROR_INPUT,

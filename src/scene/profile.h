@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// contact.profile: a measured shape of the substrate, a table of x and gap in a text file. Read
+// with the scene, so that what is wrong is said before anything is meshed, and by model/gaps.
+#ifndef AMONTONS_SCENE_PROFILE_H
+#define AMONTONS_SCENE_PROFILE_H
+
+#include "scene/scene.h"
+
+enum { SCENE_PROFILE_BYTES_MAX = 1 << 26 };
+
+typedef struct SceneProfile {
+    int32_t count;   // of points; 0: the scene has none
+    double *x, *gap;   // [count] length in the scene's units, x ascending; owned
+} SceneProfile;
+
+// Two numbers a line, with a comma, a semicolon, a tab or blanks between them; empty lines and
+// those that begin with # are passed over. The first line may name the columns, in an SI scene with
+// units: `x [mm], gap [um]`. ERROR_INPUT with file and line.
+bool scene_profile_read(const Scene *scene, SceneProfile *profile, Error *err);
+void scene_profile_destroy(SceneProfile *profile);   // zeroed is fine
+
+// On the straight line between two points; beyond the ends as there.
+double scene_profile_at(const SceneProfile *profile, double x);
+
+#endif
