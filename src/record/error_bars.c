@@ -114,62 +114,58 @@ static bool is_alone(const Levels *levels, AnswerKind kind)
 }
 
 // What the levels say together: value = a + b / n on n contact nodes, each level off by a scatter
-// that falls like 1 / n; b is about 0, as far as SLOPE, before anything is known.
+// that falls like 1 / n, and by what its few runs leave of their spread over branches; b is about
+// 0, as far as SLOPE, before anything is known.
 typedef struct Limit {
     double value;   // a: on cells of no size
-    double error;   // of a, 95 %; NaN: one level
+    double mesh;   // of a, 95 %, from scatter and b; NaN: one level
     double weight[LEVELS_MAX];   // of each level's value in a; their sum is 1
 } Limit;
 
-static Limit limit_of(const Levels *levels, AnswerKind kind)
+// Of a level's mean, from its spread over branches.
+static double variance_of_runs(const Level *level, double spread)
+{
+    return isnan(spread) ? 0 : spread * spread / level->run_count;
+}
+
+static Limit limit_of(const Levels *levels, AnswerKind kind, double spread)
 {
     const Level *last = &levels->list[levels->count - 1];
     double origin = value_of(last, kind);   // all in parts of it
     double slope = last->pads > 1 ? SLOPE_PADS : SLOPE;
     double scatter = last->pads > 1 ? SCATTER_PADS : SCATTER;
-    double S = 0, Sx = 0, Sxx = 1 / (slope * slope), Sv = 0, Sxv = 0, Svv = 0;
+    double S = 0, Sx = 0, Sxx = 1 / (slope * slope), Sv = 0, Sxv = 0, Svv = 0, of_runs = 0;
+    double weight[LEVELS_MAX] = {0};
     for (int32_t l = 0; l < levels->count; l++) {
         const Level *level = &levels->list[l];
         double x = 1.0 / level->contact_nodes, v = value_of(level, kind) / origin - 1;
-        double w = 1 / (scatter * x * scatter * x);
         if (!is_known(level, kind)) continue;
+        double runs = variance_of_runs(level, spread) / (origin * origin);
+        double w = weight[l] = 1 / (scatter * x * scatter * x + runs);
         S += w, Sx += w * x, Sxx += w * x * x;
         Sv += w * v, Sxv += w * x * v, Svv += w * v * v;
     }
     double determinant = S * Sxx - Sx * Sx;
     double a = (Sxx * Sv - Sx * Sxv) / determinant, b = (S * Sxv - Sx * Sv) / determinant;
     double square = fmax(Svv - a * Sv - b * Sxv, 0);   // of what is off, b's own part included
-    int32_t freedoms = levels_known(levels, kind) - 1 + SCATTER_LEVELS;
-    double wider = sqrt((square + SCATTER_LEVELS) / freedoms);
-    Limit limit = {.value = origin * (1 + a),
-                   .error = origin * student(freedoms) * wider * sqrt(Sxx / determinant)};
+    Limit limit = {.value = origin * (1 + a)};
     for (int32_t l = 0; l < levels->count; l++) {
-        double n = levels->list[l].contact_nodes;
-        if (is_known(&levels->list[l], kind))
-            limit.weight[l] = n * (n * Sxx - Sx) / (scatter * scatter * determinant);
+        const Level *level = &levels->list[l];
+        double c = weight[l] * (Sxx - Sx / level->contact_nodes) / determinant;
+        of_runs += c * c * variance_of_runs(level, spread);
+        limit.weight[l] = c;
     }
+    int32_t freedoms = levels_known(levels, kind) - 1 + SCATTER_LEVELS;
+    double variance = origin * origin * Sxx / determinant - of_runs;
+    limit.mesh = student(freedoms) * sqrt((square + SCATTER_LEVELS) / freedoms * variance);
     return limit;
 }
 
 static Limit one_level(const Levels *levels, AnswerKind kind)
 {
-    Limit limit = {.value = value_of(&levels->list[levels->count - 1], kind), .error = NAN};
+    Limit limit = {.value = value_of(&levels->list[levels->count - 1], kind), .mesh = NAN};
     limit.weight[levels->count - 1] = 1;
     return limit;
-}
-
-// What single runs leave of the limit's error: their drops, and their spread over branches.
-static void add_runs_parts(const Levels *levels, AnswerKind kind, const Limit *limit,
-                           ErrorParts *parts)
-{
-    double over_runs = 0;
-    for (int32_t l = 0; l < levels->count; l++) {
-        double weight = limit->weight[l];
-        if (weight == 0) continue;
-        over_runs += weight * weight / levels->list[l].run_count;
-        parts->drops = hypot(parts->drops, weight * drops_part(&levels->list[l], kind));
-    }
-    parts->branches = ERROR_BAR * spread_of_runs(levels, kind) * sqrt(over_runs);
 }
 
 static double known(double part)
@@ -180,12 +176,19 @@ static double known(double part)
 static ErrorBar bar_of(const Levels *levels, AnswerKind kind)
 {
     const Level *last = &levels->list[levels->count - 1];
+    double spread = spread_of_runs(levels, kind), of_runs = 0;
     if (isnan(value_of(last, kind))) return (ErrorBar){NAN, NAN, {NAN, NAN, NAN}};
     bool alone = is_alone(levels, kind);
-    Limit limit = alone ? one_level(levels, kind) : limit_of(levels, kind);
-    double mesh = fmax(hypot(limit.error, END_WAITS * last->end_wait), STEPS * limit.value);
+    Limit limit = alone ? one_level(levels, kind) : limit_of(levels, kind, spread);
+    double mesh = fmax(hypot(limit.mesh, END_WAITS * last->end_wait), STEPS * limit.value);
     ErrorBar bar = {.value = limit.value, .parts.mesh = alone ? NAN : mesh};
-    add_runs_parts(levels, kind, &limit, &bar.parts);
+    for (int32_t l = 0; l < levels->count; l++) {
+        double weight = limit.weight[l];
+        if (weight == 0) continue;
+        of_runs += weight * weight * variance_of_runs(&levels->list[l], spread);
+        bar.parts.drops = hypot(bar.parts.drops, weight * drops_part(&levels->list[l], kind));
+    }
+    bar.parts.branches = isnan(spread) ? NAN : ERROR_BAR * sqrt(of_runs);
     bar.bar = hypot(hypot(bar.parts.mesh, known(bar.parts.branches)), bar.parts.drops);
     return bar;
 }

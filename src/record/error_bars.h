@@ -8,8 +8,9 @@
 //   branches   twice the standard error of the mean over runs, their spread taken from all levels;
 //              both weighed as the levels are
 //   mesh       value = a + b / n on n contact nodes is estimated from the levels together (Bayes:
-//              values scatter from mesh to mesh, as slip stops at nodes; the scatter of a level
-//              and the slope b are what they usually are, until levels are enough to say more).
+//              values scatter from mesh to mesh, as slip stops at nodes, and by what few runs leave
+//              of branches; the scatter of a level and the slope b are what they usually are,
+//              until levels are enough to say more).
 //              a, on cells of no size, is the answer, Student's 95 % of its deviation the part. At
 //              least what steps and reduction leave. Levels whose cells are too long for slip
 //              (`undamped`) have no part in it. Twice what mu rises by while the last nodes of

@@ -147,7 +147,8 @@ class Kept:
 def reference_run(case, cells, order, grade, factor):
     ended = run(case.scene, [*QUIET, *case.settings, flow(reference_mesh(case, cells, order, grade)),
                              f"load.pressure={case.pressure * factor:.9g}", f"time.until={{U: {case.way:.6g}}}"], 3000)
-    return {"mu": ended.report.get("results", {}).get("mu_M"), "seconds": ended.seconds, "said": ended.said[-200:]}
+    results = ended.report.get("results", {})
+    return {"mu": results.get("mu_M"), "hold": results.get("mu_hold"), "seconds": ended.seconds, "said": ended.said[-200:]}
 
 
 def standard_error(values):
@@ -168,14 +169,30 @@ def reference(case, kept):
     return statistics.mean(means), max(standard_error(means), standard_error(every))
 
 
+def reference_hold(case, kept):
+    """The same of mu_hold, whose answer is the lowest of the window; None: not kept, as by versions before, or none."""
+    lowest = []
+    for cells, order, grade in REFERENCES[case.is_block]:
+        rows = [kept.rows.get((case.name, f"reference {cells} order {order} grade {grade} at {factor}"), {}) for factor in WINDOW]
+        values = [row.get("hold") for row in rows]
+        if None in values:
+            return None
+        lowest.append(min(values))
+    return statistics.mean(lowest), standard_error(lowest)
+
+
 def known_references(path):
-    """case name: (mean, its own error), from the table of an earlier promise.md: a reference does not depend on bars."""
-    known = {}
+    """case name: (mean, its own error) of mu_M, and of mu_hold, from the tables of an earlier promise.md: a reference does
+    not depend on bars."""
+    known = {"mu_M": {}, "mu_hold": {}}
+    answer = "mu_M"
     for line in path.read_text().splitlines() if path else []:
         cells = [cell.strip() for cell in line.split("|")[1:4]]
+        if cells[:2] == ["case", "mu_hold"]:
+            answer = "mu_hold"
         if len(cells) == 3 and cells[0].startswith(("A, ", "B, ")):
-            known[cells[0]] = (float(cells[1]), float(cells[1]) * float(cells[2]) / 100)
-    return known
+            known[answer][cells[0]] = (float(cells[1]), float(cells[1]) * float(cells[2]) / 100)
+    return known["mu_M"], known["mu_hold"]
 
 
 def ask(case, wanted):
@@ -185,6 +202,7 @@ def ask(case, wanted):
                     words=["--within", WITHIN, "--to", str(wanted)])
     results, found = ended.report.get("results", {}), ended.report.get("accuracy", {})
     return {"mu": results.get("mu_M"), "bar": results.get("mu_M_error"), "parts": results.get("mu_M_error_parts"),
+            "hold": results.get("mu_hold"), "hold_bar": results.get("mu_hold_error"),
             "met": found.get("met"), "nodes": [level["contact_nodes"] for level in found.get("levels", [])],
             "values": [level["mu_M"]["value"] for level in found.get("levels", [])],
             "seconds": ended.seconds, "said": ended.said[-200:]}
@@ -234,6 +252,33 @@ def summary_of(wanted, ratios, undecided, met, seconds):
     return sentence, held >= HELD * len(ratios) and max(ratios) <= 3
 
 
+def hold_text(judged, known, kept, wanted_all):
+    """The section of mu_hold, whose bars come along: cases with a reference of it."""
+    rows, ratios = [], {wanted: [] for wanted in wanted_all}
+    for one, _ in judged:
+        truth = known.get(one.name) or reference_hold(one, kept)
+        answers = {wanted: kept.rows[one.name, f"to {wanted}"] for wanted in wanted_all}
+        if truth is None or any(answer.get("hold") is None for answer in answers.values()):
+            continue
+        row = [one.name, f"{truth[0]:.4f}", percent(truth[1] / truth[0])]
+        for wanted, answer in answers.items():
+            error, bar = answer["hold"] - truth[0], answer["hold_bar"] or 0
+            ratios[wanted].append(abs(error) / bar if bar else math.inf)
+            row += [percent(error / truth[0]) + (" **no**" if abs(error) > bar else ""), percent(bar / truth[0])]
+        rows.append(row)
+    if not rows:
+        return ""
+    head = ["case", "mu_hold", "own error, %"]
+    for wanted in wanted_all:
+        head += [f"to {100 * wanted:g} %: error, %", "bar, %"]
+    said = [f"- asked for mu_M at {100 * wanted:g} %: {sum(ratio <= 1 for ratio in found)} of {len(found)} bars of mu_hold hold; "
+            f"the worst error is {max(found):.2f} bars, the median {statistics.median(found):.2f}."
+            for wanted, found in ratios.items()]
+    return ("\n### mu_hold, whose bar comes along\n\nIts reference is the lowest of three pressures, mean of the reference's "
+            "meshes; `own error`: from the difference of meshes.\n\n" + "\n".join(said) + "\n\n"
+            + markdown_table(head, rows) + "\n")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("-o", "--output", type=Path, default=ROOT / "results/promise")
@@ -249,7 +294,7 @@ def main():
         return 0
     options.output.mkdir(parents=True, exist_ok=True)
     kept, wanted_all = Kept(options.output / "promise.jsonl"), WANTED[:1] if options.quick else WANTED
-    known = known_references(options.known)
+    known, known_hold = known_references(options.known)
     rows, passed, judged, found = [], [], [], {wanted: [] for wanted in wanted_all}
     for number in itertools.count(FIRST):
         if len(rows) == count:
@@ -287,7 +332,7 @@ def main():
     text = (f"## Do error bars hold?\n\nVersion {commit()}. {len(rows)} cases by Halton's sequences, fixed before anything was "
             f"computed.{over} `own error`: of the reference (promise.py says how it is made). `bar`: half its width. "
             f"`contact nodes`: of each mesh that was used. No cache.{source}\n\n" + "\n".join(sentences) + "\n\n"
-            + markdown_table(head, rows) + "\n" + ("" if options.quick else "\n" + work(judged, kept, options.output)))
+            + markdown_table(head, rows) + "\n" + hold_text(judged, known_hold, kept, wanted_all) + ("" if options.quick else "\n" + work(judged, kept, options.output)))
     (options.output / "promise.md").write_text(text)
     print("\n".join(sentences))
     return 0 if good else 1

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Error bars from runs on several meshes, against sums by hand. Limit, weights and error by meshes
 // are those of generalised least squares with numpy.linalg.inv, of levels whose values have the
-// covariance (s / n_i)^2 delta_ij + t^2 / (n_i n_j), s = 0.14 and t = 0.1 of the last level's
-// (pads: 0.7 and 0.5), with chi^2 = 1 of each of 8 levels more, times Student's factor.
+// covariance ((s / n_i)^2 + r^2 / N_i) delta_ij + t^2 / (n_i n_j), s = 0.14 and t = 0.1 of the last
+// level's (pads: 0.7 and 0.5), r the spread of runs, with chi^2 = 1 of each of 8 levels more, times
+// Student's factor.
 #include "record/error_bars.h"
 
 #include "near.h"
@@ -47,9 +48,9 @@ static void test_two_levels(void **state)
     add(&levels, 0.30, 0.2, NAN);
     add(&levels, 0.34, 0.2, NAN);
     const ErrorBar *mu_M = levels_answer(&levels, ANSWER_MU_M);
-    assert_near("value", mu_M->value, 0.31822222222222224, 1e-15);   // of 0.30 and 0.32
-    assert_near("mesh", mu_M->parts.mesh, 0.008293082211190137, 1e-15);
-    assert_near("branches", mu_M->parts.branches, 0.028948656123523674, 1e-15);
+    assert_near("value", mu_M->value, 0.3101121141342087, 1e-15);   // of 0.30 and 0.32
+    assert_near("mesh", mu_M->parts.mesh, 0.003853024987435397, 1e-15);
+    assert_near("branches", mu_M->parts.branches, 0.022362085052504536, 1e-15);
     assert_near("drops", mu_M->parts.drops, 0, 0);
     assert_near("bar", mu_M->bar, hypot(mu_M->parts.mesh, mu_M->parts.branches), 1e-15);
     const ErrorBar *hold = levels_answer(&levels, ANSWER_MU_HOLD);   // both meshes agree
@@ -122,15 +123,15 @@ static void test_a_level_without_an_answer(void **state)
     add(&levels, 0.30, 0.2, NAN);
     add(&levels, 0.34, 0.2, NAN);
     const ErrorBar *mu_M = levels_answer(&levels, ANSWER_MU_M);
-    assert_near("value", mu_M->value, 0.31822222222222224, 1e-15);   // as without it, above
-    assert_near("mesh", mu_M->parts.mesh, 0.008293082211190137, 1e-15);
-    assert_near("branches", mu_M->parts.branches, 0.028948656123523674, 1e-15);
+    assert_near("value", mu_M->value, 0.3101121141342087, 1e-15);   // as without it, above
+    assert_near("mesh", mu_M->parts.mesh, 0.003853024987435397, 1e-15);
+    assert_near("branches", mu_M->parts.branches, 0.022362085052504536, 1e-15);
     assert_int_equal(levels_known(&levels, ANSWER_MU_M), 2);
     assert_int_equal(levels_known(&levels, ANSWER_MU_HOLD), 3);
     levels.list[2].end_wait = 0.02;   // so much mu rises while the last nodes hold
     levels_estimate(&levels);
     assert_near("wait", levels_answer(&levels, ANSWER_MU_M)->parts.mesh,
-                hypot(0.008293082211190137, 2 * 0.02), 1e-15);
+                hypot(0.003853024987435397, 2 * 0.02), 1e-15);
     levels.list[0].undamped = true;   // cells too long for slip
     assert_int_equal(levels_known(&levels, ANSWER_MU_M), 1);
     levels_estimate(&levels);
