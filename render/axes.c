@@ -68,7 +68,7 @@ static double number_width(const Page *page, const Axes *axes, const Ticks *tick
 // Ticks are chosen for the numbers shown, that is, in the unit of the axis. A logarithmic axis so
 // short that it has no two powers of ten gets 1, 2 and 5 times them; one too short for that gets
 // plain numbers at their logarithmic places.
-static Ticks axis_ticks(const Axis *axis, int32_t wanted)
+Ticks axis_ticks(const Axis *axis, int32_t wanted)
 {
     Ticks log_ticks = {0};
     if (axis->is_log)

@@ -29,6 +29,9 @@ typedef struct Axes {
 // short, and sets the factor that belongs to it. unit: of SI, "m", "Pa", "m/s"; others get none.
 void axis_set_unit(Axis *axis, const char *name, const char *unit);
 
+// About `wanted` ticks, in the numbers shown.
+Ticks axis_ticks(const Axis *axis, int32_t wanted);
+
 // Where (x, y) of the data lies on the picture.
 Point axes_place(const Axes *axes, double x, double y);
 

@@ -259,20 +259,20 @@ cleanup:
     return error_is_clean(err);
 }
 
-static bool encode_png(Canvas *canvas, const char *title, Error *err)
+static bool encode_png(Canvas *canvas, const char *title, bool small, Error *err)
 {
     PngPicture picture = {.width = canvas->def.width,
                           .height = canvas->def.height,
                           .stride = cairo_image_surface_get_stride(canvas->surface),
                           .pixels = cairo_image_surface_get_data(canvas->surface),
                           .pixels_per_metre = canvas->def.dpi / 0.0254,
-                          .title = title};
+                          .title = title,
+                          .few_colors = small};
     return png_encode(&picture, bytes_add, canvas, err);
 }
 
-bool canvas_write(Canvas *canvas, const char *path, const char *title, Error *err)
+bool canvas_finish(Canvas *canvas, const char *title, bool small, PictureBytes *bytes, Error *err)
 {
-    PartFile file = {0};
     if (canvas->def.format == CANVAS_PDF) {
         cairo_pdf_surface_set_metadata(canvas->surface, CAIRO_PDF_METADATA_TITLE, title);
         cairo_pdf_surface_set_metadata(canvas->surface, CAIRO_PDF_METADATA_CREATOR,
@@ -280,11 +280,19 @@ bool canvas_write(Canvas *canvas, const char *path, const char *title, Error *er
         cairo_pdf_surface_set_metadata(canvas->surface, CAIRO_PDF_METADATA_CREATE_DATE, "");
     }
     cairo_surface_flush(canvas->surface);
-    if (canvas->def.format == CANVAS_PNG) encode_png(canvas, title, &canvas->failure);
+    if (canvas->def.format == CANVAS_PNG) encode_png(canvas, title, small, &canvas->failure);
     cairo_surface_finish(canvas->surface);   // the last of the bytes
-    TRY(canvas_check(canvas, err));
+    *bytes = (PictureBytes){canvas->bytes, canvas->size};
+    return canvas_check(canvas, err);
+}
+
+bool canvas_write(Canvas *canvas, const char *path, const char *title, Error *err)
+{
+    PartFile file = {0};
+    PictureBytes picture = {0};
+    TRY(canvas_finish(canvas, title, false, &picture, err));
     TRY(part_file_create(&file, path, err));
-    TRY(part_file_write(&file, canvas->bytes, canvas->size, err));
+    TRY(part_file_write(&file, picture.bytes, picture.size, err));
     TRY(part_file_commit(&file, err));
 cleanup:
     part_file_discard(&file);

@@ -77,8 +77,17 @@ Error *canvas_failure(Canvas *canvas);
 // caller (memory_free). Only of CANVAS_PNG.
 bool canvas_read(Canvas *canvas, uint8_t **pixels, Error *err);
 
-// Finishes the picture as the file `path`, with `title` stored in it (SVG: not). Reports what went
-// wrong since canvas_create. Nothing can be drawn any more.
+// The finished picture, in memory that stays the canvas's.
+typedef struct PictureBytes {
+    const char *bytes;   // [size]
+    int64_t size;
+} PictureBytes;
+
+// Finishes the picture, with `title` stored in it (SVG: not). small: a PNG of 256 colours at most,
+// a third of the bytes. Reports what went wrong since canvas_create. Nothing can be drawn any more.
+bool canvas_finish(Canvas *canvas, const char *title, bool small, PictureBytes *bytes, Error *err);
+
+// The same as the file `path`.
 bool canvas_write(Canvas *canvas, const char *path, const char *title, Error *err);
 
 #endif

@@ -31,6 +31,10 @@ bool figure_slip_map(const Page *page, ResultView *view, Error *err);
 // Contact density max(0, 1 - |slip rate| / v_c) in the last precursors; where open, neutral.
 bool figure_contact_density(const Page *page, ResultView *view, Error *err);
 
+// The figure called `name`, one of the history alone, on a fresh page. In render.c.
+bool figure_draw(const char *name, ResultView *view, const PictureStyle *style, Page *page,
+                 Error *err);
+
 // An axis of lengths from low to high: "~{U} / ~{L}_{0}", or in SI "~{U} (mm)".
 Axis figure_length_axis(const ResultView *view, const char *symbol, double low, double high);
 

@@ -13,6 +13,7 @@ typedef struct PngPicture {
     const uint8_t *pixels;   // [height * stride] 4 bytes each: blue, green, red, unused
     double pixels_per_metre;   // at the size it is meant to be printed
     const char *title;   // stored in the file, UTF-8
+    bool few_colors;   // a palette of the 256 most frequent: for a screen, a third of the bytes
 } PngPicture;
 
 // Takes the next bytes of the file; false: it failed, and its owner knows why.

@@ -90,31 +90,48 @@ cleanup:
     return error_is_clean(err);
 }
 
-// One picture from nothing to its file. Whatever fails, all that was made for it is freed.
-static bool figure_make(const char *folder, const PictureRequest *request, const Figure *figure,
-                        ResultView *view, Error *err)
+// On a fresh page, to be finished.
+static bool draw(const char *folder, const PictureRequest *request, const Figure *figure,
+                 ResultView *view, Page *page, Error *err)
 {
-    Page page = {0};
-    char path[PATH_MAX];
     Foot foot = foot_wrap(view->warnings);
     PageDef def = {.style = &request->style,
                    .height = figure->height_over_width,
                    .title = view->title,
                    .foot = foot_height(&foot)};
     FigureInput input = {.view = view, .folder = folder, .field = &request->field, .def = def};
-    TRY(figure_path(folder, request, figure, path, err));
     if (figure->draw_whole) {
-        TRY(figure->draw_whole(&page, &input, err));
+        TRY(figure->draw_whole(page, &input, err));
     } else {
-        TRY(page_begin(&page, &def, err));
-        TRY(figure->draw(&page, view, err));
+        TRY(page_begin(page, &def, err));
+        TRY(figure->draw(page, view, err));
     }
-    foot_draw(&page, &foot);
-    TRY(page_finish(&page, path, figure->title, err));
+    foot_draw(page, &foot);
 cleanup:
     error_context(err, "figure %s", figure->name);
+    return error_is_clean(err);
+}
+
+// One picture from nothing to its file. Whatever fails, all that was made for it is freed.
+static bool figure_make(const char *folder, const PictureRequest *request, const Figure *figure,
+                        ResultView *view, Error *err)
+{
+    Page page = {0};
+    char path[PATH_MAX];
+    TRY(figure_path(folder, request, figure, path, err));
+    TRY(draw(folder, request, figure, view, &page, err));
+    TRY(page_finish(&page, path, figure->title, err));
+cleanup:
     page_destroy(&page);
     return error_is_clean(err);
+}
+
+bool figure_draw(const char *name, ResultView *view, const PictureStyle *style, Page *page,
+                 Error *err)
+{
+    Figure figure;
+    PictureRequest request = {.style = *style};
+    return figure_find(name, &figure, err) && draw("", &request, &figure, view, page, err);
 }
 
 static bool make_figures_folder(const char *result, Error *err)

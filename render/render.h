@@ -8,6 +8,7 @@
 
 #include "amontons_pictures.h"
 #include "base/error.h"
+#include "io/html_writer.h"
 #include "io/mesh_file.h"
 
 // What `field` may show: X(symbol, name, words, unit in SI, unit in normalised scenes). Stresses
@@ -64,5 +65,37 @@ typedef bool (*RenderMeshFunction)(const RenderMesh *mesh, const char *path, Err
 
 // Draws `mesh` to scale into the file `path`, which ends in .png, .pdf or .svg.
 bool amontons_render_mesh(const RenderMesh *mesh, const char *path, Error *err);
+
+// --- inside of a page (page/) --------------------------------------------------------------------
+
+// The three figures of a history as SVG, each in light and in dark, with what they show below them.
+typedef bool (*RenderFiguresFunction)(const char *folder, HtmlWriter *html, Error *err);
+bool amontons_render_figures(const char *folder, HtmlWriter *html, Error *err);
+
+// The same of a plot that a file describes; `caption` is ours, without markup.
+typedef bool (*RenderPlotHtmlFunction)(const char *plot, const char *caption, HtmlWriter *html,
+                                       Error *err);
+bool amontons_render_plot_html(const char *plot, const char *caption, HtmlWriter *html, Error *err);
+
+enum { RENDER_FRAMES_MAX = 60, RENDER_CURVES_MAX = 8 };
+
+// What amontons_render_frames found.
+typedef struct RenderFrames {
+    bool fields;   // frames show the block, at times that are stored; else steps of the history
+    int32_t count, stored;   // frames, of so many there are
+    double U[RENDER_FRAMES_MAX];   // [count] rod displacement of each, length
+} RenderFrames;
+
+// A row of <figure id='frame-1'> and so on, `count` of them.
+typedef bool (*RenderFramesFunction)(const char *folder, HtmlWriter *html, RenderFrames *found,
+                                     Error *err);
+bool amontons_render_frames(const char *folder, HtmlWriter *html, RenderFrames *found, Error *err);
+
+// Force curves of several histories over each other, with their names. *drawn false: some are
+// in SI and some are not.
+typedef bool (*RenderCurvesFunction)(const char *const *folders, const char *const *names,
+                                     int32_t count, HtmlWriter *html, bool *drawn, Error *err);
+bool amontons_render_curves(const char *const *folders, const char *const *names, int32_t count,
+                            HtmlWriter *html, bool *drawn, Error *err);
 
 #endif

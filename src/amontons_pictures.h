@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Pictures of a stored result, and of curves that a file describes. Part of amontons.h.
+// Pictures of a stored result, and of curves that a file describes; pages. Part of amontons.h.
 #ifndef AMONTONS_PICTURES_H
 #define AMONTONS_PICTURES_H
 
@@ -42,6 +42,10 @@ bool amontons_render_result(const char *folder, const PictureRequest *request, E
 // `picture`, whose name ends in .png, .pdf or .svg: style->format is not asked. NULL is fine.
 bool amontons_render_plot_file(const char *plot, const char *picture, const PictureStyle *style,
                                Error *err);
+
+// Writes one page about results (count folders) into `file`, an .html that needs nothing else: of a
+// run, of a sweep, or of several runs side by side.
+bool amontons_report(const char *const *results, int32_t count, const char *file, Error *err);
 
 #ifdef __cplusplus
 }

@@ -29,6 +29,7 @@ static const Command commands[] = {
      "computes the 1D model of the paper: theory and simulation"},
     {"sweep", command_sweep, "STUDY", "computes many runs over varied keys, into one table"},
     {"render", command_render, "RESULT", "draws the pictures of a stored result again"},
+    {"report", command_report, "RESULT", "writes a page about a run, a sweep or several runs"},
     {"info", command_info, "FILE", "prints what a mesh, a scene or a result holds"},
     {"cache", command_cache, "", "says how large the cache of reductions is, or cleans it"},
 };

@@ -14,7 +14,8 @@ enum { KEY_FIRST = 1000, OPTIONS_MAX = 20 };   // keys of argp without a letter:
 typedef struct Reading {
     const Option *options;
     const char *argument;
-    bool too_many;   // arguments
+    OptionWords *all;   // arguments; NULL: one is taken
+    bool too_many;   // of them
 } Reading;
 
 static int option_key(const Option *options, int32_t k)
@@ -46,8 +47,11 @@ static void take_argument(Reading *reading, const char *word)
         add_word(option->words, word);
         return;
     }
-    if (reading->argument) reading->too_many = true;
-    reading->argument = word;
+    if (reading->all)
+        add_word(reading->all, word);
+    else if (reading->argument)
+        reading->too_many = true;
+    if (!reading->all || !reading->argument) reading->argument = word;
 }
 
 static error_t take_word(int key, char *word, struct argp_state *state)
@@ -77,6 +81,8 @@ static int check_words(const CommandText *text, const Reading *reading)
                                  : 0;
     if (!reading->argument)
         return report_misuse("%s needs a %s, as in `%s`", text->name, text->what, text->example);
+    if (reading->all && reading->all->too_many)
+        return report_misuse("%s takes %d arguments at most", text->name, OPTION_WORDS_MAX);
     if (reading->too_many) return report_misuse("%s takes one %s", text->name, text->what);
     for (const Option *option = reading->options; option->name; option++)
         if (option->words && option->words->too_many)
@@ -91,7 +97,7 @@ int options_read(const CommandText *text, const Option *options, int argc, char 
 {
     struct argp_option known[OPTIONS_MAX + 1] = {0};
     char name[40];   // what usage lines begin with
-    Reading reading = {.options = options};
+    Reading reading = {.options = options, .all = text->all};
     struct argp argp = {
         .options = known, .parser = take_word, .args_doc = text->argument, .doc = text->help};
     for (int32_t k = 0; k < OPTIONS_MAX && options[k].name; k++)

@@ -32,6 +32,7 @@ typedef struct CommandText {
     const char *what;   // "scene", of which one must be given
     const char *example;   // `amontons run validation/paper/fig1.yaml`
     const char *help;   // before the list of options; and behind it, after a \v
+    OptionWords *all;   // all arguments, where several are taken; NULL: one is
 } CommandText;
 
 // Puts the options given to where `options` say, and what the command works on into *argument.

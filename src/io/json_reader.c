@@ -196,6 +196,13 @@ bool json_find_text(const char *text, const char *path, char *value, int32_t siz
     return true;
 }
 
+const char *json_find_raw(const char *text, const char *path, int32_t *length)
+{
+    const char *at = find(text, path), *end = at ? skip_value(at) : NULL;
+    if (end) *length = (int32_t)(end - at);
+    return end ? at : NULL;
+}
+
 bool json_is_whole(const char *text)
 {
     const char *end = skip_value(text);

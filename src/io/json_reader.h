@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Looks single values up in a JSON text of our own (io/json_writer): nothing is kept, what is not
-// asked for is skipped. Called by study/sweep and run/info for run.json, which may hold thousands
-// of events.
+// asked for is skipped. Called by study/sweep, run/info and page/ for run.json, which may hold
+// thousands of events.
 #ifndef AMONTONS_IO_JSON_READER_H
 #define AMONTONS_IO_JSON_READER_H
 
@@ -20,6 +20,8 @@ bool json_may_hold(const char *text, const char *path);
 bool json_find_key(const char *text, const char *path, int32_t index, char *key, int32_t size);
 // A text, cut to `size` bytes; \u escapes beyond ASCII become `?`.
 bool json_find_text(const char *text, const char *path, char *value, int32_t size);
+// The value at `path` as it stands in the text: *length bytes from the pointer on. NULL: none.
+const char *json_find_raw(const char *text, const char *path, int32_t *length);
 // The brackets of the whole text match: it was not cut off.
 bool json_is_whole(const char *text);
 

@@ -28,7 +28,7 @@ static const char LOCK_NAME[] = "amontons.lock", PART[] = ".part";
 // What proves a result, in the order in which it is removed; each also with the ends of own_path.
 static const char *const OWN_FILES[] = {
     "run.json",   CHECKPOINT_FILE,  "history.h5",   "fields.pvd",   "static.json", "static.h5",
-    "static.vtu", "stability.json", "stability.h5", "model1d.json", "model1d.h5"};
+    "static.vtu", "stability.json", "stability.h5", "model1d.json", "model1d.h5",  "report.html"};
 enum { OWN_FILE_COUNT = sizeof OWN_FILES / sizeof OWN_FILES[0] };
 
 #define FIGURE_FILE(id, name, words) name ".png", name ".pdf", name ".svg",

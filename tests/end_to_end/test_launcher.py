@@ -240,6 +240,7 @@ class FirstTime(Project):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn(f"[run][{self.root}/validation/paper/fig1.yaml][-o]"
                       f"[{self.root}/results/fig1][--overwrite][--quiet]", done.stdout)
+        self.assertIn(f"[report][{self.root}/results/fig1]", done.stdout.splitlines()[-1])
         self.assertEqual(self.calls("apt-get") + self.calls("sudo"), [])
         self.assertEqual(self.calls("cmake"), [
             f"cmake --preset release -S {self.root} -DBUILD_TESTING=OFF",
@@ -248,6 +249,8 @@ class FirstTime(Project):
         self.assertIn("[run][validation/paper/fig1.yaml][-o][results/fig1]", done.stdout)
         self.assertEqual(self.calls(), ["cmake --build ./build --target amontons"])
         self.assertEqual(done.stderr, "")
+        self.assertNotIn("[report]", self.run_launcher("demo", "-o", "elsewhere").stdout)
+        self.assertNotIn("[report]", self.run_launcher("demo", PROGRAM_STATUS="1").stdout)
 
     def test_other_words_build_first(self):
         done = self.run_launcher("run", "scene.yaml")

@@ -15,7 +15,7 @@ from pathlib import Path
 SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
 MODULES = Path(os.environ.get("AMONTONS_MODULES", SOURCE / "build/bin"))
 
-LAYERS = ["base", "io", "bulk", "contact", "stepping", "record", "scene", "model", "run", "study", "cli"]
+LAYERS = ["base", "io", "bulk", "contact", "stepping", "record", "scene", "model", "run", "study", "page", "cli"]
 BELOW_SCENE = LAYERS[:LAYERS.index("scene")]
 PUBLIC = ("amontons.h", "amontons_cache.h", "amontons_model1d.h", "amontons_simulation.h", "amontons_stability.h")
 CAIRO = r"render/(canvas|shapes|text)\.[ch]"
@@ -32,15 +32,15 @@ def allowed(folder, include):
         return folder in ("render", "")   # what render/render.h is asked
     if include == "amontons_friction.h":
         return folder in ("contact", "")   # what a plug-in and contact/friction_plugin share
-    if include == "build_record.h":
-        return layer == "run"   # generated
+    if include in ("build_record.h", "page_resources.h"):
+        return layer == {"b": "run", "p": "page"}[include[0]]   # generated
     if include in (*PUBLIC, "render/render.h") and layer in BELOW_SCENE:
         return False
     if folder == "":
         return include.startswith(("base/", "amontons"))   # the public header and its parts
     if folder == "render":
         return include.startswith(("base/", "render/")) or include in (
-            "io/mesh_file.h", "io/field_read.h", "io/folder.h", "io/part_file.h", "io/result_file.h", "io/yaml_document.h",
+            "io/mesh_file.h", "io/field_read.h", "io/folder.h", "io/part_file.h", "io/html_writer.h", "io/result_file.h", "io/yaml_document.h",
             "io/shape.h")   # fields inside an element
     if folder == "cli":
         return include in PUBLIC or include.startswith("cli/")

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Figures inside of a page: pictures in light and in dark, of which the browser shows the one that
+// suits; and force curves over each other.
+#include "render/render.h"
+
+#include "base/memory.h"
+#include "render/figure_curves.h"
+#include "render/figures.h"
+#include "render/svg_chart.h"
+
+#include <math.h>
+#include <stdio.h>
+
+// Of the pictures; a page shows them as wide as its column.
+static const double WIDTH = 140, MAP_DPI = 200;   // mm
+
+// Units of the drawing of several curves.
+enum { CURVES_WIDTH = 760, CURVES_HEIGHT = 400, CURVES_LEFT = 70, CURVES_RIGHT = 740 };
+enum { CURVES_TOP = 24, CURVES_BOTTOM = 350 };
+
+static const double HEADROOM = 1.05;
+
+static const struct {
+    const char *name, *alt, *caption;
+} FIGURES[] = {
+    {"force", "Line: friction force over load against the displacement of the rod.",
+     "<i>F</i><sub>T</sub>/<i>F</i><sub>N</sub> against the rod\u2019s displacement <i>U</i>. "
+     "Circles: the peaks before the block slides as a whole, filled if they count for "
+     "<i>\u03bc</i><sub>M</sub>. The inset enlarges the last precursors before a sliding."},
+    {"slip-map", "Map: slip rate along the contact against the displacement of the rod.",
+     "Slip rate over the rod\u2019s velocity, against <i>U</i> and the place <i>x</i> along the "
+     "contact. Grey: stick."},
+    {"contact-density",
+     "Map: contact density before a sliding, along the contact and against the "
+     "displacement of the rod.",
+     "Contact density max(0, 1 \u2212 |<i>v</i>|/<i>v</i><sub>c</sub>) in the last precursors "
+     "before a sliding. Black line: the front of slip."},
+};
+
+// --- pictures ------------------------------------------------------------------------------------
+
+// What draws a picture on a fresh page.
+typedef bool (*DrawFunction)(void *context, const PictureStyle *style, Page *page, Error *err);
+
+static bool make_picture(DrawFunction draw, void *context, bool dark, Page *page,
+                         PictureBytes *picture, Error *err)
+{
+    const PictureStyle style = {.format = "svg", .width = WIDTH, .dpi = MAP_DPI, .dark = dark};
+    return draw(context, &style, page, err) && canvas_finish(page->canvas, "", false, picture, err);
+}
+
+// Both are drawn before anything is written: a failure leaves no half markup. caption: markup.
+static bool write_figure(HtmlWriter *html, DrawFunction draw, void *context, const char *alt,
+                         const char *caption, Error *err)
+{
+    Page pages[2] = {0};
+    PictureBytes pictures[2];
+    for (int32_t dark = 0; dark < 2; ++dark)
+        TRY(make_picture(draw, context, dark, &pages[dark], &pictures[dark], err));
+    html_markup(html, "<figure><picture><source media='(prefers-color-scheme: dark)' srcset='");
+    html_data(html, "image/svg+xml", pictures[1].bytes, pictures[1].size);
+    html_markup(html, "'><img src='");
+    html_data(html, "image/svg+xml", pictures[0].bytes, pictures[0].size);
+    html_markup(html, "' alt='%s'></picture><figcaption>%s</figcaption></figure>\n", alt, caption);
+cleanup:
+    for (int32_t dark = 0; dark < 2; ++dark) page_destroy(&pages[dark]);
+    return error_is_clean(err);
+}
+
+typedef struct HistoryFigure {
+    ResultView *view;
+    const char *name;
+} HistoryFigure;
+
+static bool draw_history(void *context, const PictureStyle *style, Page *page, Error *err)
+{
+    const HistoryFigure *figure = context;
+    return figure_draw(figure->name, figure->view, style, page, err);
+}
+
+// Title and warnings stand on the page already.
+__attribute__((visibility("default"))) bool amontons_render_figures(const char *folder,
+                                                                    HtmlWriter *html, Error *err)
+{
+    ResultView view = {0};
+    TRY(result_view_open(folder, &view, err));
+    view.title[0] = view.warnings[0] = '\0';
+    for (size_t k = 0; k < sizeof FIGURES / sizeof *FIGURES; ++k) {
+        HistoryFigure figure = {&view, FIGURES[k].name};
+        TRY(write_figure(html, draw_history, &figure, FIGURES[k].alt, FIGURES[k].caption, err));
+    }
+cleanup:
+    result_view_close(&view);
+    return error_is_clean(err);
+}
+
+static bool draw_plot(void *context, const PictureStyle *style, Page *page, Error *err)
+{
+    const Plot *plot = context;
+    PageDef def = {.style = style, .height = plot->height_over_width};
+    TRY(page_begin(page, &def, err));
+    TRY(figure_curves(page, plot, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+__attribute__((visibility("default"))) bool
+amontons_render_plot_html(const char *path, const char *caption, HtmlWriter *html, Error *err)
+{
+    Plot *plot = NEW_ARRAY(Plot, 1, err);
+    TRY(plot);
+    TRY(plot_file_read(path, plot, err));
+    TRY(write_figure(html, draw_plot, plot, caption, caption, err));
+cleanup:
+    if (plot) plot_destroy(plot);
+    memory_free(plot);
+    return error_is_clean(err);
+}
+
+// --- several force curves ------------------------------------------------------------------------
+
+// The range of all curves.
+static Axes fit_curves(const ResultView *views, int32_t count)
+{
+    double U[2] = {INFINITY, -INFINITY}, mu[2] = {0, 0};
+    for (int32_t k = 0; k < count; ++k) {
+        double low = 0, high = 0;
+        result_view_range(&views[k], &low, &high);
+        U[0] = fmin(U[0], low);
+        U[1] = fmax(U[1], high);
+        for (int64_t row = 0; row < views[k].rows; ++row) {
+            if (!isfinite(views[k].mu[row])) continue;
+            mu[0] = fmin(mu[0], views[k].mu[row]);
+            mu[1] = fmax(mu[1], views[k].mu[row]);
+        }
+    }
+    if (!(mu[1] > mu[0])) mu[1] = mu[0] + 1;
+    Axes axes = {.box = {CURVES_LEFT, CURVES_TOP, CURVES_RIGHT, CURVES_BOTTOM},
+                 .x = figure_length_axis(&views[0], "U", U[0], U[1]),
+                 .y = {.low = mu[0] * HEADROOM, .high = mu[1] * HEADROOM, .factor = 1}};
+    snprintf(axes.y.label, sizeof axes.y.label, "~{F}_{T} / ~{F}_{N}");
+    return axes;
+}
+
+static void write_legend(HtmlWriter *html, const char *const *names, int32_t count)
+{
+    html_markup(html, "<ul class='legend'>");
+    for (int32_t k = 0; k < count; ++k) {
+        html_markup(html,
+                    "<li><svg width='34' height='12' aria-hidden='true'><path class='curve%d' "
+                    "d='M2 6h30'/></svg> ",
+                    k + 1);
+        html_text(html, names[k]);
+        html_markup(html, "</li>");
+    }
+    html_markup(html, "</ul>");
+}
+
+__attribute__((visibility("default"))) bool amontons_render_curves(const char *const *folders,
+                                                                   const char *const *names,
+                                                                   int32_t count, HtmlWriter *html,
+                                                                   bool *drawn, Error *err)
+{
+    ResultView views[RENDER_CURVES_MAX] = {0};
+    *drawn = true;
+    for (int32_t k = 0; k < count; ++k) {
+        TRY(result_view_open(folders[k], &views[k], err));
+        *drawn = *drawn && views[k].si == views[0].si;
+    }
+    if (!*drawn) goto cleanup;
+    Axes axes = fit_curves(views, count);
+    html_markup(html,
+                "<figure id='figure-force'><svg class='chart' viewBox='0 0 %d %d' role='img' "
+                "aria-label='Friction force over load against the displacement of the rod, a "
+                "curve for each run'>",
+                CURVES_WIDTH, CURVES_HEIGHT);
+    svg_axes(html, &axes, true);
+    for (int32_t k = 0; k < count; ++k) {
+        char class[16];
+        snprintf(class, sizeof class, "curve%d", k + 1);
+        svg_curve(html, &axes, class, views[k].U, views[k].mu, views[k].rows);
+    }
+    html_markup(html, "</svg>");
+    write_legend(html, names, count);
+    html_markup(html,
+                "<figcaption><i>F</i><sub>T</sub>/<i>F</i><sub>N</sub> against the rod\u2019s "
+                "displacement <i>U</i></figcaption></figure>\n");
+cleanup:
+    for (int32_t k = 0; k < RENDER_CURVES_MAX; ++k) result_view_close(&views[k]);
+    return error_is_clean(err);
+}

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// `amontons report`: one page about results, to be opened in a browser or sent to somebody.
+#include "cli/commands.h"
+#include "cli/options.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const CommandText text = {
+    .name = "report",
+    .argument = "RESULT...",
+    .what = "result folder",
+    .example = "amontons report fig1-result",
+    .help = "Writes one page, an .html file that needs no network: of the result folder of a run "
+            "(what was computed, key numbers with their errors and warnings, a slider through "
+            "frames of it, a film that lies in the folder, figures, events, the scene, how to "
+            "reproduce and to cite it); of a sweep (figures, ranking, all points); or of several "
+            "runs, up to 8 (their numbers side by side, where their scenes differ, their force "
+            "curves over each other)."
+            "\vNothing is computed. A run that failed or has not ended has a page, too, which says "
+            "so. Examples:\n\n"
+            "  amontons report fig1-result\n"
+            "  amontons report pads-sweep -o pads.html\n"
+            "  amontons report dry-result wet-result -o dry-and-wet.html"};
+
+// A path with slashes behind it; at most one argument's length.
+static void default_file(const OptionWords *results, char *file, size_t size)
+{
+    const char *folder = results->list[0];
+    size_t length = strlen(folder);
+    while (length > 1 && folder[length - 1] == '/') length--;
+    if (results->count > 1)
+        snprintf(file, size, "comparison.html");
+    else
+        snprintf(file, size, "%.*s/report.html", (int)length, folder);
+}
+
+int command_report(int argc, char **argv)
+{
+    const char *first = NULL, *file = NULL;
+    char path[AMONTONS_PATH_SIZE];
+    OptionWords results = {0};
+    CommandText taken = text;
+    Error err = {0};
+    const Option options[] = {
+        {"output", 'o', "FILE.html",
+         "The page (default: RESULT/report.html; of several runs comparison.html, in the current "
+         "folder)",
+         .word = &file},
+        {0}};
+    taken.all = &results;
+    int status = options_read(&taken, options, argc, argv, &first);
+    if (status != 0) return status;
+    if (file && !*file) return report_misuse("-o: the file has no name");
+    if (!file) default_file(&results, path, sizeof path);
+    if (!amontons_report(results.list, results.count, file ? file : path, &err))
+        return report_error(&err);
+    printf("report written: %s\n", file ? file : path);
+    return 0;
+}

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Several runs side by side: their numbers, where their scenes differ, their force curves over each
+// other.
+#include "page/pages.h"
+
+#include "base/memory.h"
+#include "base/module.h"
+#include "io/json_reader.h"
+#include "page/numbers.h"
+#include "page/scene_part.h"
+#include "page/sheet.h"
+#include "render/render.h"
+
+enum { WORDS_SIZE = 700 };
+
+static const SheetPart PARTS[] = {{"numbers", "Key numbers"},  {"differences", "What differs"},
+                                  {"figures", "Force curves"}, {"again", "To reproduce"},
+                                  {"cite", "How to cite"},     {0}};
+
+static void write_states(HtmlWriter *html, const RunSource *run)
+{
+    char words[RUN_NAME_SIZE + WORDS_SIZE + 40], path[40], sentence[WORDS_SIZE];
+    if (run->state != RUN_DONE) {
+        snprintf(words, sizeof words, "%s %s", run->name,
+                 run->state == RUN_FAILED ? "failed: its own report says why"
+                                          : "has not ended: it has no numbers yet");
+        sheet_box(html, "failure", words);
+    }
+    for (int32_t k = 0; k < RUN_WARNINGS_MAX; ++k) {
+        snprintf(path, sizeof path, "warnings.%d", k);
+        if (!json_find_text(run->json, path, sentence, sizeof sentence)) break;
+        snprintf(words, sizeof words, "%s: %s", run->name, sentence);
+        sheet_box(html, "warning", words);
+    }
+}
+
+static bool write_curves(HtmlWriter *html, const RunSource *runs, int32_t count, Error *err)
+{
+    const char *folders[RENDER_CURVES_MAX], *names[RENDER_CURVES_MAX];
+    bool drawn = true;
+    int32_t with = 0;
+    for (int32_t k = 0; k < count; ++k) {
+        if (!runs[k].has_history) continue;
+        folders[with] = runs[k].folder;
+        names[with++] = runs[k].name;
+    }
+    if (with < count)
+        html_markup(html,
+                    "<p class='note'>%d of %d runs kept no history, and have no curve "
+                    "here.</p>\n",
+                    count - with, count);
+    if (with == 0) return true;
+    RenderCurvesFunction render =
+        (RenderCurvesFunction)module_function("render", "amontons_render_curves", err);
+    TRY(render);
+    TRY(render(folders, names, with, html, &drawn, err));
+    if (!drawn)
+        html_markup(html, "<p class='note'>Some runs are in SI units and some are normalised: "
+                          "their curves have no common axis.</p>\n");
+cleanup:
+    return error_is_clean(err);
+}
+
+static void write_again(HtmlWriter *html, const RunSource *runs, int32_t count)
+{
+    html_markup(html, "<p>The report of each run holds its scene: ");
+    html_markup(html, "<code>amontons report FOLDER</code>, with</p>\n<ul>");
+    for (int32_t k = 0; k < count; ++k) {
+        html_markup(html, "<li>");
+        html_text(html, runs[k].name);
+        html_markup(html, ": ");
+        html_text(html, runs[k].title);
+        html_markup(html, "</li>");
+    }
+    html_markup(html, "</ul>\n");
+}
+
+bool compare_page_write(HtmlWriter *html, const char *const *folders, int32_t count, Error *err)
+{
+    char title[60], version[40] = "";
+    RunSource *runs = NEW_ARRAY(RunSource, count, err);
+    TRY(runs);
+    if (count > RENDER_CURVES_MAX)
+        FAIL(err, ERROR_INPUT, "%d runs: a comparison takes up to %d; a sweep takes many", count,
+             RENDER_CURVES_MAX);
+    for (int32_t k = 0; k < count; ++k) TRY(run_source_open(folders[k], &runs[k], err));
+    snprintf(title, sizeof title, "Comparison of %d runs", count);
+    sheet_begin(html, title, "Report by amontons", PARTS);
+    for (int32_t k = 0; k < count; ++k) write_states(html, &runs[k]);
+    sheet_part(html, &PARTS[0]);
+    numbers_write(html, runs, count);
+    sheet_part(html, &PARTS[1]);
+    TRY(scene_differences_write(html, runs, count, err));
+    sheet_part(html, &PARTS[2]);
+    TRY(write_curves(html, runs, count, err));
+    sheet_part(html, &PARTS[3]);
+    write_again(html, runs, count);
+    json_find_text(runs[0].json, "version", version, sizeof version);
+    sheet_end(html, version);
+cleanup:
+    for (int32_t k = 0; runs && k < count; ++k) run_source_close(&runs[k]);
+    memory_free(runs);
+    return error_is_clean(err);
+}

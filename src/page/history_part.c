@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "page/history_part.h"
+
+#include "base/memory.h"
+#include "base/module.h"
+#include "base/text.h"
+#include "io/result_file.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { EVENTS_SHOWN_MAX = 300, COLUMNS = 8, KINDS = 3, DIGITS = 5 };
+
+static const int64_t FILM_MOST = 4 << 20;   // bytes: of a film inside of the page
+static const double SLACK = 1e-9;   // of U: a time at the border of an event belongs to it
+
+// Nothing of the history may cost the page: a picture that cannot be drawn is told in its place.
+static bool go_on_without(HtmlWriter *html, const char *what, Error *err)
+{
+    char words[ERROR_MESSAGE_SIZE + 40];
+    if (error_is_clean(err)) return true;
+    if (err->code == ERROR_MEMORY || err->code == ERROR_LIBRARY) return false;
+    snprintf(words, sizeof words, "no %s: %s", what, err->message);
+    sheet_box(html, "failure", words);
+    error_clear(err);
+    return true;
+}
+
+bool figures_write(HtmlWriter *html, const RunSource *run, Error *err)
+{
+    RenderFiguresFunction render =
+        (RenderFiguresFunction)module_function("render", "amontons_render_figures", err);
+    if (render) render(run->folder, html, err);
+    return go_on_without(html, "figures", err);
+}
+
+// --- frames --------------------------------------------------------------------------------------
+
+static void write_controls(HtmlWriter *html)
+{
+    html_markup(html, "<div class='controls' id='controls' hidden role='group' aria-label='Frames'>"
+                      "<button type='button' id='back' aria-label='Frame before'>\u25c0</button>"
+                      "<input type='range' id='slider' min='1' max='1' value='1' "
+                      "aria-label='Frame'>"
+                      "<button type='button' id='on' aria-label='Next frame'>\u25b6</button>"
+                      "<button type='button' id='play' aria-pressed='false'>Play</button></div>\n"
+                      "<p class='keys' id='keys' hidden>Arrow keys on the slider go from frame to "
+                      "frame; links in the table of events lead here.</p>\n");
+}
+
+bool frames_write(HtmlWriter *html, const RunSource *run, RenderFrames *found, Error *err)
+{
+    RenderFramesFunction render =
+        (RenderFramesFunction)module_function("render", "amontons_render_frames", err);
+    *found = (RenderFrames){0};
+    if (!render) return false;
+    write_controls(html);
+    if (render(run->folder, html, found, err)) {
+        html_markup(html,
+                    "<p class='note'>%d of %d %s are shown, close together where the force "
+                    "or the rod moves much%s. ",
+                    found->count, found->stored,
+                    found->fields ? "stored times" : "steps of the history",
+                    found->fields ? "" : "; the run stored no fields of the block");
+        html_markup(html,
+                    "Below the floor, or above the curves: the contact <span "
+                    "class='swatch status1'></span> sticks, <span class='swatch status2'></span> "
+                    "slips while friction weakens, <span class='swatch status3'></span> slips, "
+                    "<span class='swatch status0'></span> is open. "
+                    "<i>p</i>: contact pressure, <i>\u03c4</i>: friction stress, <i>v</i>: slip "
+                    "rate; slower than <i>V</i>/100 is drawn at the edge.</p>\n");
+    }
+    return go_on_without(html, "frames", err);
+}
+
+// --- events --------------------------------------------------------------------------------------
+
+typedef struct EventTable {
+    double *column[COLUMNS];   // [count] owned; as below
+    int32_t count;
+} EventTable;
+
+enum { KIND, U_START, U_STOP, T_START, T_STOP, REACH, RATE, SPEED };
+
+static bool read_events(ArrayFile *file, EventTable *table, Error *err)
+{
+    static const ResultTable names[COLUMNS] = {EVENTS_KIND,      EVENTS_U_START,    EVENTS_U_STOP,
+                                               EVENTS_T_START,   EVENTS_T_STOP,     EVENTS_REACH,
+                                               EVENTS_PEAK_RATE, EVENTS_FRONT_SPEED};
+    for (int32_t k = 0; k < COLUMNS; ++k) {
+        int32_t rows = 0;
+        TRY(result_file_read_table(file, names[k], &table->column[k], &rows, err));
+        if (k > 0 && rows != table->count)
+            FAIL(err, ERROR_FILE, "the events of the history have columns of %d and %d rows",
+                 table->count, rows);
+        table->count = rows;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// The first frame within the event, else the nearest one. *within: the former.
+static int32_t frame_of(const RenderFrames *frames, double U_start, double U_stop, bool *within)
+{
+    double slack = SLACK * fabs(U_stop), least = INFINITY;
+    int32_t best = 0;
+    for (int32_t k = 0; k < frames->count; ++k) {
+        double away = fmax(U_start - slack - frames->U[k], frames->U[k] - U_stop - slack);
+        if (!(away > 0)) away = 0;
+        if (!(away < least)) continue;
+        least = away;
+        best = k;
+    }
+    *within = least == 0;
+    return best + 1;
+}
+
+static void write_frame_link(HtmlWriter *html, const RenderFrames *frames, double U_start,
+                             double U_stop)
+{
+    bool within = false;
+    int32_t frame = frame_of(frames, U_start, U_stop, &within);
+    html_markup(html, "<td class='number'>");
+    if (frames->count > 0)
+        html_markup(html, "<a href='#frame-%d'>%s%d</a>", frame, within ? "" : "nearest: ", frame);
+    html_markup(html, "</td>");
+}
+
+static void write_event(HtmlWriter *html, const EventTable *table, int32_t k, const double scale[2],
+                        const RenderFrames *frames)
+{
+    static const char *const kinds[KINDS] = {"quasi-static", "bounded rapid", "leading rapid"};
+    double *const *column = table->column;
+    int32_t kind = column[KIND][k] >= 0 && column[KIND][k] < KINDS ? (int32_t)column[KIND][k] : -1;
+    const double shown[] = {column[U_START][k],
+                            column[U_STOP][k],
+                            column[T_STOP][k] - column[T_START][k],
+                            column[REACH][k] / scale[0],
+                            column[RATE][k] / scale[1],
+                            column[SPEED][k]};
+    html_markup(html, "<tr class='kind%d'><td class='number'>%d</td><td>%s</td>", kind, k + 1,
+                kind < 0 ? "unknown" : kinds[kind]);
+    for (size_t c = 0; c < sizeof shown / sizeof *shown; ++c) {
+        html_markup(html, "<td class='number'>");
+        html_number(html, shown[c], c < 2 ? DIGITS : 3);
+        html_markup(html, "</td>");
+    }
+    write_frame_link(html, frames, column[U_START][k], column[U_STOP][k]);
+    html_markup(html, "</tr>\n");
+}
+
+static void write_head(HtmlWriter *html, const RunSource *run)
+{
+    const char *length = run->si ? "m" : "<i>L</i><sub>0</sub>";
+    const char *time = run->si ? "s" : "<i>t</i><sub>0</sub>";
+    html_markup(html, "<div class='wide'><table class='events'><caption>Slow and rapid slips that "
+                      "come before sliding, and sliding itself (leading rapid)</caption><thead><tr>"
+                      "<th scope='col' class='number'>no.</th><th scope='col'>kind</th>");
+    html_markup(html,
+                "<th scope='col' class='number'><i>U</i> start, %s</th>"
+                "<th scope='col' class='number'><i>U</i> stop, %s</th>"
+                "<th scope='col' class='number'>duration, %s</th>"
+                "<th scope='col' class='number'>reach / <i>L</i></th>",
+                length, length, time);
+    html_markup(html,
+                "<th scope='col' class='number'>fastest slip / <i>V</i></th>"
+                "<th scope='col' class='number'>speed of front, %s/%s</th>"
+                "<th scope='col' class='number'>frame</th></tr></thead><tbody>\n",
+                length, time);
+}
+
+// The last ones, where there are many: the first belong to the start.
+static bool write_table(HtmlWriter *html, const RunSource *run, const RenderFrames *frames,
+                        Error *err)
+{
+    EventTable table = {0};
+    ArrayFile *file = result_file_open(run->folder, err);
+    TRY(file);
+    TRY(read_events(file, &table, err));
+    const double scale[2] = {result_file_number(file, NUMBER_LENGTH),
+                             result_file_number(file, NUMBER_ROD_VELOCITY)};
+    int32_t first = table.count > EVENTS_SHOWN_MAX ? table.count - EVENTS_SHOWN_MAX : 0;
+    if (table.count == 0) {
+        html_markup(html, "<p>%s</p>\n",
+                    run->state == RUN_UNFINISHED ? "Events are known at the end of a run."
+                                                 : "None in this run.");
+        goto cleanup;
+    }
+    if (first > 0)
+        html_markup(html, "<p class='note'>The last %d of %d; all are in run.json.</p>\n",
+                    table.count - first, table.count);
+    write_head(html, run);
+    for (int32_t k = first; k < table.count; ++k) write_event(html, &table, k, scale, frames);
+    html_markup(html, "</tbody></table></div>\n");
+cleanup:
+    if (file) array_file_close(file, err);
+    for (int32_t k = 0; k < COLUMNS; ++k) memory_free(table.column[k]);
+    return error_is_clean(err);
+}
+
+bool events_write(HtmlWriter *html, const RunSource *run, const RenderFrames *frames, Error *err)
+{
+    write_table(html, run, frames, err);
+    return go_on_without(html, "events", err);
+}
+
+// --- film ----------------------------------------------------------------------------------------
+
+// What browsers play first.
+static const struct {
+    const char *ending, *type;
+} FILMS[] = {{".mp4", "video/mp4"}, {".webm", "video/webm"}, {".gif", "image/gif"}};
+enum { FILM_KINDS = sizeof FILMS / sizeof *FILMS };
+
+bool film_find(const char *folder, char *name)
+{
+    struct dirent **entries = NULL;
+    int32_t best = FILM_KINDS;
+    int count = scandir(folder, &entries, NULL, alphasort);
+    for (int i = 0; i < count; ++i) {
+        for (int32_t k = 0; k < best; ++k) {
+            if (!text_ends_with(entries[i]->d_name, FILMS[k].ending)) continue;
+            snprintf(name, NAME_MAX + 1, "%s", entries[i]->d_name);
+            best = k;
+        }
+        free(entries[i]);
+    }
+    if (count >= 0) free(entries);
+    return best < FILM_KINDS;
+}
+
+static const char *type_of(const char *name)
+{
+    for (int32_t k = 0; k < FILM_KINDS; ++k)
+        if (text_ends_with(name, FILMS[k].ending)) return FILMS[k].type;
+    return "application/octet-stream";
+}
+
+// *bytes: NULL where the film is too large to be inside of the page; else owned by the caller.
+static bool read_film(const char *path, uint8_t **bytes, int64_t *size, Error *err)
+{
+    FILE *file = fopen(path, "rb");
+    *bytes = NULL;
+    if (!file || fseek(file, 0, SEEK_END) != 0 || (*size = ftell(file)) < 0)
+        FAIL(err, ERROR_FILE, "cannot read %s: %s", path, strerror(errno));
+    if (*size > FILM_MOST) goto cleanup;
+    rewind(file);
+    TRY(*bytes = memory_bytes(*size, err));
+    if (fread(*bytes, 1, (size_t)*size, file) != (size_t)*size)
+        FAIL(err, ERROR_FILE, "cannot read %s", path);
+cleanup:
+    if (file) fclose(file);
+    return error_is_clean(err);
+}
+
+// A relative address: what is not plain in a name is written as %XX (RFC 3986).
+static void write_address(HtmlWriter *html, const char *name)
+{
+    for (; *name; ++name) {
+        bool plain = strchr("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-",
+                            *name) != NULL;
+        html_markup(html, plain ? "%c" : "%%%02X", (unsigned char)*name);
+    }
+}
+
+bool film_write(HtmlWriter *html, const char *folder, const char *name, Error *err)
+{
+    char path[PATH_MAX];
+    uint8_t *bytes = NULL;
+    int64_t size = 0;
+    const char *type = type_of(name);
+    if (!folder_holds(folder, name, path)) return true;
+    TRY(read_film(path, &bytes, &size, err));
+    if (bytes) {
+        bool moves = strncmp(type, "video", 5) == 0;
+        html_markup(html, moves ? "<video controls preload='metadata' src='"
+                                : "<img class='paper' alt='The run as a film' src='");
+        html_data(html, type, bytes, size);
+        html_markup(html, moves ? "'></video>\n" : "'>\n");
+    }
+    html_markup(html, "<p class='note'>%s <a href='./",
+                bytes ? "The film beside this page:" : "It lies beside this page:");
+    write_address(html, name);
+    html_markup(html, "'>");
+    html_text(html, name);
+    html_markup(html, "</a> (%.1f MB)</p>\n", (double)size / (1 << 20));
+cleanup:
+    memory_free(bytes);
+    return go_on_without(html, "film", err);
+}

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "page/numbers.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { DIGITS = 5, PATH_SIZE = 80, DECIMALS_MAX = 12 };
+
+typedef enum NumberKind {
+    NUMBER_ESTIMATE,   // has an error, or should
+    NUMBER_FOUND,   // of which no error is computed
+    NUMBER_PLAIN   // a count, or an error itself
+} NumberKind;
+
+typedef struct NumberRow {
+    const char *path;   // in run.json, or an event's kind
+    NumberKind kind;
+    const char *label, *meaning;   // markup
+} NumberRow;
+
+static const NumberRow RESULTS[] = {
+    {"results.mu_M", NUMBER_ESTIMATE, "<i>\u03bc</i><sub>M</sub>",
+     "macroscopic static friction coefficient: mean of the peaks before the whole block slides"},
+    {"results.mu_hold", NUMBER_ESTIMATE, "<i>\u03bc</i><sub>hold</sub>",
+     "what the contact holds: the lowest load ratio at which the load dropped"},
+    {"results.mu_max", NUMBER_FOUND, "<i>\u03bc</i><sub>max</sub>",
+     "largest load ratio <i>F</i><sub>T</sub>/<i>F</i><sub>N</sub> of the run"},
+    {"results.l_c_over_L", NUMBER_FOUND, "<i>l</i><sub>c</sub>/<i>L</i>",
+     "critical length: how far slow slip had come when the block slid"},
+    {"results.l_sc_over_L", NUMBER_FOUND, "<i>l</i><sub>sc</sub>/<i>L</i>",
+     "how far it had come when it was first not certified stable"},
+    {"results.mu_M_peaks", NUMBER_PLAIN, "peaks that count", "for <i>\u03bc</i><sub>M</sub>"},
+    {"results.period", NUMBER_PLAIN, "period", "peaks repeat after so many slidings; 0: not yet"},
+    {"results.slip_cells", NUMBER_PLAIN, "resolution",
+     "cells of the contact that slipped where slow slip turned fast; below 8 is too few"},
+};
+
+static const NumberRow EVENTS[] = {
+    {"quasi-static", NUMBER_PLAIN, "quasi-static precursors", "slow slip grew from an edge"},
+    {"bounded rapid", NUMBER_PLAIN, "bounded rapid precursors", "rapid slip stopped on its way"},
+    {"leading rapid", NUMBER_PLAIN, "leading rapid precursors", "slip crossed the whole contact"},
+};
+
+static const NumberRow CHECKS[] = {
+    {"errors.energy", NUMBER_PLAIN, "energy", "work neither stored nor dissipated, relative"},
+    {"errors.complementarity", NUMBER_PLAIN, "contact conditions",
+     "violation of contact, friction and rod conditions, relative"},
+    {"errors.moment", NUMBER_PLAIN, "moments", "balance over <i>F</i><sub>N</sub><i>L</i>"},
+    {"errors.equation", NUMBER_PLAIN, "equation of motion", "residual over <i>F</i><sub>N</sub>"},
+    {"errors.reduction", NUMBER_PLAIN, "reduction",
+     "reduced interface against the full mesh, relative"},
+    {"model.elements", NUMBER_PLAIN, "elements", "of the mesh"},
+    {"model.contact_nodes", NUMBER_PLAIN, "contact nodes", "of the mesh"},
+    {"steps.accepted", NUMBER_PLAIN, "steps", "accepted"},
+    {"timing_s.total", NUMBER_PLAIN, "time taken, s", "by the clock"},
+};
+
+void estimate_write(HtmlWriter *html, double value, double error, bool has_error)
+{
+    if (!isfinite(value)) {
+        html_markup(html, "none");
+    } else if (isfinite(error) && error > 0 && fabs(value) < 1e4 && error > 1e-9) {
+        int decimals = (int)fmin(fmax(1 - floor(log10(error)), 0), DECIMALS_MAX);
+        html_markup(html, "%s%.*f&nbsp;\u00b1&nbsp;%.*f", value < 0 ? "\u2212" : "", decimals,
+                    fabs(value), decimals, error);
+    } else {
+        html_number(html, value, DIGITS);
+        if (isfinite(error)) {
+            html_markup(html, "&nbsp;\u00b1&nbsp;");
+            html_number(html, error, 2);
+        } else if (has_error) {
+            html_markup(html, " <span class='unknown'>error not known</span>");
+        }
+    }
+}
+
+static void write_cell(HtmlWriter *html, const RunSource *run, const NumberRow *row)
+{
+    char path[PATH_SIZE];
+    double value = run_number(run, row->path);
+    html_markup(html, "<td class='number' data-path='%s'>", row->path);
+    if (row->kind == NUMBER_PLAIN) {
+        if (isfinite(value))
+            html_number(html, value, fabs(value) >= 1 && value == floor(value) ? 12 : 3);
+        else
+            html_markup(html, "none");
+    } else {
+        snprintf(path, sizeof path, "%s_error", row->path);
+        estimate_write(html, value, run_number(run, path), true);
+        snprintf(path, sizeof path, "%s_error_parts.mesh", row->path);
+        if (row->kind == NUMBER_ESTIMATE && isfinite(value) && !isfinite(run_number(run, path)))
+            html_markup(html,
+                        "<br><span class='unknown'>the mesh\u2019s error is not known</span>");
+    }
+    html_markup(html, "</td>");
+}
+
+static void write_event_cell(HtmlWriter *html, const RunSource *run, const NumberRow *row)
+{
+    html_markup(html, "<td class='number' data-events='%s'>%d</td>", row->path,
+                run_events(run, row->path));
+}
+
+typedef void (*CellFunction)(HtmlWriter *html, const RunSource *run, const NumberRow *row);
+
+static void write_rows(HtmlWriter *html, const NumberRow *rows, size_t row_count, CellFunction cell,
+                       const RunSource *runs, int32_t count)
+{
+    for (size_t r = 0; r < row_count; ++r) {
+        html_markup(html, "<tr><th scope='row'>%s</th>", rows[r].label);
+        for (int32_t k = 0; k < count; ++k) cell(html, &runs[k], &rows[r]);
+        html_markup(html, "<td class='meaning'>%s</td></tr>\n", rows[r].meaning);
+    }
+}
+
+static void begin_table(HtmlWriter *html, const char *caption, const RunSource *runs, int32_t count)
+{
+    html_markup(html,
+                "<div class='wide'><table><caption>%s</caption><thead><tr><th scope='col'>"
+                "quantity</th>",
+                caption);
+    for (int32_t k = 0; k < count; ++k) {
+        html_markup(html, "<th scope='col' class='number'>");
+        html_text(html, count == 1 ? "value" : runs[k].name);
+        html_markup(html, "</th>");
+    }
+    html_markup(html, "<th scope='col'>meaning</th></tr></thead><tbody>\n");
+}
+
+void numbers_write(HtmlWriter *html, const RunSource *runs, int32_t count)
+{
+    begin_table(html, "What was found. \u00b1 is 95 %.", runs, count);
+    write_rows(html, RESULTS, sizeof RESULTS / sizeof *RESULTS, write_cell, runs, count);
+    write_rows(html, EVENTS, sizeof EVENTS / sizeof *EVENTS, write_event_cell, runs, count);
+    html_markup(html, "</tbody></table></div>\n");
+    begin_table(html, "Checks of the computation (largest of the run), and what it took", runs,
+                count);
+    write_rows(html, CHECKS, sizeof CHECKS / sizeof *CHECKS, write_cell, runs, count);
+    html_markup(html, "</tbody></table></div>\n");
+}

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The three pages. Called by report.
+#ifndef AMONTONS_PAGE_PAGES_H
+#define AMONTONS_PAGE_PAGES_H
+
+#include "io/html_writer.h"
+
+bool run_page_write(HtmlWriter *html, const char *folder, Error *err);
+bool sweep_page_write(HtmlWriter *html, const char *folder, Error *err);
+bool compare_page_write(HtmlWriter *html, const char *const *folders, int32_t count, Error *err);
+
+#endif

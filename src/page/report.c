@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// amontons_report: which page the results want, and the page as a file.
+#include "amontons.h"
+
+#include "base/apart.h"
+#include "page/pages.h"
+#include "page/run_source.h"
+
+enum { SECONDS_MAX = 600 };   // far above what the longest history takes
+
+typedef struct ReportRequest {
+    const char *const *results;   // [count]
+    int32_t count;
+    const char *file;
+} ReportRequest;
+
+static bool write_page(const ReportRequest *request, HtmlWriter *html, Error *err)
+{
+    for (int32_t k = 0; k < request->count; ++k)
+        if (request->count > 1 && folder_holds(request->results[k], "sweep.csv", NULL))
+            FAIL(err, ERROR_INPUT,
+                 "%s is a sweep: only runs are compared; a sweep has its own page",
+                 request->results[k]);
+    if (request->count > 1)
+        compare_page_write(html, request->results, request->count, err);
+    else if (folder_holds(request->results[0], "sweep.csv", NULL))
+        sweep_page_write(html, request->results[0], err);
+    else
+        run_page_write(html, request->results[0], err);
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool write_file(void *context, FILE *reply, Error *err)
+{
+    const ReportRequest *request = context;
+    HtmlWriter *html = html_create(request->file, err);
+    (void)reply;   // the page is a file
+    if (!html) return false;
+    if (write_page(request, html, err)) return html_finish(html, err);
+    html_abandon(html);
+    return false;
+}
+
+// A stranger's history may crash HDF5, or keep it busy for ever.
+bool amontons_report(const char *const *results, int32_t count, const char *file, Error *err)
+{
+    ReportRequest request = {results, count, file};
+    ApartReply reply = {0};
+    ApartWork work = {.path = count > 0 ? results[0] : "",
+                      .reader = "HDF5",
+                      .seconds = SECONDS_MAX,
+                      .advice = "its history is damaged",
+                      .read = write_file,
+                      .context = &request};
+    if (count < 1) FAIL(err, ERROR_INPUT, "a report needs a result folder");
+    TRY(apart_is_wanted() ? apart_read(&work, &reply, err) : write_file(&request, NULL, err));
+cleanup:
+    apart_destroy(&reply);
+    return error_is_clean(err);
+}

@@ -1,0 +1,375 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A sweep on a page, from its tables: figures, ranking, all points, and what failed or warned.
+#include "page/pages.h"
+
+#include "base/memory.h"
+#include "base/module.h"
+#include "base/text.h"
+#include "io/array_file.h"
+#include "io/csv_reader.h"
+#include "io/json_reader.h"
+#include "page/numbers.h"
+#include "page/scene_part.h"
+#include "page/sheet.h"
+#include "render/render.h"
+#include "study/sweep/warned.h"
+
+#include <dirent.h>
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { NAME_SIZE = 300, ROWS_MAX = 500, RANKED_MAX = 30, VALUES_SHOWN = 14, FIGURES_MAX = 20 };
+enum { SENTENCE_SIZE = 8 * RUN_WARNING_SIZE };
+
+static const SheetPart FIGURES = {"figures", "Figures"}, RANKING = {"ranking", "Ranking"},
+                       VARIED = {"varied", "What varies"}, POINTS = {"points", "All points"},
+                       DOUBTS = {"doubts", "Failures and warnings"}, SCENE = {"scene", "A scene"},
+                       AGAIN = {"again", "To reproduce"}, CITE = {"cite", "How to cite"};
+
+typedef struct SweepSource {
+    const char *folder;
+    CsvTable table;   // owned, like all
+    CsvTable ranking;   // no columns: none
+    bool *is_key;   // [table.columns] of the scene
+    bool *varies;   // [table.columns] a key that has several values
+    char title[RUN_TITLE_SIZE];
+    int32_t done, failed;   // of table.rows
+    RunSource run;   // of the first point that is done, or none
+} SweepSource;
+
+static bool varies(const CsvTable *table, int32_t column)
+{
+    for (int32_t row = 1; row < table->rows; ++row)
+        if (strcmp(csv_cell(table, row, column), csv_cell(table, 0, column)) != 0) return true;
+    return false;
+}
+
+// Which columns are keys, and the title, stand in sweep.h5 only.
+static bool read_arrays(SweepSource *sweep, Error *err)
+{
+    char path[PATH_MAX], name[NAME_SIZE];
+    ArrayFile *file = NULL;
+    folder_name(sweep->folder, sweep->title);
+    if (!folder_holds(sweep->folder, "sweep.h5", path)) return true;
+    TRY(file = array_file_open(path, err));
+    Error absent = {0};
+    if (!array_file_get_text(file, "title", name, sizeof name, &absent)) *name = 0;
+    if (*name) snprintf(sweep->title, sizeof sweep->title, "%s", name);
+    for (int32_t k = 0; k < sweep->table.columns; ++k) {
+        snprintf(name, sizeof name, "scene/%.200s", csv_name(&sweep->table, k));
+        sweep->is_key[k] = array_file_has(file, name);
+        sweep->varies[k] = sweep->is_key[k] && varies(&sweep->table, k);
+    }
+cleanup:
+    if (file) array_file_close(file, err);
+    return error_is_clean(err);
+}
+
+static void sweep_close(SweepSource *sweep)
+{
+    csv_destroy(&sweep->table);
+    csv_destroy(&sweep->ranking);
+    memory_free(sweep->is_key);
+    memory_free(sweep->varies);
+    run_source_close(&sweep->run);
+    *sweep = (SweepSource){0};
+}
+
+static bool sweep_open(const char *folder, SweepSource *sweep, Error *err)
+{
+    char path[PATH_MAX];
+    *sweep = (SweepSource){.folder = folder};
+    snprintf(path, sizeof path, "%s/sweep.csv", folder);
+    TRY(csv_read(path, &sweep->table, err));
+    TRY(sweep->is_key = NEW_ARRAY(bool, sweep->table.columns, err));
+    TRY(sweep->varies = NEW_ARRAY(bool, sweep->table.columns, err));
+    TRY(read_arrays(sweep, err));
+    int32_t status = csv_column(&sweep->table, "status"), run = csv_column(&sweep->table, "run");
+    if (status < 0 || run < 0) FAIL(err, ERROR_INPUT, "%s is no table of a sweep", path);
+    for (int32_t row = 0; row < sweep->table.rows; ++row) {
+        const char *word = csv_cell(&sweep->table, row, status);
+        bool done = strcmp(word, "done") == 0;
+        sweep->failed += strcmp(word, "failed") == 0;
+        sweep->done += done;
+        if (!done || sweep->run.json) continue;
+        snprintf(path, sizeof path, "%s/%.200s", folder, csv_cell(&sweep->table, row, run));
+        TRY(run_source_open(path, &sweep->run, err));
+    }
+    if (folder_holds(folder, "ranking.csv", path)) TRY(csv_read(path, &sweep->ranking, err));
+cleanup:
+    if (!error_is_clean(err)) sweep_close(sweep);
+    return error_is_clean(err);
+}
+
+// --- what varies ---------------------------------------------------------------------------------
+
+// The different values of a key, in the order of the table.
+static void write_values(HtmlWriter *html, const CsvTable *table, int32_t column)
+{
+    int32_t shown = 0, different = 0;
+    for (int32_t row = 0; row < table->rows; ++row) {
+        bool seen = false;
+        for (int32_t before = 0; before < row && !seen; ++before)
+            seen = strcmp(csv_cell(table, before, column), csv_cell(table, row, column)) == 0;
+        if (seen) continue;
+        if (++different > VALUES_SHOWN) break;
+        html_markup(html, "%s", shown++ ? ", " : "");
+        html_text(html, csv_cell(table, row, column));
+    }
+    if (different > VALUES_SHOWN) html_markup(html, ", \u2026");
+}
+
+static void write_varied(HtmlWriter *html, const SweepSource *sweep)
+{
+    sheet_part(html, &VARIED);
+    html_markup(html, "<div class='wide'><table><caption>Keys of the scene that differ from point "
+                      "to point</caption><tbody>\n");
+    for (int32_t k = 0; k < sweep->table.columns; ++k) {
+        if (!sweep->varies[k]) continue;
+        html_markup(html, "<tr><th scope='row'>");
+        html_text(html, csv_name(&sweep->table, k));
+        html_markup(html, "</th><td>");
+        write_values(html, &sweep->table, k);
+        html_markup(html, "</td></tr>\n");
+    }
+    html_markup(html, "</tbody></table></div>\n");
+}
+
+// --- figures -------------------------------------------------------------------------------------
+
+static int is_description(const struct dirent *entry)
+{
+    return text_ends_with(entry->d_name, ".json");
+}
+
+static bool write_figures(HtmlWriter *html, const SweepSource *sweep, Error *err)
+{
+    char folder[PATH_MAX], path[2 * PATH_MAX], caption[RUN_NAME_SIZE];
+    struct dirent **entries = NULL;
+    RenderPlotHtmlFunction render =
+        (RenderPlotHtmlFunction)module_function("render", "amontons_render_plot_html", err);
+    snprintf(folder, sizeof folder, "%s/figures", sweep->folder);
+    int count = render ? scandir(folder, &entries, is_description, alphasort) : 0;
+    if (count > 0) sheet_part(html, &FIGURES);
+    for (int k = 0; k < count; ++k) {
+        Error here = {0};
+        bool ranking = strcmp(entries[k]->d_name, "ranking.json") == 0;
+        snprintf(path, sizeof path, "%s/%s", folder, entries[k]->d_name);
+        snprintf(caption, sizeof caption, "%s",
+                 ranking ? "The ranking. Bars: 95 %. Open marks: see the legend."
+                         : "The points of the sweep. Bars: 95 %. Open marks: see the legend.");
+        if (k < FIGURES_MAX && !render(path, caption, html, &here))
+            sheet_box(html, "failure", here.message);
+        free(entries[k]);
+    }
+    if (count >= 0) free(entries);
+    return error_is_clean(err);
+}
+
+// --- tables --------------------------------------------------------------------------------------
+
+// A number with the error in the column after it, where there is one; or a text.
+static void write_cell(HtmlWriter *html, const CsvTable *table, int32_t row, int32_t column)
+{
+    double value = csv_value(table, row, column);
+    char error[NAME_SIZE];
+    snprintf(error, sizeof error, "%.200s_error", csv_name(table, column));
+    int32_t beside = csv_column(table, error);
+    if (isfinite(value) || (beside >= 0 && !*csv_cell(table, row, column))) {
+        html_markup(html, "<td class='number'>");
+        estimate_write(html, value, csv_value(table, row, beside), beside >= 0);
+    } else {
+        html_markup(html, "<td>");
+        html_text(html, csv_cell(table, row, column));
+    }
+    html_markup(html, "</td>");
+}
+
+// Errors stand beside their values; what a run took and how exact it was is for sweep.csv.
+static bool is_shown(const SweepSource *sweep, const CsvTable *table, int32_t column)
+{
+    static const char *const left_out[] = {
+        "steps",        "unsolved",        "solve_s", "total_s",   "energy_error", "contact_error",
+        "moment_error", "reduction_error", "run",     "rank_from", "rank_to",      "message",
+        "warnings",     "spread",          "low",     "high"};
+    const char *name = csv_name(table, column);
+    char value[NAME_SIZE];
+    int32_t key = csv_column(&sweep->table, name);
+    if (key >= 0 && sweep->is_key[key]) return sweep->varies[key];
+    for (size_t k = 0; k < sizeof left_out / sizeof *left_out; ++k)
+        if (strcmp(name, left_out[k]) == 0) return false;
+    snprintf(value, sizeof value, "%s", name);
+    char *end = text_ends_with(name, "_error") ? strstr(value, "_error") : NULL;
+    if (end) *end = 0;
+    return !end || csv_column(table, value) < 0;
+}
+
+static void write_table(HtmlWriter *html, const SweepSource *sweep, const CsvTable *table,
+                        int32_t most, const char *caption)
+{
+    html_markup(html, "<div class='wide'><table><caption>%s</caption><thead><tr>", caption);
+    for (int32_t k = 0; k < table->columns; ++k) {
+        if (!is_shown(sweep, table, k)) continue;
+        html_markup(html, "<th scope='col'>");
+        html_text(html, csv_name(table, k));
+        html_markup(html, "</th>");
+    }
+    html_markup(html, "</tr></thead><tbody>\n");
+    for (int32_t row = 0; row < table->rows && row < most; ++row) {
+        html_markup(html, "<tr>");
+        for (int32_t k = 0; k < table->columns; ++k)
+            if (is_shown(sweep, table, k)) write_cell(html, table, row, k);
+        html_markup(html, "</tr>\n");
+    }
+    html_markup(html, "</tbody></table></div>\n");
+}
+
+static void write_tables(HtmlWriter *html, const SweepSource *sweep)
+{
+    char caption[160];
+    if (sweep->ranking.columns > 0) {
+        int32_t rows = sweep->ranking.rows, shown = rows < RANKED_MAX ? rows : RANKED_MAX;
+        sheet_part(html, &RANKING);
+        snprintf(caption, sizeof caption, "%d of %d points in order; all in ranking.csv", shown,
+                 rows);
+        write_table(html, sweep, &sweep->ranking, RANKED_MAX, caption);
+    }
+    int32_t rows = sweep->table.rows, shown = rows < ROWS_MAX ? rows : ROWS_MAX;
+    sheet_part(html, &POINTS);
+    snprintf(caption, sizeof caption,
+             "%d of %d points, with \u00b1 where an error is known; more columns in sweep.csv",
+             shown, rows);
+    write_table(html, sweep, &sweep->table, ROWS_MAX, caption);
+}
+
+// --- failures and warnings -----------------------------------------------------------------------
+
+// Sentences of one cell have // between them.
+static void add_warnings(Warned *warned, int32_t point, const char *cell)
+{
+    char sentence[SENTENCE_SIZE];
+    while (*cell) {
+        const char *end = strstr(cell, " // ");
+        size_t length = end ? (size_t)(end - cell) : strlen(cell);
+        snprintf(sentence, sizeof sentence, "%.*s",
+                 (int)(length < RUN_WARNING_SIZE ? length : RUN_WARNING_SIZE - 1), cell);
+        warned_add(warned, point, sentence);
+        cell += end ? length + 4 : length;
+    }
+}
+
+static bool write_warnings(HtmlWriter *html, const SweepSource *sweep, Error *err)
+{
+    Warned warned = {0};
+    char *words = NULL;
+    size_t size = 0;
+    FILE *lines = NULL;
+    TRY(warned_make(sweep->table.rows, &warned, err));
+    int32_t column = csv_column(&sweep->table, "warnings");
+    for (int32_t row = 0; row < sweep->table.rows; ++row)
+        add_warnings(&warned, row, csv_cell(&sweep->table, row, column));
+    if (warned.count == 0) goto cleanup;
+    if (!(lines = open_memstream(&words, &size)))
+        FAIL(err, ERROR_MEMORY, "no memory for the warnings");
+    warned_print(&warned, lines);
+    fclose(lines);
+    sheet_box(html, "warning", words);
+cleanup:
+    free(words);
+    warned_destroy(&warned);
+    return error_is_clean(err);
+}
+
+static bool write_doubts(HtmlWriter *html, const SweepSource *sweep, Error *err)
+{
+    const CsvTable *table = &sweep->table;
+    int32_t status = csv_column(table, "status"), message = csv_column(table, "message");
+    sheet_part(html, &DOUBTS);
+    if (sweep->failed > 0) {
+        html_markup(html, "<div class='wide'><table><caption>Points that failed</caption><thead>"
+                          "<tr><th scope='col'>point</th><th scope='col'>why</th></tr></thead>"
+                          "<tbody>\n");
+        for (int32_t row = 0; row < table->rows; ++row) {
+            if (strcmp(csv_cell(table, row, status), "failed") != 0) continue;
+            html_markup(html, "<tr><th scope='row'>%d</th><td>", row);
+            html_text(html, csv_cell(table, row, message));
+            html_markup(html, "</td></tr>\n");
+        }
+        html_markup(html, "</tbody></table></div>\n");
+    } else {
+        html_markup(html, "<p>No point failed.</p>\n");
+    }
+    return write_warnings(html, sweep, err);
+}
+
+// --- the page ------------------------------------------------------------------------------------
+
+static void write_lead(HtmlWriter *html, const SweepSource *sweep)
+{
+    char words[160];
+    int32_t rows = sweep->table.rows, pending = rows - sweep->done - sweep->failed;
+    html_markup(html,
+                "<p class='lead'>%d runs of an elastic block that is pressed on a rigid floor "
+                "and pushed by a rod until it slides",
+                rows);
+    if (sweep->run.json) {
+        html_markup(html, " (");
+        html_text(html, sweep->run.title);
+        html_markup(html, ")");
+    }
+    html_markup(html, ".</p>\n");
+    if (sweep->done == rows) return;
+    snprintf(words, sizeof words, "%d of %d points are done, %d failed, %d are not computed yet",
+             sweep->done, rows, sweep->failed, pending);
+    sheet_box(html, "failure", words);
+}
+
+static bool write_again(HtmlWriter *html, const SweepSource *sweep, Error *err)
+{
+    if (sweep->run.json) {
+        sheet_part(html, &SCENE);
+        html_markup(html, "<p>That of the first point that is done; the others differ in the keys "
+                          "above.</p>\n");
+        scene_summary_write(html, &sweep->run);
+        TRY(scene_text_write(html, &sweep->run, err));
+    }
+    sheet_part(html, &AGAIN);
+    html_markup(html,
+                "<p>The study\u2019s file is not kept with its results. With it, and the same "
+                "version, each point has the same bits again:</p>\n<pre tabindex='0'>amontons "
+                "sweep STUDY.yaml -o again\n</pre>\n<p>The scene of each point stands in its "
+                "points/.../run.json, which sweep.csv names.</p>\n");
+cleanup:
+    return error_is_clean(err);
+}
+
+bool sweep_page_write(HtmlWriter *html, const char *folder, Error *err)
+{
+    SweepSource sweep = {0};
+    SheetPart parts[9] = {VARIED, FIGURES};
+    int32_t count = 2;
+    char version[40] = "";
+    TRY(sweep_open(folder, &sweep, err));
+    if (!folder_holds(folder, "figures", NULL)) --count;
+    if (sweep.ranking.columns > 0) parts[count++] = RANKING;
+    parts[count++] = POINTS;
+    parts[count++] = DOUBTS;
+    if (sweep.run.json) parts[count++] = SCENE;
+    parts[count++] = AGAIN;
+    parts[count++] = CITE;
+    parts[count] = (SheetPart){0};
+    sheet_begin(html, sweep.title, "Report of a sweep, by amontons", parts);
+    write_lead(html, &sweep);
+    write_varied(html, &sweep);
+    TRY(write_figures(html, &sweep, err));
+    write_tables(html, &sweep);
+    TRY(write_doubts(html, &sweep, err));
+    TRY(write_again(html, &sweep, err));
+    if (sweep.run.json) json_find_text(sweep.run.json, "version", version, sizeof version);
+    sheet_end(html, version);
+cleanup:
+    sweep_close(&sweep);
+    return error_is_clean(err);
+}
