@@ -192,8 +192,9 @@ static void draw_below(const Page *page, const Axes *axes)
         Point foot = axes_place(axes, tick_value(&ticks, k) / axes->x.factor, axes->y.low);
         tick_mark(page, axes, foot, true, TICK_LENGTH);
         tick_label(&ticks, k, label);
-        text_draw(page->text, &style, (Point){foot.x, line}, label);
+        if (!axes->bare_x) text_draw(page->text, &style, (Point){foot.x, line}, label);
     }
+    if (axes->bare_x) return;
     line += (axes->number_size * text_digit_height() + LABEL_GAP) * page->point;
     style.across = 1;
     exponent_write(page, &style, (Point){axes->box.right, line}, &ticks);
@@ -213,8 +214,9 @@ static void left_numbers(const Page *page, const Axes *axes, const TextStyle *st
         Point foot = axes_place(axes, axes->x.low, tick_value(&ticks, k) / axes->y.factor);
         tick_mark(page, axes, foot, false, TICK_LENGTH);
         tick_label(&ticks, k, label);
-        text_draw(page->text, style, (Point){edge, foot.y}, label);
+        if (!axes->bare_y) text_draw(page->text, style, (Point){edge, foot.y}, label);
     }
+    if (axes->bare_y) return;
     TextStyle above = *style;
     above.across = above.up = 0;
     exponent_write(page, &above, (Point){axes->box.left, axes->box.top - NUMBER_GAP * page->point},
@@ -227,7 +229,7 @@ static void left_names(const Page *page, const Axes *axes, const TextStyle *styl
     for (int32_t k = 0; k < axes->y.name_count; ++k) {
         Point foot = axes_place(axes, axes->x.low, k + 1);
         tick_mark(page, axes, foot, false, TICK_LENGTH);
-        text_draw(page->text, style, (Point){edge, foot.y}, axes->y.names[k]);
+        if (!axes->bare_y) text_draw(page->text, style, (Point){edge, foot.y}, axes->y.names[k]);
     }
 }
 
@@ -240,7 +242,7 @@ static void draw_left(const Page *page, const Axes *axes)
         left_names(page, axes, &style, edge);
     else
         left_numbers(page, axes, &style, edge);
-    if (!axes->y.label[0]) return;
+    if (!axes->y.label[0] || axes->bare_y) return;
     style =
         (TextStyle){.size = LABEL_SIZE * page->point, .color = INK, .across = 0.5, .rising = true};
     edge -= left_width(page, axes) + LABEL_GAP * page->point;

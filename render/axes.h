@@ -23,6 +23,7 @@ typedef struct Axes {
     Axis x, y;
     double number_size;   // points: numbers at ticks
     Color color;   // of the frame
+    bool bare_x, bare_y;   // ticks without numbers and name: another frame has them
 } Axes;
 
 // Writes "name (unit)" into the label, with the prefix that makes the numbers from low to high

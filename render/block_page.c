@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { LEVELS_WANTED = 6, ARROWS = 9, STATUSES = 4 };
+enum { ARROWS = 9, STATUSES = 4 };
 
 static const double ROOM_LEFT = 15, ROOM_RIGHT = 5;   // points: rod and its arrow; paper
 static const double ROOM_ABOVE = 13, ROOM_BELOW = 10;   // points: load; contact
@@ -17,7 +17,6 @@ static const double CONTACT_GAP = 2.5,
 static const double LOAD_GAP = 1.5, LOAD_LENGTH = 8, LOAD_HEAD = 2;   // points
 static const double OUTLINE_WIDTH = 0.5, CONTOUR_WIDTH = 0.3, EDGE_WIDTH = 0.15;   // points
 static const double LEFT_OUT = 0.005;   // of the nodes at each end of the range
-static const double SLACK = 1e-9;   // of a step: a range that ends at a number is not widened
 static const double TOP_SHARE = 1e-6;   // of the height: what is less below the top is the top
 
 static const Color CONTOUR = {0.08f, 0.08f, 0.10f, 0.55f};
@@ -97,19 +96,14 @@ bool block_page_fit(BlockPage *map, const Block *blocks, int32_t count, BlockQua
     double range[2] = {0, 0}, whole[2] = {0, 0};
     BlockWords words = block_words(quantity);
     TRY(find_range(blocks, count, range, whole, err));
-    if (!(range[1] > range[0])) range[1] = range[0] + fmax(fabs(range[0]), 1) * 1e-3;
     Axis axis = {.low = range[0], .high = range[1], .factor = 1};
     if (map->view->si)
         axis_set_unit(&axis, words.words, words.si);
     else
         snprintf(axis.label, sizeof axis.label, "%s / %s", words.words, words.normalised);
-    double low = range[0] * axis.factor, high = range[1] * axis.factor;
-    double step = ticks_choose(low, high, LEVELS_WANTED).step;
-    if (!(step > 0)) step = high - low;   // a range too small for handy numbers
     map->factor = axis.factor;
-    map->bar = (Colorbar){.low = floor(low / step + SLACK) * step,
-                          .high = ceil(high / step - SLACK) * step,
-                          .label = map->label};
+    map->bar = (Colorbar){.label = map->label};
+    colorbar_fit(&map->bar, (double[]){range[0] * axis.factor, range[1] * axis.factor});
     map->bar.clipped = whole[0] * axis.factor < map->bar.low;
     map->bar.clipped_above = whole[1] * axis.factor > map->bar.high;
     snprintf(map->label, sizeof map->label, "%s", axis.label);

@@ -7,6 +7,7 @@
 
 enum { TICKS_MAX = 6, LABEL_LENGTH = TICK_LABEL_SIZE + 8 };
 
+static const double SLACK = 1e-9;   // of a step: a range that ends at a number is not widened
 static const double BAR_WIDTH = 7;   // points
 static const double TICK_LENGTH = 2.2;   // points
 static const double NUMBER_GAP = 1.6;   // points
@@ -15,6 +16,16 @@ static const double EDGE_GAP = 1.5;   // points
 static const double POWER_GAP = 4.5;   // points: bar to a power of ten above it
 static const double PATCH_GAP = 5;   // points: bar to the neutral patch below it
 static const double PATCH_HEIGHT = 7;   // points
+
+void colorbar_fit(Colorbar *bar, const double range[2])
+{
+    double low = range[0], high = range[1];
+    if (!(high > low)) high = low + fmax(fabs(low), 1) * 1e-3;
+    double step = ticks_choose(low, high, TICKS_MAX).step;
+    if (!(step > 0)) step = high - low;   // a range too small for handy numbers
+    bar->low = floor(low / step + SLACK) * step;
+    bar->high = ceil(high / step - SLACK) * step;
+}
 
 // Whole powers of ten, or a linear scale's ticks.
 Ticks colorbar_ticks(const Colorbar *bar)

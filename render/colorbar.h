@@ -17,6 +17,8 @@ typedef struct Colorbar {
     Color neutral_color;
 } Colorbar;
 
+// Ends at handy numbers around `range`, which may be empty.
+void colorbar_fit(Colorbar *bar, const double range[2]);
 Ticks colorbar_ticks(const Colorbar *bar);
 
 // Points to the right of the bar's left edge that it takes.

@@ -3,7 +3,7 @@
 #ifndef AMONTONS_RENDER_FIGURE_CURVES_H
 #define AMONTONS_RENDER_FIGURE_CURVES_H
 
-#include "render/plot_file.h"
+#include "render/plot.h"
 
 bool figure_curves(const Page *page, const Plot *plot, Error *err);
 

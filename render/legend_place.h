@@ -4,7 +4,7 @@
 #ifndef AMONTONS_RENDER_LEGEND_PLACE_H
 #define AMONTONS_RENDER_LEGEND_PLACE_H
 
-#include "render/plot_file.h"
+#include "render/plot.h"
 
 typedef struct LegendSize {
     double width, height;   // of samples and words, pixels

@@ -43,6 +43,11 @@ bool amontons_render_result(const char *folder, const PictureRequest *request, E
 bool amontons_render_plot_file(const char *plot, const char *picture, const PictureStyle *style,
                                Error *err);
 
+// Draws pictures of the sweep in `folder` into folder/figures: the one that `plot` describes in the
+// words of a study's `plot`, as in "{x: load.pressure, y: mu_M}"; NULL: those of its study again.
+bool amontons_render_sweep(const char *folder, const char *plot, const PictureStyle *style,
+                           Error *err);
+
 // Writes one page about results (count folders) into `file`, an .html that needs nothing else: of a
 // run, of a sweep, or of several runs side by side.
 bool amontons_report(const char *const *results, int32_t count, const char *file, Error *err);

@@ -11,12 +11,12 @@ simulation; errors are AmontonsError and what is derived from it. docs/python.md
 from ._library import AmontonsError, ComputeError, FileError, InputError, LibraryError
 from ._structs import NODE_OPEN, NODE_SLIPS, NODE_STICKS, NODE_WEAKENS
 from .commands import (cache, clean_cache, data_folder, info, keys, model1d, open_result, read_table, render,
-                       render_plot, run, stability, static, sweep, version)
+                       render_plot, render_sweep, run, stability, static, sweep, version)
 from .results import Answer, Field, History, Result
 from .simulation import Simulation
 
 __version__ = version()
 __all__ = ["AmontonsError", "Answer", "ComputeError", "Field", "FileError", "History", "InputError", "LibraryError",
            "NODE_OPEN", "NODE_SLIPS", "NODE_STICKS", "NODE_WEAKENS", "Result", "Simulation", "cache", "clean_cache",
-           "data_folder", "info", "keys", "model1d", "open_result", "read_table", "render", "render_plot", "run", "stability", "static",
+           "data_folder", "info", "keys", "model1d", "open_result", "read_table", "render", "render_plot", "render_sweep", "run", "stability", "static",
            "sweep", "version"]

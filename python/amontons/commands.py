@@ -200,6 +200,13 @@ def render_plot(plot: Any, picture: Any, **style: Any) -> None:
     call(lib.amontons_render_plot_file, str(plot).encode(), str(picture).encode(), ctypes.byref(given))
 
 
+def render_sweep(folder: Any, plot: str | None = None, **style: Any) -> None:
+    """Draws pictures of a stored sweep: what `plot` describes in the words of a study's `plot`, as in
+    "{x: load.pressure, y: mu_M}", or without it those of its study again: `amontons render SWEEP`. style: as for render."""
+    given = _picture_style(style)
+    call(lib.amontons_render_sweep, str(folder).encode(), None if plot is None else plot.encode(), ctypes.byref(given))
+
+
 def info(path: Any, settings: Settings | None = None, picture: Any = None) -> str:
     """What a mesh (.msh, .geo), a scene or a result folder holds, in words: `amontons info`. picture: a PNG of the mesh
     and the rod to be drawn."""

@@ -6,25 +6,30 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { PATH_SIZE = 1200, WIDTH_MAX = 1000, DPI_MAX = 2400 };   // mm; dots per inch
 
 static const CommandText text = {
     .name = "render",
-    .argument = "RESULT\nPLOT.yaml",
+    .argument = "RESULT\nSWEEP\nPLOT.yaml",
     .what = "result folder",
     .example = "amontons render fig1-result",
     .help =
         "Draws the pictures of the result folder RESULT again, from its stored history; "
         "nothing is computed. They are written to RESULT/figures/NAME.png. With a file "
-        "PLOT.yaml or PLOT.json that describes curves: draws them into PLOT.png. A sweep "
-        "leaves such files; render/plot_file.h explains their keys."
+        "PLOT.yaml or PLOT.json that describes curves or maps: draws them into PLOT.png. A sweep "
+        "leaves such files; render/plot_file.h explains their keys. Of the folder SWEEP that a "
+        "sweep left: draws what its study asks for again, or with --plot anything that its table "
+        "holds, in the words of a study's `plot`."
         "\vWithout --figure all pictures are drawn. In PDF and SVG lines and letters stay sharp "
         "at any size, and fonts come along. Letters are 7.5 points high in print, whatever the "
         "width. Examples:\n\n"
         "  amontons render fig1-result --figure force --format pdf\n"
         "  amontons render fig1-result --figure slip-map --width 178 --dpi 300\n"
-        "  amontons render fig1-result --figure field --of stress_xz --at U=0.0117"};
+        "  amontons render fig1-result --figure field --of stress_xz --at U=0.0117\n"
+        "  amontons render phase-sweep --plot '{x: load.pressure, y: mesh.set.length, color: "
+        "mu_M}'"};
 
 // JSON is YAML: the descriptions that a sweep leaves are .json.
 static bool is_plot(const char *name)
@@ -46,6 +51,21 @@ static int draw_plot(const char *plot, const PictureStyle *style)
     return 0;
 }
 
+static bool is_sweep(const char *folder)
+{
+    char path[PATH_SIZE];
+    return snprintf(path, sizeof path, "%s/sweep.h5", folder) < (int)sizeof path &&
+           access(path, R_OK) == 0;
+}
+
+static int draw_sweep(const char *folder, const char *plot, const PictureStyle *style)
+{
+    Error err = {0};
+    if (!amontons_render_sweep(folder, plot, style, &err)) return report_error(&err);
+    printf("pictures drawn: %s/figures\n", folder);
+    return 0;
+}
+
 // Of --width and --dpi, whole numbers.
 static int read_size(const char *width, const char *dpi, PictureStyle *style)
 {
@@ -60,7 +80,7 @@ static int read_size(const char *width, const char *dpi, PictureStyle *style)
 // The module that draws them checks the figures: it knows which there are.
 int command_render(int argc, char **argv)
 {
-    const char *from = NULL, *width = NULL, *dpi = NULL;
+    const char *from = NULL, *width = NULL, *dpi = NULL, *plot = NULL;
     OptionWords figures = {0};
     PictureRequest request = {.style = {.format = "png"}};
     Error err = {0};
@@ -74,6 +94,8 @@ int command_render(int argc, char **argv)
         {"format", 0, "png|pdf|svg", "Of the files; png by default", .word = &request.style.format},
         {"width", 0, "MM", "Of the page in print; 86 by default, a column", .word = &width},
         {"dpi", 0, "N", "Dots per inch, of a PNG and of maps; 508 by default", .word = &dpi},
+        {"plot", 0, "PLOT", "Of a sweep: draw this, as in '{x: load.pressure, y: mu_M}'",
+         .word = &plot},
         {"of", 0, "FIELD",
          "What `field` shows: von_mises (default), stress_xx, stress_zz, "
          "stress_xz, pressure, velocity, displacement, strain_energy or "
@@ -87,8 +109,11 @@ int command_render(int argc, char **argv)
     int status = options_read(&text, options, argc, argv, &from);
     if (status == 0) status = read_size(width, dpi, &request.style);
     if (status != 0) return status;
+    if (figures.count && (is_plot(from) || is_sweep(from)))
+        return report_misuse("--figure has no meaning for a plot or a sweep");
+    if (is_sweep(from)) return draw_sweep(from, plot, &request.style);
+    if (plot) return report_misuse("--plot has a meaning for the folder of a sweep alone");
     if (is_plot(from)) {
-        if (figures.count) return report_misuse("--figure has no meaning for a plot");
         return draw_plot(from, &request.style);
     }
     request.figures = figures.list;

@@ -284,6 +284,39 @@ class Sweep(unittest.TestCase):
         done = self.sweep(study=self.study(STUDY + "rank: {by: mu_M, against: {load.pressure: 7}}\n"), status=2)
         self.assertRegex(done.stderr, r":9:\d+: against: no point of the study has these values")
 
+    def test_maps(self):
+        """A map, its panels, formulas and sweeps side by side hold the table's numbers; others are drawn afterwards."""
+        text = HEAD + "vary: {mesh.set.length: [1, 2], load.pressure: [0.003, 0.006], rod.kind: [push, bonded]}\n"
+        self.sweep(study=self.study(text + "plot:\n"
+                   "  - {x: load.pressure, y: mesh.set.length, color: mu_M, contours: l_c, panels: rod.kind}\n"
+                   "  - {x: = load.pressure * mesh.set.length, y: mu_M, panels: mesh.set.length, with: out, name: both}\n"))
+        rows, figures = self.table(), self.folder / "out/figures"
+        plot = json.loads((figures / "map.json").read_text())
+        self.assertEqual([panel["title"] for panel in plot["panels"]], ["kind = push", "kind = bonded"])
+        for panel, kind in zip(plot["panels"], ("push", "bonded")):
+            mine = [row for row in rows if row["rod.kind"] == kind]
+            for name, column in ("x", "load.pressure"), ("y", "mesh.set.length"), ("value", "mu_M"), ("contour", "l_c"):
+                self.assertEqual(panel["map"][name], [float(row[column]) for row in mine])
+            self.assertEqual(panel["map"]["open"], [float(bool(row["warnings"])) for row in mine])
+        plot = json.loads((figures / "both.json").read_text())
+        for panel, length in zip(plot["panels"], (1, 2)):
+            self.assertEqual({x / length for s in panel["series"] for x in s["x"]}, {0.003, 0.006})
+            self.assertEqual({s["marker"] for s in panel["series"]}, {"circle", "square"})   # the sweep, and itself beside it
+        for name in ("map", "both"):
+            self.assertGreater((figures / f"{name}.png").stat().st_size, 10000)
+        self.assertEqual(self.call("render", self.folder / "out", "--format", "svg").returncode, 0)
+        self.assertIn("<svg", (figures / "map.svg").read_text())
+        draw = ("render", self.folder / "out", "--plot")
+        self.assertEqual(self.call(*draw, "{x: mu_M, y: = 2 * l_c, name: later}").returncode, 0)
+        drawn = json.loads((figures / "later.json").read_text())["series"][0]
+        self.assertEqual(sorted(drawn["y"]), sorted(2 * float(row["l_c"]) for row in rows))
+        for words, said in ("{x: mu_M, y: load.presure}", "did you mean `load.pressure`"), \
+                           ("{x: load.pressure, y: mesh.set.length, color: mu_M}", "name the key in which they differ"), \
+                           ("{x: mu_M}", "`y` must be given"), ("{x: mu_M, y: = l_c +}", "the formula ends"), \
+                           ("{x: mu_M, y: l_c, with: /nowhere}", "no sweep.h5 in it"):
+            done = self.call(*draw, words)
+            self.assertEqual((done.returncode, said in done.stderr), (2, True), done.stderr)
+
     def test_errors_beside_results(self):
         """Whatever run.json calls X_error is the error of X: a column in both tables, bars in the picture."""
         study = self.study(STUDY + "plot: {x: load.pressure, y: mu_M, series: rod.kind}\n"

@@ -3,173 +3,155 @@
 
 #include "base/memory.h"
 #include "io/folder.h"
-#include "scene/keys.h"
-#include "study/sweep/study_point.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
-// --- words --------------------------------------------------------------------------------------
+enum { TEXT_NUMBERS_MAX = 8000, NAME_SIZE = 24, DOUBTS_SHOWN = 2, LABEL_SIZE = 96 };
 
-const char *figure_last_word(const char *key)
+static bool figure_path(const Figure *figure, const char *ending, char path[AMONTONS_PATH_SIZE],
+                        Error *err)
 {
-    const char *dot = strrchr(key, '.');
-    return dot ? dot + 1 : key;
-}
-
-FigureLabel figure_record_label(const StudyRecord *record)
-{
-    FigureLabel label = {0};
-    static const struct {
-        const char *path, *label;
-    } known[] = {
-        {"results.mu_M", "~{\u03bc}_{M}"},
-        {"results.mu_max", "largest ~{\u03bc}"},
-        {"results.mu_hold", "~{\u03bc}_{hold}"},
-        {"results.peaks.0.mu", "first peak of ~{\u03bc}"},
-        {"results.l_c_over_L", "~{l}_{c} / ~{L}"},
-        {"results.l_sc_over_L", "~{l}_{sc} / ~{L}"},
-    };
-    snprintf(label.words, FIGURE_LABEL_SIZE, "%.80s", record->name);
-    for (size_t k = 0; k < sizeof known / sizeof known[0]; k++)
-        if (strcmp(record->path, known[k].path) == 0)
-            snprintf(label.words, FIGURE_LABEL_SIZE, "%s", known[k].label);
-    return label;
-}
-
-FigureLabel figure_key_label(const char *name, const Scene *scene)
-{
-    FigureLabel label = {0};
-    static const struct {
-        const char *dimension, *si, *normalised;
-    } units[] = {{"length", "m", "~{L}_{0}"},
-                 {"time", "s", "~{t}_{0}"},
-                 {"velocity", "m/s", "(~{L}_{0} / ~{t}_{0})"},
-                 {"stress", "Pa", "~{E}"},
-                 {"density", "kg/m^{3}", NULL},
-                 {"viscosity", "Pa s", NULL}};
-    int32_t count = 0, index = scene_key_index(name);
-    const SceneKey *keys = scene_keys(&count);
-    snprintf(label.words, FIGURE_LABEL_SIZE, "%.60s", figure_last_word(name));
-    if (index < 0 || keys[index].type != KEY_NUMBER) return label;
-    for (size_t k = 0; k < sizeof units / sizeof units[0]; k++) {
-        if (strcmp(keys[index].unit, units[k].dimension) != 0) continue;
-        if (scene->units == UNITS_SI)
-            label.unit = units[k].si;
-        else if (units[k].normalised)
-            snprintf(label.words, FIGURE_LABEL_SIZE, "%.60s / %s", figure_last_word(name),
-                     units[k].normalised);
-    }
-    return label;
-}
-
-// --- the description ----------------------------------------------------------------------------
-
-static void figure_path(const Figure *figure, const char *ending, char path[POINT_PATH_SIZE])
-{
-    snprintf(path, POINT_PATH_SIZE, "%s/figures/%s.%s", figure->sweep->folder, figure->name,
-             ending);
+    if (snprintf(path, AMONTONS_PATH_SIZE, "%s/figures/%s.%s", figure->folder, figure->name,
+                 ending) >= AMONTONS_PATH_SIZE)
+        FAIL(err, ERROR_INPUT, "the path of the sweep's folder is too long");
+cleanup:
+    return error_is_clean(err);
 }
 
 bool figure_begin(Figure *figure, Error *err)
 {
-    char path[POINT_PATH_SIZE];
-    snprintf(path, sizeof path, "%s/figures", figure->sweep->folder);
+    char path[AMONTONS_PATH_SIZE];
+    if (snprintf(path, sizeof path, "%s/figures", figure->folder) >= (int)sizeof path)
+        FAIL(err, ERROR_INPUT, "the path of the sweep's folder is too long");
     TRY(folder_make(path, err));
-    TRY((figure->scene = NEW_ARRAY(Scene, 1, err)));
-    TRY(point_scene(figure->sweep, 0, figure->scene, err));
-    figure_path(figure, "json", path);
+    TRY(figure_path(figure, "json", path, err));
     TRY((figure->json = json_create(path, err)));
     json_begin_object(figure->json, NULL);
-    json_text(figure->json, "title", figure->sweep->study.title);
+    json_text(figure->json, "title", figure->title);
 cleanup:
     return error_is_clean(err);
 }
 
 bool figure_end(Figure *figure, Error *err)
 {
-    char path[POINT_PATH_SIZE], png[POINT_PATH_SIZE];
-    JsonWriter *json = figure->json;
-    memory_free(figure->scene);
-    figure_path(figure, "json", path);
-    figure_path(figure, "png", png);
+    char path[AMONTONS_PATH_SIZE], picture[AMONTONS_PATH_SIZE];
+    const char *ending = figure->style && figure->style->format ? figure->style->format : "png";
     if (!error_is_clean(err)) {
-        json_abandon(json);
+        json_abandon(figure->json);
+        array_file_abandon(figure->arrays);
         return false;
     }
-    json_end(json);
-    if (json_finish(json, err)) amontons_render_plot_file(path, png, NULL, err);
+    json_end(figure->json);
+    ArrayFile *arrays = figure->arrays;
+    figure->arrays = NULL;
+    TRY(json_finish(figure->json, err) & array_file_close(arrays, err));
+    TRY(figure_path(figure, "json", path, err));
+    TRY(figure_path(figure, ending, picture, err));
+    TRY(amontons_render_plot_file(path, picture, figure->style, err));
+cleanup:
     return error_is_clean(err);
 }
 
-static void write_numbers(JsonWriter *json, const char *key, const double *values, int32_t count)
+// A long array becomes a column of figures/NAME.h5, and the text says which.
+static bool store_numbers(Figure *figure, const char *key, const double *values, int32_t count,
+                          Error *err)
 {
-    json_begin_list(json, key);
-    for (int32_t k = 0; k < count; k++) json_number(json, NULL, values[k]);
-    json_end(json);
+    char path[AMONTONS_PATH_SIZE], name[NAME_SIZE], place[AMONTONS_PATH_SIZE];
+    ArraySeries series = {.name = name,
+                          .type = ARRAY_FLOAT64,
+                          .width = 1,
+                          .unit = "of the scene",
+                          .description = "drawn by the file of the same name"};
+    snprintf(name, sizeof name, "%.12s_%d", key, figure->stored++);
+    if (!figure->arrays) {
+        TRY(figure_path(figure, "h5", path, err));
+        TRY(figure->arrays = array_file_create(path, err));
+    }
+    TRY(array_file_add_series(figure->arrays, &series, err));
+    TRY(array_file_append(figure->arrays, name, values, count, err));
+    snprintf(place, sizeof place, "%.200s.h5:%s", figure->name, name);
+    json_text(figure->json, key, place);
+cleanup:
+    return error_is_clean(err);
 }
 
-void figure_write_axis(Figure *figure, const char *name, const FigureLabel *label, bool is_log)
+bool figure_write_numbers(Figure *figure, const char *key, const double *values, int32_t count,
+                          Error *err)
+{
+    if (figure->written + count > TEXT_NUMBERS_MAX)
+        return store_numbers(figure, key, values, count, err);
+    figure->written += count;
+    json_begin_list(figure->json, key);
+    for (int32_t k = 0; k < count; k++) json_number(figure->json, NULL, values[k]);
+    json_end(figure->json);
+    return true;
+}
+
+void figure_write_axis(Figure *figure, const char *name, const QuantityLabel *label,
+                       const char *scale)
 {
     json_begin_object(figure->json, name);
     json_text(figure->json, "label", label->words);
     if (label->unit) json_text(figure->json, "unit", label->unit);
-    json_text(figure->json, "scale", is_log ? "log" : "linear");
+    if (scale) json_text(figure->json, "scale", scale);
     json_end(figure->json);
 }
 
-// Of error bars: `low` or `high`.
-static void write_bars(JsonWriter *json, const Curve *curve, const char *key, double sign)
+// Both ends of error bars.
+static bool write_bars(Figure *figure, const Curve *curve, Error *err)
 {
     const double *value = curve->lying ? curve->x : curve->y;
-    json_begin_list(json, key);
-    for (int32_t k = 0; k < curve->count; k++)
-        json_number(json, NULL, value[k] + sign * curve->error[k]);
-    json_end(json);
+    double *ends = NEW_ARRAY(double, curve->count, err);
+    TRY(ends);
+    for (int32_t k = 0; k < curve->count; k++) ends[k] = value[k] - curve->error[k];
+    TRY(figure_write_numbers(figure, "low", ends, curve->count, err));
+    for (int32_t k = 0; k < curve->count; k++) ends[k] = value[k] + curve->error[k];
+    TRY(figure_write_numbers(figure, "high", ends, curve->count, err));
+cleanup:
+    memory_free(ends);
+    return error_is_clean(err);
 }
 
-void figure_write_curve(JsonWriter *json, const Curve *curve)
+bool figure_write_curve(Figure *figure, const Curve *curve, Error *err)
 {
+    JsonWriter *json = figure->json;
     json_begin_object(json, NULL);
     json_text(json, "label", curve->label);
-    write_numbers(json, "x", curve->x, curve->count);
-    write_numbers(json, "y", curve->y, curve->count);
-    if (curve->error) write_bars(json, curve, "low", -1);
-    if (curve->error) write_bars(json, curve, "high", 1);
+    TRY(figure_write_numbers(figure, "x", curve->x, curve->count, err));
+    TRY(figure_write_numbers(figure, "y", curve->y, curve->count, err));
+    if (curve->error) TRY(write_bars(figure, curve, err));
     json_integer(json, "color", curve->color);
-    json_text(json, "marker", curve->marked ? "circle" : "none");
+    json_text(json, "marker", curve->marker ? curve->marker : "none");
     json_boolean(json, "filled", curve->filled);
     json_text(json, "line", curve->line);
     json_end(json);
+cleanup:
+    return error_is_clean(err);
 }
 
-// --- doubts -------------------------------------------------------------------------------------
-
-static const uint32_t ERROR_NOT_KNOWN = (uint32_t)1 << WARNED_KINDS_MAX;
-
-uint32_t figure_doubts(const SweepTable *table, int32_t point, bool has_error, double error)
+bool figure_write_entry(Figure *figure, const Curve *curve, Error *err)
 {
-    return table->warned.of[point] | (has_error && isnan(error) ? ERROR_NOT_KNOWN : 0);
+    static const double nowhere = NAN;
+    Curve entry = *curve;
+    entry.count = 1;
+    entry.x = entry.y = &nowhere;
+    entry.error = NULL;
+    return figure_write_curve(figure, &entry, err);
 }
 
-void figure_write_doubts(Figure *figure, const Warned *warned, uint32_t doubts)
+bool figure_write_doubts(Figure *figure, const WordList *names, uint32_t doubts, Error *err)
 {
-    const double nowhere = NAN;
-    char names[2][WARNED_NAME_SIZE] = {"", ""}, label[2 * WARNED_NAME_SIZE];
-    int32_t count = 0;
-    for (int32_t k = 0; k <= WARNED_KINDS_MAX; k++) {
-        char name[WARNED_NAME_SIZE] = "error not known";
+    int32_t all = __builtin_popcount(doubts), shown = 0;
+    for (int32_t k = 0; k < names->count && shown < DOUBTS_SHOWN; k++) {
+        char label[LABEL_SIZE];
         if (!(doubts >> k & 1)) continue;
-        if (k < WARNED_KINDS_MAX) warned_name(warned, k, name);
-        if (strcmp(name, names[0]) == 0 || strcmp(name, names[1]) == 0) continue;
-        if (count < 2) memcpy(names[count], name, sizeof name);
-        count++;
+        bool has_more = ++shown == DOUBTS_SHOWN && all > DOUBTS_SHOWN;
+        snprintf(label, sizeof label, "open: %.70s%s", names->words[k], has_more ? ", others" : "");
+        Curve entry = {.label = label, .line = "none", .marker = "circle"};
+        TRY(figure_write_entry(figure, &entry, err));
     }
-    for (int32_t k = 0; k < count && k < 2; k++) {
-        snprintf(label, sizeof label, "open: %.47s%s", names[k],
-                 k == 1 && count > 2 ? ", others" : "");
-        Curve marks = {.label = label, .line = "none", .count = 1, .marked = true};
-        marks.x = marks.y = &nowhere;
-        figure_write_curve(figure->json, &marks);
-    }
+cleanup:
+    return error_is_clean(err);
 }

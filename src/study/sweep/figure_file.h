@@ -1,55 +1,49 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A figure of a sweep: first a description in render/plot_file's format, figures/NAME.json, which a
-// user may edit and draw again (`amontons render`); the module `render` makes the picture. Called
-// by figures.
+// user may edit and draw again (`amontons render`); the module `render` makes the picture. Arrays
+// too long for a text stand beside it in figures/NAME.h5. Called by figures and figure_plot.
 #ifndef AMONTONS_STUDY_SWEEP_FIGURE_FILE_H
 #define AMONTONS_STUDY_SWEEP_FIGURE_FILE_H
 
+#include "amontons.h"
+#include "io/array_file.h"
 #include "io/json_writer.h"
-#include "study/sweep/table.h"
-
-enum { FIGURE_LABEL_SIZE = 90 };
+#include "study/sweep/quantity_label.h"
+#include "study/sweep/words.h"
 
 typedef struct Figure {
-    const Sweep *sweep;
-    const char *name;   // "ranking"
+    const char *folder, *name, *title;   // of the sweep; "ranking"; of the study
+    const PictureStyle *style;   // NULL: the usual one
     JsonWriter *json;
-    Scene *scene;   // of one point; owned
+    ArrayFile *arrays;   // owned; NULL: all stands in the text
+    int32_t written, stored;   // numbers in the text; arrays in the file
 } Figure;
 
 // Points to draw: [count] each. NaN in `error` draws no bar, NaN in `y` no point.
 typedef struct Curve {
     const char *label, *line;
+    const char *marker;   // NULL: none
     int32_t color, count;
-    bool marked, filled;
+    bool filled;
     const double *x, *y;
     const double *error;   // of the value: y, or x where the y axis has names; NULL: no bars
     bool lying;   // the value is x
 } Curve;
 
-// Opens figures/NAME.json, and takes the first point's scene for its units.
+// Opens figures/NAME.json; folder, name and title are given.
 bool figure_begin(Figure *figure, Error *err);
 // The description on disk, then its picture. Called once, also after a failure.
 bool figure_end(Figure *figure, Error *err);
-typedef struct FigureLabel {
-    char words[FIGURE_LABEL_SIZE];
-    const char *unit;   // of SI, to be written with the prefix that suits; NULL: none
-} FigureLabel;
-// Its ends fit the data.
-void figure_write_axis(Figure *figure, const char *name, const FigureLabel *label, bool is_log);
-void figure_write_curve(JsonWriter *json, const Curve *curve);
-
-// Why the marks of a point are open: a bit for each kind of its warnings, and one more where its
-// error should be known and is not. 0: they are not.
-uint32_t figure_doubts(const SweepTable *table, int32_t point, bool has_error, double error);
-// Curves without a point, which name doubts about open marks in the legend: as many as the format
-// has room for beside 15 curves of two.
-void figure_write_doubts(Figure *figure, const Warned *warned, uint32_t doubts);
-
-const char *figure_last_word(const char *key);   // "length" of mesh.set.length
-// The paper's symbol where there is one, with render/text's marks.
-FigureLabel figure_record_label(const StudyRecord *record);
-// "pressure" and "Pa", or "pressure / E" in normalised units.
-FigureLabel figure_key_label(const char *name, const Scene *scene);
+// Its ends fit the data. scale: "linear", "log", or NULL: it has none.
+void figure_write_axis(Figure *figure, const char *name, const QuantityLabel *label,
+                       const char *scale);
+bool figure_write_numbers(Figure *figure, const char *key, const double *values, int32_t count,
+                          Error *err);
+bool figure_write_curve(Figure *figure, const Curve *curve, Error *err);
+// A curve without a point: its words and its sample stand in the legend.
+bool figure_write_entry(Figure *figure, const Curve *curve, Error *err);
+// Entries that name doubts about open marks: at most two, as the format has room for beside 15
+// curves of two. Bit k of `doubts`: of the k-th of `names`.
+bool figure_write_doubts(Figure *figure, const WordList *names, uint32_t doubts, Error *err);
 
 #endif

@@ -11,7 +11,7 @@
 //       load.pressure: {log: [1e-4, 1e-2], points: 7}
 //     record: [mu_M, period, results.mu_max]
 //     rank: {by: mu_M, order: highest, top: 10, against: {rod.kind: push}, refine: 0.5%}
-//     plot: {x: load.pressure, y: mu_M, series: mesh.set.length, log: x}
+//     plot: {x: load.pressure, y: mu_M, series: mesh.set.length, log: x}   # or a list of plots
 //
 // A value that begins with `=` is a formula (study/sweep/formula) over the numbers of the scene;
 // formulas are worked out last, in the order of the file. Later ones win: the base scene, what
@@ -22,9 +22,9 @@
 
 #include "io/yaml_document.h"
 #include "scene/scene.h"
+#include "study/sweep/plot_words.h"
 
 enum {
-    STUDY_NAME_SIZE = 96,
     STUDY_AXES_MAX = 16,
     STUDY_COLUMNS_MAX = 64,
     STUDY_RECORDS_MAX = 64,
@@ -32,6 +32,7 @@ enum {
     STUDY_FORMULAS_MAX = 32,
     STUDY_RANGE_MAX = 10000,   // points of a range
     STUDY_POINTS_MAX = 100000,
+    STUDY_PLOTS_MAX = 8,
 };
 
 // A sweep wants numbers: nothing is kept of a point but run.json, and it ends when it is periodic.
@@ -41,8 +42,9 @@ enum {
 typedef struct StudyRecord {
     char name[STUDY_NAME_SIZE];   // of the column
     char path[STUDY_NAME_SIZE];   // in run.json
-    const char *given_by;   // "record", "by", "x", "y"; static storage
+    const char *given_by;   // "record", "by", "x", "y", ...; static storage
     YamlNode node;   // where the study names it; YAML_NO_NODE: nowhere
+    bool is_shown;   // ranked by or drawn
 } StudyRecord;
 
 typedef struct StudyAxis {
@@ -64,18 +66,6 @@ typedef struct StudyRank {
     double refine;   // smallest accuracy.mu that points without a decided rank may get; 0: none
 } StudyRank;
 
-typedef struct StudyAxisData {
-    bool is_record;   // of `records`; else of `columns`
-    int32_t index;
-} StudyAxisData;
-
-typedef struct StudyPlot {
-    bool wanted;
-    StudyAxisData x, y;
-    int32_t series;   // of `columns`: a curve for each of its values; -1: one curve
-    bool log_x, log_y;
-} StudyPlot;
-
 typedef struct Study {
     char path[SCENE_TEXT_SIZE], title[SCENE_TEXT_SIZE];
     char scene[SCENE_TEXT_SIZE];   // path of the base scene
@@ -96,7 +86,8 @@ typedef struct Study {
     StudyRecord records[STUDY_RECORDS_MAX];
     int32_t point_count;
     StudyRank rank;
-    StudyPlot plot;
+    int32_t plot_count;
+    StudyPlot plots[STUDY_PLOTS_MAX];
 } Study;
 
 void study_destroy(Study *study);   // also of one half read

@@ -2,9 +2,11 @@
 // What is ranked by or drawn becomes a column of the table where it is none yet.
 #include "study/sweep/study_wanted.h"
 
+#include "base/formula.h"
 #include "base/text.h"
 #include "scene/keys.h"
 #include "study/sweep/study_records.h"
+#include "study/sweep/wanted_keys.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -24,6 +26,11 @@ static const struct {
 enum { KNOWN_RECORD_COUNT = sizeof KNOWN_RECORDS / sizeof KNOWN_RECORDS[0] };
 
 // --- what is recorded ---------------------------------------------------------------------------
+
+typedef struct WantedName {
+    const char *name, *what;   // the key it stands under
+    YamlNode node;
+} WantedName;
 
 static void add_record(Study *study, const char *name, const char *path, const char *given_by,
                        YamlNode node)
@@ -63,11 +70,12 @@ static const char *new_name(const char *name)
     return NULL;
 }
 
-// The column of what `node` names, under the key `what` (static storage): a name of STUDY_RECORDS
-// or a path in run.json. What no column holds yet gets one.
-static bool read_record(Study *study, YamlNode node, const char *what, int32_t *column, Error *err)
+// The column of `name`, which stands at `node` under the key `what` (static storage): a name of
+// STUDY_RECORDS or a path in run.json. What no column holds yet gets one.
+static bool find_record(Study *study, const WantedName *wanted, int32_t *column, Error *err)
 {
-    const char *name = yaml_text(study->file, node), *names[KNOWN_RECORD_COUNT];
+    const char *name = wanted->name, *what = wanted->what, *names[KNOWN_RECORD_COUNT];
+    YamlNode node = wanted->node;
     const char *path = strchr(name, '.') && strlen(name) < STUDY_NAME_SIZE ? name : NULL;
     for (*column = 0; *column < study->record_count; ++*column)
         if (strcmp(name, study->records[*column].name) == 0) return true;
@@ -100,6 +108,12 @@ static bool read_record(Study *study, YamlNode node, const char *what, int32_t *
     return false;
 }
 
+static bool read_record(Study *study, YamlNode node, const char *what, int32_t *column, Error *err)
+{
+    WantedName wanted = {yaml_text(study->file, node), what, node};
+    return find_record(study, &wanted, column, err);
+}
+
 // Without `record`, the standard columns of STUDY_RECORDS.
 static bool read_records(Study *study, Error *err)
 {
@@ -121,58 +135,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// --- maps of few keys ---------------------------------------------------------------------------
-
-typedef struct WantedKey {
-    const char *name;   // "by"
-    YamlNode node;   // found under it; YAML_NO_NODE: not given
-} WantedKey;
-
-// Finds `keys` ([count]) in the map `what` of the study; refuses every other key.
-static bool find_keys(const Study *study, const char *what, WantedKey *keys, int32_t count,
-                      Error *err)
-{
-    YamlNode map = yaml_look_up(study->file, what);
-    char allowed[100] = "";
-    for (int32_t k = 0; k < count; k++) {
-        size_t used = strlen(allowed);
-        snprintf(allowed + used, sizeof allowed - used, "%s%s", k ? ", " : "", keys[k].name);
-        keys[k].node = YAML_NO_NODE;
-    }
-    if (yaml_kind(study->file, map) != YAML_MAP)
-        return yaml_refuse(study->file, map, what, "a map, as in {by: mu_M}, {x: load.pressure}",
-                           err);
-    for (YamlNode item = yaml_first(study->file, map); item != YAML_NO_NODE;
-         item = yaml_next(study->file, item)) {
-        int32_t k = 0;
-        while (k < count && strcmp(yaml_key(study->file, item), keys[k].name) != 0) k++;
-        if (k == count) {
-            yaml_key_error(study->file, item, err, "%s: unknown key `%.60s`; allowed: %s", what,
-                           yaml_key(study->file, item), allowed);
-            return false;
-        }
-        keys[k].node = item;
-    }
-    return true;
-}
-
-// The index in `words` ([count]) of the text at `key`, which may be missing: 0 then.
-static bool read_choice(const Study *study, const WantedKey *key, const char *const *words,
-                        int32_t count, int32_t *choice, Error *err)
-{
-    char allowed[100] = "";
-    *choice = 0;
-    if (key->node == YAML_NO_NODE) return true;
-    for (int32_t k = 0; k < count; k++) {
-        size_t used = strlen(allowed);
-        snprintf(allowed + used, sizeof allowed - used, "%s%s", k ? ", " : "", words[k]);
-        if (strcmp(yaml_text(study->file, key->node), words[k]) != 0) continue;
-        *choice = k;
-        return true;
-    }
-    return yaml_refuse(study->file, key->node, key->name, allowed, err);
-}
-
 // --- rank ---------------------------------------------------------------------------------------
 
 // first, best, or the keys that make a point its own baseline.
@@ -182,7 +144,7 @@ static bool read_against(Study *study, const WantedKey *key, Error *err)
     int32_t choice = 0;
     study->rank.baseline = YAML_NO_NODE;
     if (key->node == YAML_NO_NODE || yaml_kind(study->file, key->node) == YAML_SCALAR) {
-        TRY(read_choice(study, key, words, 2, &choice, err));
+        TRY(wanted_choice(study->file, key, words, 2, &choice, err));
         study->rank.against = choice ? AGAINST_BEST : AGAINST_FIRST;
         return true;
     }
@@ -230,14 +192,15 @@ static bool read_rank(Study *study, Error *err)
     StudyRank *rank = &study->rank;
     int32_t order = 0;
     if (yaml_look_up(study->file, "rank") == YAML_NO_NODE) return true;
-    TRY(find_keys(study, "rank", keys, 5, err));
+    TRY(wanted_find(study->file, yaml_look_up(study->file, "rank"), "rank", keys, 5, err));
     if (keys[0].node == YAML_NO_NODE) {
         yaml_error(study->file, yaml_look_up(study->file, "rank"), err,
                    "rank: `by` must be given, as in {by: mu_M}");
         return false;
     }
     TRY(read_record(study, keys[0].node, "by", &rank->record, err));
-    TRY(read_choice(study, &keys[1], orders, 2, &order, err));
+    study->records[rank->record].is_shown = true;
+    TRY(wanted_choice(study->file, &keys[1], orders, 2, &order, err));
     TRY(read_against(study, &keys[3], err));
     TRY(read_refine(study, &keys[4], err));
     double top = TOP_STANDARD;
@@ -251,54 +214,88 @@ cleanup:
     return error_is_clean(err);
 }
 
-// --- plot ---------------------------------------------------------------------------------------
+// --- plots --------------------------------------------------------------------------------------
 
-// A key that varies, or what is recorded.
-static bool read_axis(Study *study, const WantedKey *key, StudyAxisData *axis, Error *err)
+typedef struct QuantityRead {
+    Study *study;
+    WantedName wanted;   // without a name
+    bool is_shown;
+    Error *err;
+} QuantityRead;
+
+// A key that varies, or what is recorded. As FormulaLookUp: false, with the error set: neither.
+static bool find_quantity(const void *context, const char *name, double *ignored)
 {
-    if (key->node == YAML_NO_NODE) {
-        yaml_error(study->file, yaml_look_up(study->file, "plot"), err,
-                   "plot: `%s` must be given, as in {x: load.pressure, y: mu_M}", key->name);
-        return false;
-    }
-    axis->index = study_column(study, yaml_text(study->file, key->node));
-    axis->is_record = axis->index < 0;
-    const char *name = yaml_text(study->file, key->node);
+    const QuantityRead *read = context;
+    Study *study = read->study;
+    WantedName wanted = read->wanted;
+    int32_t column = 0;
     const char *part;
-    bool is_key = scene_key_index(name) >= 0 || scene_key_above(name, &part) >= 0;
-    if (axis->is_record && is_key) {
-        yaml_error(study->file, key->node, err, "%s: `%.60s` does not vary", key->name, name);
+    *ignored = 1;
+    wanted.name = name;
+    if (study_column(study, name) >= 0) return true;
+    if (scene_key_index(name) >= 0 || scene_key_above(name, &part) >= 0) {
+        yaml_error(study->file, wanted.node, read->err, "%s: `%.60s` does not vary", wanted.what,
+                   name);
         return false;
     }
-    return !axis->is_record || read_record(study, key->node, key->name, &axis->index, err);
+    if (!find_record(study, &wanted, &column, read->err)) return false;
+    study->records[column].is_shown |= read->is_shown;
+    return true;
 }
 
-// As for the ranking, `x` and `y` become columns where they name a result.
-static bool read_plot(Study *study, Error *err)
+static bool check_quantity(Study *study, const StudyPlot *plot, PlotKey key, Error *err)
 {
-    static const char *const logs[] = {"none", "x", "y", "both"};
-    WantedKey keys[] = {{.name = "x"}, {.name = "y"}, {.name = "series"}, {.name = "log"}};
-    StudyPlot *plot = &study->plot;
-    int32_t log = 0;
-    if (yaml_look_up(study->file, "plot") == YAML_NO_NODE) return true;
-    TRY(find_keys(study, "plot", keys, 4, err));
-    TRY(read_axis(study, &keys[0], &plot->x, err));
-    TRY(read_axis(study, &keys[1], &plot->y, err));
-    TRY(read_choice(study, &keys[3], logs, 4, &log, err));
-    plot->series = -1;
-    if (keys[2].node != YAML_NO_NODE) {
-        plot->series = study_column(study, yaml_text(study->file, keys[2].node));
-        if (plot->series < 0)
-            return yaml_refuse(study->file, keys[2].node, "series", "a key that varies", err);
-    }
-    plot->wanted = true;
-    plot->log_x = log == 1 || log == 3;
-    plot->log_y = log == 2 || log == 3;
+    QuantityRead read = {
+        study, {NULL, plot_key_name(key), plot->node[key]}, key != PLOT_CONTOURS, err};
+    FormulaNames names = {find_quantity, &read, NULL, "is no column"};
+    const char *text = plot->text[key];
+    Formula formula;
+    Error found = {0};
+    double ignored = 0;
+    if (text[0] != '=') return !text[0] || find_quantity(&read, text, &ignored);
+    if (formula_read(text + 1, &names, &formula, &found)) return true;
+    if (error_is_clean(err))   // else it was a name
+        yaml_error(study->file, plot->node[key], err, "%s: %.200s", plot_key_name(key),
+                   found.message);
+    return false;
+}
+
+// What is drawn becomes a column of the table where it is none yet.
+static bool read_plot(Study *study, YamlNode node, Error *err)
+{
+    if (study->plot_count == STUDY_PLOTS_MAX)
+        return yaml_refuse(study->file, node, "plot", "at most 8 plots", err);
+    StudyPlot *plot = &study->plots[study->plot_count];
+    TRY(plot_words_read(study->file, node, plot, err));
+    for (PlotKey key = PLOT_X; key < PLOT_SERIES; key++) TRY(check_quantity(study, plot, key, err));
+    for (PlotKey key = PLOT_SERIES; key < PLOT_KEYS; key++)
+        if (plot->text[key][0] && study_column(study, plot->text[key]) < 0)
+            return yaml_refuse(study->file, plot->node[key], plot_key_name(key),
+                               "a key that varies", err);
+    for (int32_t k = 0; k < study->plot_count; k++)
+        if (strcmp(study->plots[k].name, plot->name) == 0)
+            return yaml_refuse(study->file, node, "plot",
+                               "a `name` that no other plot of the study has", err);
+    study->plot_count++;
+cleanup:
+    return error_is_clean(err);
+}
+
+// One plot, or a list of them.
+static bool read_plots(Study *study, Error *err)
+{
+    YamlNode plots = yaml_look_up(study->file, "plot");
+    if (plots == YAML_NO_NODE) return true;
+    if (yaml_kind(study->file, plots) != YAML_LIST) return read_plot(study, plots, err);
+    for (YamlNode node = yaml_first(study->file, plots); node != YAML_NO_NODE;
+         node = yaml_next(study->file, node))
+        TRY(read_plot(study, node, err));
 cleanup:
     return error_is_clean(err);
 }
 
 bool study_read_wanted(Study *study, Error *err)
 {
-    return read_records(study, err) && read_rank(study, err) && read_plot(study, err);
+    return read_records(study, err) && read_rank(study, err) && read_plots(study, err);
 }

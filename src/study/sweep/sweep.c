@@ -5,7 +5,8 @@
 #include "base/dense.h"
 #include "base/memory.h"
 #include "io/folder.h"
-#include "study/sweep/figures.h"
+#include "study/sweep/figure_plot.h"
+#include "study/sweep/figure_ranking.h"
 #include "study/sweep/pool.h"
 #include "study/sweep/refine.h"
 #include "study/sweep/slurm.h"
@@ -123,7 +124,8 @@ static bool show_results(const Sweep *sweep, bool whole, Error *err)
         if (whole) TRY(ranking_print(sweep, &ranking, err));
         if (whole) TRY(figure_of_ranking(sweep, &table, &ranking, err));
     }
-    if (sweep->study.plot.wanted && whole) TRY(figure_of_plot(sweep, &table, err));
+    for (int32_t k = 0; whole && k < sweep->study.plot_count; k++)
+        TRY(figure_of_plot(sweep->folder, sweep->study.path, &sweep->study.plots[k], NULL, err));
     if (sweep->options->out) warned_print(&table.warned, sweep->options->out);
     if (sweep->options->out && table.mesh_left_out)
         fprintf(sweep->options->out,

@@ -114,14 +114,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-static bool is_shown(const Study *study, int32_t record)
-{
-    const StudyPlot *plot = &study->plot;
-    return (study->rank.wanted && study->rank.record == record) ||
-           (plot->wanted && ((plot->x.is_record && plot->x.index == record) ||
-                             (plot->y.is_record && plot->y.index == record)));
-}
-
 // Whether the error of record `k` is known but for its part of the mesh.
 static bool leaves_out_mesh(const Study *study, const char *report, int32_t k, double error)
 {
@@ -151,7 +143,7 @@ static void write_records(TableWriter *writer, int32_t point, const char *report
         if (adds_error(study, table, k)) csv_number(writer->csv, error);
         if (report) mesh_left_out |= leaves_out_mesh(study, report, k, error);
         snprintf(text, sizeof text, "no %s: the run came to none", study->records[k].name);
-        if (report && is_shown(study, k) && !isfinite(number))
+        if (report && study->records[k].is_shown && !isfinite(number))
             warned_add(&table->warned, point, text);
         table->records[k * study->point_count + point] = number;
         table->errors[k * study->point_count + point] = error;
@@ -186,6 +178,7 @@ static bool write_row(TableWriter *writer, int32_t point, Scene *scene, Error *e
     char run[HASH_TEXT_SIZE + 8], *report = NULL;
     const char *results = NULL;   // what a failed point came to before it failed is none
     TRY(point_scene(sweep, point, scene, err));
+    if (point == 0) writer->table->is_si = scene->units == UNITS_SI;
     if (at->status != POINT_PENDING) report = point_report(sweep, point, err);
     TRY(error_is_clean(err));
     csv_number(writer->csv, point);
@@ -233,11 +226,44 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Names of all columns but errors, warnings and status, as plots take them.
+static bool write_names(const Study *study, ArrayFile *file, Error *err)
+{
+    char names[(STUDY_COLUMNS_MAX + STUDY_RECORDS_MAX) * (STUDY_NAME_SIZE + 1)] = "";
+    size_t used = 0;
+    for (int32_t k = 0; k < study->column_count; k++)
+        used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "",
+                                 study->columns[k]);
+    for (int32_t k = 0; k < study->record_count; k++)
+        used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "",
+                                 study->records[k].name);
+    return array_file_set_text(file, "columns", names, err);
+}
+
+static bool write_warned(const SweepTable *table, int32_t count, ArrayFile *file, Error *err)
+{
+    ArraySeries series = {.name = "result/warned",
+                          .description = "bit k: the run has a warning of the kind that is the "
+                                         "k-th in the attribute `warned words`"};
+    WordList names = {0};
+    double *bits = NEW_ARRAY(double, count, err);
+    TRY(bits);
+    TRY(warned_bits(&table->warned, &names, bits, err));
+    TRY(write_column(file, series, bits, count, err));
+    TRY(write_words(file, "warned", &names, err));
+cleanup:
+    memory_free(bits);
+    words_destroy(&names);
+    return error_is_clean(err);
+}
+
 // Groups scene/ and result/, a column each, [points].
 static bool write_arrays(const Study *study, const SweepTable *table, ArrayFile *file, Error *err)
 {
     int32_t count = study->point_count;
     TRY(array_file_set_text(file, "title", study->title, err));
+    TRY(array_file_set_text(file, "units", table->is_si ? "si" : "normalised", err));
+    TRY(write_names(study, file, err));
     char name[STUDY_NAME_SIZE + 16];
     for (int32_t k = 0; k < study->column_count; k++) {
         ArraySeries series = {.name = name,
@@ -263,6 +289,7 @@ static bool write_arrays(const Study *study, const SweepTable *table, ArrayFile 
                                            "`warnings words`"};
     TRY(write_column(file, warnings, table->warnings, count, err));
     TRY(write_words(file, "warnings", &table->warning_words, err));
+    TRY(write_warned(table, count, file, err));
 cleanup:
     return error_is_clean(err);
 }

@@ -19,6 +19,7 @@ typedef struct SweepTable {
     WordList *words;   // [column_count] where a key has words, the table has their index
     WordList warning_words;   // the first is "": no warning
     Warned warned;   // also of points without the result that is ranked or drawn
+    bool is_si;   // scenes have units of SI
     int32_t mesh_left_out;   // points with an error whose part NAME_error_parts.mesh is not known
 } SweepTable;
 

@@ -89,6 +89,24 @@ void warned_name(const Warned *warned, int32_t kind, char name[WARNED_NAME_SIZE]
     snprintf(name, WARNED_NAME_SIZE, "%.*s...", (int)length, text);
 }
 
+bool warned_bits(const Warned *warned, WordList *names, double *bits, Error *err)
+{
+    double place[WARNED_KINDS_MAX];
+    for (int32_t k = 0; k < warned->count; k++) {
+        char name[WARNED_NAME_SIZE];
+        warned_name(warned, k, name);
+        TRY(words_index(names, name, &place[k], err));
+    }
+    for (int32_t point = 0; point < warned->all; point++) {
+        uint32_t found = 0;
+        for (int32_t k = 0; k < warned->count; k++)
+            if (warned->of[point] >> k & 1) found |= (uint32_t)1 << (int32_t)place[k];
+        bits[point] = found;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
 // --- on the terminal ----------------------------------------------------------------------------
 
 // The sentence with "3 to 41" where its numbers differ.

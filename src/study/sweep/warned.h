@@ -5,6 +5,7 @@
 #define AMONTONS_STUDY_SWEEP_WARNED_H
 
 #include "amontons.h"
+#include "study/sweep/words.h"
 
 enum { WARNED_KINDS_MAX = 16, WARNED_NUMBERS_MAX = 8, WARNED_NAME_SIZE = 48 };
 
@@ -26,6 +27,9 @@ bool warned_make(int32_t points, Warned *warned, Error *err);
 void warned_add(Warned *warned, int32_t point, const char *sentence);
 // What is wrong, in the few words before the sentence's first colon.
 void warned_name(const Warned *warned, int32_t kind, char name[WARNED_NAME_SIZE]);
+// The names of all kinds, each once, added to `names`; bits[point]: bit k where the point has a
+// warning of the k-th of them. [warned->all]
+bool warned_bits(const Warned *warned, WordList *names, double *bits, Error *err);
 // "8 of 36 points: slip is not resolved: ..." for each kind, and which points.
 void warned_print(const Warned *warned, FILE *out);
 void warned_destroy(Warned *warned);   // zeroed is fine

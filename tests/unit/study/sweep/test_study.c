@@ -169,6 +169,33 @@ static void test_records(void **state)
     drop(study);
 }
 
+// A map, whose quantities become columns, and a plot of a formula.
+static void test_several_plots(void **state)
+{
+    (void)state;
+    Study *study = read_body(
+        "vary: {load.pressure: [1, 2], mesh.set.length: [1, 2], rod.kind: [push, bonded]}\n"
+        "record: [period]\n"
+        "plot:\n"
+        "  - {x: load.pressure, y: mesh.set.length, color: mu_M, contours: = l_c * load.pressure,\n"
+        "     panels: rod.kind, with: [other, /far]}\n"
+        "  - {x: = load.pressure * mesh.set.length, y: mu_hold, name: hold}\n");
+    assert_int_equal(study->plot_count, 2);
+    const StudyPlot *map = &study->plots[0], *curves = &study->plots[1];
+    assert_string_equal(map->name, "map");
+    assert_string_equal(map->text[PLOT_CONTOURS], "= l_c * load.pressure");
+    assert_false(map->log_given);
+    assert_int_equal(map->with_count, 2);
+    assert_string_equal(map->with[1], "/far");
+    assert_string_equal(curves->name, "hold");
+    assert_int_equal(study->record_count, 4);   // period, mu_M, l_c, mu_hold
+    for (int32_t k = 0; k < 4; k++) {
+        bool is_shown = strncmp(study->records[k].name, "mu_", 3) == 0;
+        assert_true(study->records[k].is_shown == is_shown);   // lines need not be everywhere
+    }
+    drop(study);
+}
+
 // Maps below a group are columns of their own.
 static void test_rank_and_plot(void **state)
 {
@@ -181,10 +208,14 @@ static void test_rank_and_plot(void **state)
     assert_int_equal(study->rank.top, 3);
     assert_string_equal(study->records[study->rank.record].path, "results.l_c_over_L");
     assert_int_equal(study->record_count, 3);   // period, and what rank and plot need besides
-    assert_true(study->plot.wanted && study->plot.log_x && study->plot.log_y);
-    assert_true(!study->plot.x.is_record && study->plot.y.is_record);
-    assert_string_equal(study->columns[study->plot.x.index], "load.pressure");
-    assert_string_equal(study->columns[study->plot.series], "rod.kind");
+    assert_int_equal(study->plot_count, 1);
+    const StudyPlot *plot = &study->plots[0];
+    assert_true(plot->log_given && plot->log_x && plot->log_y);
+    assert_string_equal(plot->name, "plot");
+    assert_string_equal(plot->text[PLOT_X], "load.pressure");
+    assert_string_equal(plot->text[PLOT_SERIES], "rod.kind");
+    assert_true(study->records[study->record_count - 1].is_shown);
+    assert_false(study->records[0].is_shown);
     Error err = {0};
     Scene *scene = NEW_ARRAY(Scene, 1, &err);
     for (int32_t k = 0; k < 4; k++) {
@@ -200,7 +231,7 @@ static void test_rank_and_plot(void **state)
     assert_int_equal(study->rank.top, 10);
     assert_true(study_is_chosen(study, "mesh.set.nx") && study_is_chosen(study, "rod.height"));
     assert_false(study_is_chosen(study, "rod.width") || study_is_chosen(study, "mesh.settle"));
-    assert_false(study->plot.wanted || study->rank.refine > 0);
+    assert_false(study->plot_count > 0 || study->rank.refine > 0);
     drop(study);
     study = read_body("vary: {rod.height: [1]}\nrank: {by: mu_M, refine: 0.5%}\n");
     assert_true(study->rank.refine == 0.5 / 100);
@@ -295,6 +326,26 @@ static void test_faults(void **state)
     }
 }
 
+static void test_faults_of_plots(void **state)
+{
+    (void)state;
+    static const char *const known[][2] = {
+        {"plot: {x: mu_M, y: = l_c * mu_N}\n", "y: unknown name `mu_N`; did you mean `mu_M`?"},
+        {"plot: {x: mu_M, y: = l_c *}\n", "y: the formula ends where"},
+        {"plot: {x: mu_M, y: l_c, contours: l_sc}\n", "contours: only a map has them"},
+        {"plot: {x: mu_M, y: l_c, name: ../a}\n", "name: found `../a`; allowed: a name of letters"},
+        {"plot: [{x: mu_M, y: l_c}, {x: l_c, y: mu_M}]\n", "a `name` that no other plot"},
+    };
+    for (size_t k = 0; k < sizeof known / sizeof known[0]; k++) {
+        Error err = {0};
+        write_study(known[k][0]);
+        Study *study = NEW_ARRAY(Study, 1, &err);
+        assert_false(study_read(path, NULL, 0, study, &err));
+        if (!strstr(err.message, known[k][1])) fail_msg("%s", err.message);
+        drop(study);
+    }
+}
+
 static void test_faults_of_overrides(void **state)
 {
     (void)state;
@@ -356,15 +407,12 @@ static int remove_file(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_product),
-                                       cmocka_unit_test(test_standard),
-                                       cmocka_unit_test(test_ranges),
-                                       cmocka_unit_test(test_order),
-                                       cmocka_unit_test(test_records),
-                                       cmocka_unit_test(test_rank_and_plot),
-                                       cmocka_unit_test(test_columns_of_maps),
-                                       cmocka_unit_test(test_faults),
-                                       cmocka_unit_test(test_faults_of_overrides),
-                                       cmocka_unit_test(test_memory)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_product),         cmocka_unit_test(test_standard),
+        cmocka_unit_test(test_ranges),          cmocka_unit_test(test_order),
+        cmocka_unit_test(test_records),         cmocka_unit_test(test_rank_and_plot),
+        cmocka_unit_test(test_several_plots),   cmocka_unit_test(test_columns_of_maps),
+        cmocka_unit_test(test_faults),          cmocka_unit_test(test_faults_of_overrides),
+        cmocka_unit_test(test_faults_of_plots), cmocka_unit_test(test_memory)};
     return cmocka_run_group_tests(tests, make_file, remove_file);
 }
