@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Files of an earlier result go by their full names: those below, the numbered ones in fields/ and
 // the figures that exist, and only where one of the first proves that the folder holds a result of
-// ours. A link in the place of fields/ or figures/ is not followed. run.json goes first, so that a
-// run that is killed from here on leaves no report of the one before.
+// ours; where none does, a file of such a name is somebody's, and a run that would write over it is
+// refused. A link in the place of fields/ or figures/ is not followed when files are removed.
+// run.json and the checkpoint go first, so that a run that is killed from here on leaves neither a
+// report of the one before nor half of it to go on with; the history goes last, as the proof.
 #include "run/result_folder.h"
 
 #include "io/folder.h"
@@ -98,6 +100,26 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Nobody's run has written into the folder: what has the name of a field or a figure is somebody's.
+// (accuracy.json is what a stopped search for an error bar leaves, alone.)
+static bool refuse_taken(const char *folder, const char *name, bool (*is_own)(const char *),
+                         Error *err)
+{
+    char path[PATH_SIZE];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    DIR *directory = opendir(path);
+    if (!directory) return true;
+    for (struct dirent *entry = readdir(directory); entry; entry = readdir(directory))
+        if (is_own(entry->d_name) && strncmp(entry->d_name, "accuracy.", 9) != 0)
+            FAIL(err, ERROR_INPUT,
+                 "%s/%s is there, and no result beside it says that a run wrote it: choose another "
+                 "folder (-o), or move it away",
+                 path, entry->d_name);
+cleanup:
+    closedir(directory);
+    return error_is_clean(err);
+}
+
 // folder/OWN_FILES[k / 3], the unfinished file, and its journal (io/array_journal).
 static void own_path(const char *folder, int k, char path[PATH_SIZE])
 {
@@ -147,12 +169,15 @@ static bool may_go_on(const char *folder)
 bool result_folder_claim(const char *path, bool overwrite, ResultFolder *folder, Error *err)
 {
     char found[PATH_SIZE];
+    bool begun = false;   // by a run that was killed before it kept anything
     *folder = (ResultFolder){0};
     if (!path) return true;
     TRY(make_folder(path, err));
     if (strlen(path) >= sizeof folder->path)
         FAIL(err, ERROR_INPUT, "the path of the result folder is too long");
     memcpy(folder->path, path, strlen(path) + 1);
+    snprintf(found, sizeof found, "%s/%s", path, LOCK_NAME);
+    begun = access(found, F_OK) == 0;
     TRY(take_lock(folder, err));
     for (int k = 0; k < 3 * OWN_FILE_COUNT && !folder->has_earlier; k++) {
         own_path(path, k, found);
@@ -167,22 +192,36 @@ bool result_folder_claim(const char *path, bool overwrite, ResultFolder *folder,
         FAIL(err, ERROR_INPUT,
              "%s holds an earlier result (%s): choose another folder (-o) or say --overwrite", path,
              strrchr(found, '/') + 1);
+    if (!folder->has_earlier && !begun) {
+        TRY(refuse_taken(path, "fields", is_field, err));
+        TRY(refuse_taken(path, "figures", is_figure, err));
+    }
 cleanup:
     if (!error_is_clean(err)) result_folder_release(folder);
     return error_is_clean(err);
 }
 
-bool result_folder_clear(ResultFolder *folder, Error *err)
+// OWN_FILES from one up to another.
+static bool remove_files(const char *folder, int from, int end, Error *err)
 {
     char path[PATH_SIZE];
-    if (!folder->has_earlier) return true;
-    for (int k = 0; k < 3 * OWN_FILE_COUNT; k++) {
-        own_path(folder->path, k, path);
+    for (int k = 3 * from; k < 3 * end; k++) {
+        own_path(folder, k, path);
         if (unlink(path) != 0 && errno != ENOENT)
             FAIL(err, ERROR_FILE, "cannot remove the earlier result %s: %s", path, strerror(errno));
     }
+cleanup:
+    return error_is_clean(err);
+}
+
+bool result_folder_clear(ResultFolder *folder, Error *err)
+{
+    enum { STATUS_FILES = 2 };   // report and checkpoint
+    if (!folder->has_earlier) return true;
+    TRY(remove_files(folder->path, 0, STATUS_FILES, err));
     TRY(empty_folder(folder->path, "fields", is_field, err));
     TRY(empty_folder(folder->path, "figures", is_figure, err));
+    TRY(remove_files(folder->path, STATUS_FILES, OWN_FILE_COUNT, err));
     folder->has_earlier = false;
 cleanup:
     return error_is_clean(err);

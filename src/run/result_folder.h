@@ -19,7 +19,8 @@ typedef struct ResultFolder {
 } ResultFolder;
 
 // Makes the folder with all that leads to it; nothing is removed. path NULL: none is wanted.
-// ERROR_INPUT: it holds a result and `overwrite` is false, or another process computes into it.
+// ERROR_INPUT: it holds a result and `overwrite` is false, another process computes into it, or
+// there are pictures or fields that no result beside them tells whose they are.
 bool result_folder_claim(const char *path, bool overwrite, ResultFolder *folder, Error *err);
 
 // Removes the earlier result, where there is one; to be called once the input is known to be right.

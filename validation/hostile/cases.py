@@ -304,6 +304,10 @@ def own_files(stock):
         linked = {"else/mine.png": "mine"}
         yield Try("own files", f"{name}, figures linked", words, linked, keeps=tuple(linked),
                   shell='mkdir -p out; ln -s ../else out/figures; exec "$@"')
+    for name in ("figures/force.png", "fields/bulk_000000.vtu"):
+        named = {f"out/{name}": "mine"}
+        yield Try("own files", f"named as ours: {name}", RUN + ["--overwrite"], named, may=(REFUSED,), says=name,
+                  keeps=tuple(named))
 
 
 def signals(stock):

@@ -58,7 +58,11 @@ cleanup:
 static bool stop_wanted(const StabilityPath *path, Error *err)
 {
     const StabilityOptions *options = path->options;
-    if (options->stop && *options->stop) FAIL(err, ERROR_INTERRUPT, "stopped; nothing was written");
+    if (options->stop && *options->stop)
+        FAIL(err, ERROR_INTERRUPT,
+             "stopped: the path is one answer, which is written when it has been followed to its "
+             "end; "
+             "nothing was written, and the same command begins anew");
     return false;
 cleanup:
     return true;

@@ -117,17 +117,40 @@ static void test_overwrites_only_its_own(void **state)
     expect_all(OTHERS, OTHER_COUNT, true);
 }
 
-// Pictures and fields in a folder that never held a result are somebody's.
-static void test_a_folder_without_a_result_is_left(void **state)
+// A picture or a field in a folder that never held a result is somebody's: a run that would write
+// over it, also through a link, is refused. Where a killed run has left its lock it is that run's.
+static void test_what_is_somebodys_is_not_written_over(void **state)
 {
     (void)state;
     Error err = {0};
     const char *const theirs[] = {"figures/force.png", "fields/bulk_000000.vtu"};
-    write_all(theirs, 2);
-    for (int overwrite = 0; overwrite < 2; overwrite++) {
-        assert_true(prepare(place, overwrite, &err));
-        expect_all(theirs, 2, true);
+    for (int k = 0; k < 2; k++) {
+        write_all(&theirs[k], 1);
+        for (int overwrite = 0; overwrite < 2; overwrite++)
+            expect_error(place, overwrite, ERROR_INPUT, theirs[k]);
+        expect_all(&theirs[k], 1, true);
+        unlink(place_path(place, theirs[k]));
     }
+    char elsewhere[PLACE_SIZE];
+    place_make(elsewhere);
+    place_write(elsewhere, "force.png", "x");
+    assert_int_equal(rmdir(place_path(place, "figures")), 0);
+    assert_int_equal(symlink(elsewhere, place_path(place, "figures")), 0);
+    expect_error(place, true, ERROR_INPUT, "figures/force.png");
+    place_write(place, "amontons.lock", "");
+    assert_true(prepare(place, false, &err));
+    place_remove(elsewhere);
+}
+
+// An error bar that was stopped keeps what it has; the same command begins anew.
+static void test_a_stopped_search_may_begin_anew(void **state)
+{
+    (void)state;
+    Error err = {0};
+    const char *const kept[] = {"figures/accuracy.json"};
+    write_all(kept, 1);
+    assert_true(prepare(place, false, &err));
+    expect_all(kept, 1, true);
 }
 
 // Until the input is accepted nothing goes, and then nothing behind a link.
@@ -195,7 +218,9 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_made_with_parents, setup, teardown),
         cmocka_unit_test_setup_teardown(test_refuses_an_earlier_result, setup, teardown),
         cmocka_unit_test_setup_teardown(test_overwrites_only_its_own, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_a_folder_without_a_result_is_left, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_what_is_somebodys_is_not_written_over, setup,
+                                        teardown),
+        cmocka_unit_test_setup_teardown(test_a_stopped_search_may_begin_anew, setup, teardown),
         cmocka_unit_test_setup_teardown(test_cleared_late_and_not_through_links, setup, teardown),
         cmocka_unit_test_setup_teardown(test_one_computation_at_a_time, setup, teardown),
         cmocka_unit_test_setup_teardown(test_impossible_folders, setup, teardown),
