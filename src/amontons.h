@@ -239,7 +239,7 @@ typedef struct SweepSummary {
     double seconds;
 } SweepSummary;
 
-// Computes the points of the study file `path`, each in a process of its own, and writes the table.
+// Computes the points of the study file `path`, in processes of their own, and writes the table.
 // What is finished in the folder is not computed again. Failed points are no error: they are
 // counted, and stand in the table with their reason. ERROR_INTERRUPT: stopped, table written.
 bool amontons_sweep(const char *path, const SweepOptions *options, SweepSummary *summary,

@@ -215,7 +215,8 @@ class Sweep(unittest.TestCase):
         self.wait(lambda: len(self.children(process)) == 2 or process.poll() is not None)
         process.send_signal(signal.SIGSTOP)
         self.wait(lambda: self.state(process.pid) in ("T", "Z", None))   # from here on it waits for no child
-        self.wait(lambda: all(self.state(child) == "Z" for child in self.children(process)))
+        self.wait(lambda: all(self.state(child) in ("S", "Z") for child in self.children(process)) and   # no more to do
+                  len(list((self.folder / "out/points").glob("*/run.json"))) >= 2)
         process.send_signal(signal.SIGINT)
         process.send_signal(signal.SIGCONT)
         process.communicate(timeout=120)
@@ -238,14 +239,14 @@ class Sweep(unittest.TestCase):
         self.assertIn("16 points: 8 computed", self.sweep("--retry", study=study, status=1).stdout)
 
     def test_crashing_point(self):
-        """A process that dies by a signal costs its own point only."""
-        process = self.start(self.study(HEAD + "cases:\n" + "".join(ENDLESS[:1] + QUICK)), "1")
-        self.wait(lambda: self.children(process))
+        """A process that dies by a signal costs its own point only, neither those before nor those after it."""
+        process = self.start(self.study(HEAD + "cases:\n" + "".join(QUICK[:2] + ENDLESS[:1] + QUICK[2:])), "1")
+        self.wait(lambda: [len(list((self.folder / "out/points").glob(names))) for names in ("*/run.json", "*")] == [2, 3])
         os.kill(self.children(process)[0], signal.SIGSEGV)
         process.communicate(timeout=120)
         self.assertEqual(process.returncode, 1)
-        self.assertEqual([row["status"] for row in self.table()], ["failed"] + ["done"] * 8)
-        self.assertIn("signal 11", self.table()[0]["message"])
+        self.assertEqual([row["status"] for row in self.table()], ["done"] * 2 + ["failed"] + ["done"] * 6)
+        self.assertIn("signal 11", self.table()[2]["message"])
 
     def test_ranking(self):
         """The order and the gains as the table has them; both pictures; what is wrong with a baseline."""

@@ -11,6 +11,7 @@
 #include "study/sweep/study_point.h"
 
 #include <limits.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -55,6 +56,35 @@ bool point_hash(const Scene *scene, PointMesh *mesh, char text[HASH_TEXT_SIZE], 
     hash_write(&hash, text);
 cleanup:
     return error_is_clean(err);
+}
+
+// A point's hash, to be sorted by; equal ones by number.
+typedef struct HashedPoint {
+    const char *hash;   // not owned
+    int32_t point;
+} HashedPoint;
+
+static int compare_hashes(const void *a, const void *b)
+{
+    const HashedPoint *one = a, *other = b;
+    int order = strcmp(one->hash, other->hash);
+    return order != 0 ? order : one->point - other->point;
+}
+
+// Sorted: a study may have 100 000 points.
+bool points_find_same(Sweep *sweep, Error *err)
+{
+    int32_t count = sweep->study.point_count;
+    HashedPoint *sorted = NEW_ARRAY(HashedPoint, count, err);
+    if (!sorted) return false;
+    for (int32_t k = 0; k < count; k++) sorted[k] = (HashedPoint){sweep->points[k].hash, k};
+    qsort(sorted, (size_t)count, sizeof *sorted, compare_hashes);
+    for (int32_t k = 0, first = 0; k < count; k++) {
+        if (strcmp(sorted[k].hash, sorted[first].hash) != 0) first = k;
+        sweep->points[sorted[k].point].same_as = sorted[first].point;
+    }
+    memory_free(sorted);
+    return true;
 }
 
 bool point_scene(const Sweep *sweep, int32_t point, Scene *scene, Error *err)

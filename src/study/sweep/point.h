@@ -54,6 +54,8 @@ typedef struct PointMesh {
 bool point_scene(const Sweep *sweep, int32_t point, Scene *scene, Error *err);
 // A name for all that decides what a point comes to: version, mesh file, every key but the title.
 bool point_hash(const Scene *scene, PointMesh *mesh, char hash[HASH_TEXT_SIZE], Error *err);
+// Of points with the same hash the first one is `same_as` of all.
+bool points_find_same(Sweep *sweep, Error *err);
 // run.json of the point (memory_free); NULL without an error when there is none.
 char *point_report(const Sweep *sweep, int32_t point, Error *err);
 PointStatus point_status(const char *report);   // of a run.json, or NULL

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Computes pending points, each in a child process, so that a crash costs one point only. A pipe
-// from each child carries the message that could not be written to run.json; when the pipe closes,
+// Computes pending points in child processes, each of which computes one point after the other: to
+// start a process costs as much as a tenth of a small point. A crash costs one point only: the next
+// one gets a new process. What a child is to compute it reads from a socket; there it says that a
+// point has ended, with the message that could not be written to run.json. When the socket closes,
 // the child has ended.
 #include "study/sweep/pool.h"
 
@@ -12,19 +14,28 @@
 #include <poll.h>
 #include <string.h>
 #include <sys/prctl.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { JOBS_MAX = 1024, WAKE_MS = 200 };   // how often the stop flag is looked at
+enum {
+    JOBS_MAX = 1024,
+    WAKE_MS = 200,   // how often the stop flag is looked at
+    POINTS_EACH = 256   // of a child: whatever a library does not free goes with it
+};
 
 typedef struct Worker {
     pid_t process;   // 0: none
-    int pipe;   // its end for reading
-    int32_t point;
-    double started;   // wall clock, s
-    char message[ERROR_MESSAGE_SIZE];
-    size_t length;   // of the message so far
+    int socket;   // our end
+    int32_t point;   // under way; -1: none
+    int32_t given;   // points so far
+    double started;   // the point; wall clock, s
 } Worker;
+
+// A point has ended.
+typedef struct Reply {
+    char message[ERROR_MESSAGE_SIZE];   // empty: it ended well, or its run.json says how
+} Reply;
 
 // Processes, not threads: the libraries below keep states of their own (gmsh, HDF5), and a crash
 // must not take its neighbours along.
@@ -36,19 +47,37 @@ typedef struct Pool {
     int32_t next;   // point to look at for the next worker
 } Pool;
 
+// Whether all of it came before the other end was closed.
+static bool read_whole(int socket, void *bytes, size_t size)
+{
+    char *next = bytes;
+    while (size > 0) {
+        ssize_t count = read(socket, next, size);
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) return false;
+        next += count;
+        size -= (size_t)count;
+    }
+    return true;
+}
+
 // --- in the child -------------------------------------------------------------------------------
 
 // Never returns. The child dies with its parent, and by the signals that the parent handles.
-static void be_child(const Sweep *sweep, int32_t point, int pipe, pid_t parent)
+static void be_child(const Sweep *sweep, int socket, pid_t parent)
 {
-    Error err = {0};
+    int32_t point;
     signal(SIGTERM, SIG_DFL);
     signal(SIGINT, SIG_IGN);   // of the terminal: the parent decides
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(1);
-    bool done = point_run(sweep, point, &err);
-    size_t length = strlen(err.message);
-    if (!done && write(pipe, err.message, length) != (ssize_t)length) _exit(1);
+    while (read_whole(socket, &point, sizeof point)) {
+        Error err = {0};
+        Reply reply = {0};
+        if (!point_run(sweep, point, &err))
+            memcpy(reply.message, err.message, sizeof reply.message);
+        if (send(socket, &reply, sizeof reply, MSG_NOSIGNAL) != (ssize_t)sizeof reply) _exit(1);
+    }
     _exit(0);
 }
 
@@ -56,16 +85,16 @@ static void be_child(const Sweep *sweep, int32_t point, int pipe, pid_t parent)
 
 // The child's pid is compared with ours after the fork (be_child): a parent that died in between
 // would leave it without one.
-static bool start_worker(Pool *pool, Worker *worker, int32_t point, Error *err)
+static bool start_worker(Pool *pool, Worker *worker, Error *err)
 {
     int ends[2] = {-1, -1};
     pid_t parent = getpid();
-    if (pipe(ends) != 0) FAIL(err, ERROR_FILE, "cannot open a pipe: %s", strerror(errno));
-    *worker = (Worker){.point = point, .started = clock_seconds(), .pipe = ends[0]};
-    worker->process = fork();
+    if (socketpair(AF_UNIX, SOCK_STREAM, 0, ends) != 0)
+        FAIL(err, ERROR_FILE, "cannot open a socket: %s", strerror(errno));
+    *worker = (Worker){.process = fork(), .socket = ends[0], .point = -1};
     if (worker->process == 0) {
         close(ends[0]);
-        be_child(pool->sweep, point, ends[1], parent);
+        be_child(pool->sweep, ends[1], parent);
     }
     close(ends[1]);
     if (worker->process < 0) {
@@ -78,66 +107,84 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Takes what the child left, or else why it left nothing. ending: as waitpid has it.
-static bool note_result(Pool *pool, Worker *worker, int ending, Error *err)
+// Takes what a point left, or else says why it left nothing: the message of its child, or how that
+// ended (as waitpid has it).
+static bool note_result(Pool *pool, const Worker *of, const char *said, int ending, Error *err)
 {
-    const char *failure = "crashed";
+    const char *failure = *said ? "not begun" : "crashed";
     char message[ERROR_MESSAGE_SIZE];
-    double seconds = clock_seconds() - worker->started;
+    double seconds = clock_seconds() - of->started;
     bool left = false;
-    TRY(sweep_take_ended(pool->sweep, worker->point, seconds, &left, err));
+    TRY(sweep_take_ended(pool->sweep, of->point, seconds, &left, err));
     if (left) goto cleanup;
-    if (WIFSIGNALED(ending)) {
+    if (*said)
+        snprintf(message, sizeof message, "%s", said);
+    else if (WIFSIGNALED(ending))
         snprintf(message, sizeof message, "the process ended by signal %d (%s)", WTERMSIG(ending),
                  strsignal(WTERMSIG(ending)));
-    } else if (*worker->message) {
-        failure = "not begun";
-        snprintf(message, sizeof message, "%s", worker->message);
-    } else {
+    else
         snprintf(message, sizeof message, "the process ended with status %d, without a word",
                  WEXITSTATUS(ending));
-    }
-    TRY(sweep_take_lost(pool->sweep, worker->point, seconds, failure, message, err));
+    TRY(sweep_take_lost(pool->sweep, of->point, seconds, failure, message, err));
 cleanup:
     return error_is_clean(err);
 }
 
-// Waits for the child and frees its worker. The status as waitpid has it.
+// Waits for the child, which ends by itself once it has nothing to read, and frees its worker. The
+// status as waitpid has it.
 static int reap(Worker *worker)
 {
     int ending = 0;
+    shutdown(worker->socket, SHUT_WR);   // also where another child has a copy of it
     while (waitpid(worker->process, &ending, 0) < 0 && errno == EINTR) continue;
-    close(worker->pipe);
+    close(worker->socket);
     worker->process = 0;
     return ending;
 }
 
-// Reads what the child wrote; when its end of the pipe is closed, the child has ended.
-static bool read_worker(Pool *pool, Worker *worker, Error *err)
-{
-    char bytes[256];
-    ssize_t count = read(worker->pipe, bytes, sizeof bytes);
-    if (count < 0 && errno == EINTR) return true;
-    if (count <= 0) return note_result(pool, worker, reap(worker), err);
-    size_t room = sizeof worker->message - 1 - worker->length;
-    size_t taken = (size_t)count < room ? (size_t)count : room;
-    memcpy(worker->message + worker->length, bytes, taken);
-    worker->length += taken;
-    return true;
-}
-
-// Gives every idle worker the next pending point.
-static bool fill_workers(Pool *pool, Error *err)
+// Gives an idle worker the next pending point; without one it stays idle. A child that cannot be
+// written to has died: that shows when it is read.
+static bool give_point(Pool *pool, Worker *worker, Error *err)
 {
     Sweep *sweep = pool->sweep;
-    for (int32_t k = 0; k < pool->size; k++) {
-        if (pool->workers[k].process) continue;
-        while (pool->next < sweep->study.point_count && !sweep_is_waiting(sweep, pool->next))
-            pool->next++;
-        if (pool->next == sweep->study.point_count) break;
-        TRY(start_worker(pool, &pool->workers[k], pool->next, err));
+    while (pool->next < sweep->study.point_count && !sweep_is_waiting(sweep, pool->next))
         pool->next++;
+    if (pool->next == sweep->study.point_count) return true;
+    if (worker->process && worker->given == POINTS_EACH) reap(worker);
+    if (!worker->process) TRY(start_worker(pool, worker, err));
+    worker->point = pool->next++;
+    worker->given++;
+    worker->started = clock_seconds();
+    send(worker->socket, &worker->point, sizeof worker->point, MSG_NOSIGNAL);
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool fill_workers(Pool *pool, Error *err)
+{
+    for (int32_t k = 0; k < pool->size; k++) {
+        Worker *worker = &pool->workers[k];
+        if (!worker->process || worker->point < 0) TRY(give_point(pool, worker, err));
     }
+cleanup:
+    return error_is_clean(err);
+}
+
+// The next point is handed out before the result of the last is looked at.
+static bool read_worker(Pool *pool, Worker *worker, Error *err)
+{
+    Reply reply = {0};
+    Worker before = *worker;
+    Error unable = {0};
+    int ending = 0;
+    if (read_whole(worker->socket, &reply, sizeof reply))
+        worker->point = -1;
+    else
+        ending = reap(worker);
+    if (before.point < 0) return true;
+    give_point(pool, worker, &unable);
+    TRY(note_result(pool, &before, reply.message, ending, err));
+    if (!error_is_clean(&unable)) *err = unable;
 cleanup:
     return error_is_clean(err);
 }
@@ -149,8 +196,8 @@ static bool read_workers(Pool *pool, int32_t *running, Error *err)
     for (int32_t k = 0; k < pool->size; k++) {
         const Worker *worker = &pool->workers[k];
         pool->polled[k] =
-            (struct pollfd){.fd = worker->process ? worker->pipe : -1, .events = POLLIN};
-        *running += worker->process != 0;
+            (struct pollfd){.fd = worker->process ? worker->socket : -1, .events = POLLIN};
+        *running += worker->process != 0 && worker->point >= 0;
     }
     if (*running == 0) return true;
     if (poll(pool->polled, (nfds_t)pool->size, WAKE_MS) <= 0) return true;
@@ -170,8 +217,9 @@ static void end_workers(Pool *pool)
         if (!worker->process) continue;
         kill(worker->process, SIGTERM);
         reap(worker);
-        sweep_take_ended(pool->sweep, worker->point, clock_seconds() - worker->started, &left,
-                         &ignored);
+        if (worker->point >= 0)
+            sweep_take_ended(pool->sweep, worker->point, clock_seconds() - worker->started, &left,
+                             &ignored);
     }
 }
 

@@ -14,16 +14,6 @@
 
 static const double SMALLER = 0.9;   // of the error before: a round was of use
 
-// Points with the same scene are computed once; those of an earlier round count.
-static void find_same(Sweep *sweep)
-{
-    for (int32_t k = 0; k < sweep->study.point_count; k++) {
-        SweepPoint *point = &sweep->points[k];
-        for (point->same_as = 0; point->same_as < k; point->same_as++)
-            if (strcmp(sweep->points[point->same_as].hash, point->hash) == 0) break;
-    }
-}
-
 // Half the error bar that was asked for or, where that is smaller, of the one that came out,
 // relative; two digits read well in a table. Not below the limit; 0: the point is there already.
 static double next_accuracy(double asked, const RankRow *row, double limit)
@@ -90,7 +80,7 @@ bool refine_begin(Sweep *sweep, SweepPoint **before, int32_t *count, Error *err)
     TRY(table_write(sweep, &table, err));
     TRY(ranking_make(sweep, &table, &ranking, err));
     TRY(choose_all(sweep, &ranking, count, err));
-    find_same(sweep);
+    TRY(points_find_same(sweep, err));   // those of an earlier round count
     for (int32_t k = 0; k < points; k++) sweep->planned += sweep_is_waiting(sweep, k);
 cleanup:
     table_destroy(&table);

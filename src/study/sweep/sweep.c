@@ -102,9 +102,8 @@ static bool plan_points(Sweep *sweep, Error *err)
                  "%s: rank: `refine` halves accuracy.mu, which must be given to begin with, as in "
                  "`set: {accuracy.mu: 3%%}`",
                  sweep->study.path);
-        for (point->same_as = 0; point->same_as < k; point->same_as++)
-            if (strcmp(sweep->points[point->same_as].hash, point->hash) == 0) break;
     }
+    TRY(points_find_same(sweep, err));
     TRY(find_baselines(sweep, &mesh, scene, err));
 cleanup:
     memory_free(scene);
