@@ -19,7 +19,8 @@ static const CommandText text = {
     .example = "amontons sweep validation/paper/fig2a.yaml",
     .help =
         "Computes all points of the study file STUDY, each of them a run, in processes of their "
-        "own, and writes one table, DIR/sweep.csv and DIR/sweep.h5. A study names a scene and what is "
+        "own, and writes one table, DIR/sweep.csv and DIR/sweep.h5. A study names a scene and what "
+        "is "
         "varied in it:\n\n"
         "  scene: fig1.yaml\n"
         "  set: {mesh.set.nx: 40, mesh.set.height: = 0.5 * mesh.set.length}\n"

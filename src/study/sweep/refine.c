@@ -114,7 +114,7 @@ bool refine_end(Sweep *sweep, const SweepPoint *before, Error *err)
         if (error < error_before) *point = refined;
         point->settled = !(error < SMALLER * error_before);
     }
-    find_same(sweep);
+    TRY(points_find_same(sweep, err));
 cleanup:
     return error_is_clean(err);
 }
