@@ -4,13 +4,11 @@
 #include "render/figures.h"
 
 #include "render/map_page.h"
+#include "render/slip_scale.h"
 #include "render/zoom.h"
 
 #include <math.h>
 
-static const double DECADE_LOW = -2;   // quasi-static slip is about V or a tenth of it
-static const double DECADE_HIGH_MIN = 1;   // at least this range is shown
-static const double DECADE_HIGH_MAX = 8;
 static const double MARK_WIDTH = 9;   // points: room for the name l_c
 static const double ZOOM_GAP = 0.8;   // points: frame to the bar that marks the zoom
 static const double ZOOM_BAR = 1.8;   // points: height of that bar
@@ -20,33 +18,6 @@ static const double ZOOM_ABOVE = 11;   // points above the frame that bar and na
 static const double EXPONENT_WIDTH = 4;   // of the numbers' size: a power of ten at the left
 static const double ZOOM_LEADER = 0.5;   // points: width of the line from its name to the bar
 static const char ZOOM_NAME[] = "enlarged in contact-density";
-static const Color STICK = {0.84f, 0.85f, 0.87f, 1};
-
-// Where the scale ends: the half decade above all slip.
-static double decade_high(const ResultView *view, double V)
-{
-    double largest = 0;
-    for (int64_t k = 0; k < view->rows * view->nodes; ++k) {
-        double rate = fabs(view->slip_rate[k]);
-        if (rate > largest && isfinite(rate)) largest = rate;
-    }
-    if (!(largest > V)) return DECADE_HIGH_MIN;
-    return fmin(fmax(ceil(2 * log10(largest / V)) / 2, DECADE_HIGH_MIN), DECADE_HIGH_MAX);
-}
-
-// From slip rates to places in the colour map.
-static void grid_to_levels(PixelGrid *grid, const Colorbar *bar, double V)
-{
-    int64_t count = (int64_t)grid->rows * grid->columns;
-    for (int64_t k = 0; k < count; ++k) {
-        double rate = (double)grid->values[k] / V;
-        double level = (log10(rate) - bar->low) / (bar->high - bar->low);
-        if (isnan(rate))
-            grid->values[k] = HEAT_MISSING;
-        else
-            grid->values[k] = level < 0 ? HEAT_BELOW : (float)fmin(level, 1);
-    }
-}
 
 // The critical length of the quasi-static precursor, as the paper's figure has it: a dashed line.
 static void critical_length_draw(const Page *page, const MapPage *map, double length)
@@ -89,20 +60,15 @@ bool figure_slip_map(const Page *page, ResultView *view, Error *err)
     double low = 0, high = 0, length = view->number[NUMBER_L_C];
     double V = fabs(view->number[NUMBER_ROD_VELOCITY]);
     Zoom zoom = zoom_choose(view);
-    MapPage map = {.above = zoom.found ? ZOOM_ABOVE : 0,
-                   .bar = {.low = DECADE_LOW,
-                           .powers = true,
-                           .label = "slip rate / ~{V}",
-                           .neutral = "stick",
-                           .neutral_color = STICK}};
+    MapPage map = {.above = zoom.found ? ZOOM_ABOVE : 0};
     if (!(V > 0)) FAIL(err, ERROR_INPUT, "the result does not say how fast the rod moves");
     TRY(result_view_read_slip_rate(view, err));
-    map.bar.high = decade_high(view, V);
+    map.bar = slip_scale(view, V);
     if (isfinite(length)) map.mark_width = MARK_WIDTH;
     result_view_range(view, &low, &high);
     map_page_layout(page, view, low, high, &map);
     TRY(map_page_fill(view, NULL, &map, err));
-    grid_to_levels(&map.grid, &map.bar, V);
+    slip_scale_levels(&map.bar, V, &map.grid);
     map_page_draw_field(page, view, &map);
     if (zoom.found) zoom_draw(page, &zoom, &map.axes);
     if (isfinite(length)) critical_length_draw(page, &map, length);
