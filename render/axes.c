@@ -258,3 +258,10 @@ void axes_draw(const Page *page, const Axes *axes)
     draw_left(page, axes);
     shape_outline(page->canvas, &stroke, &axes->box);
 }
+
+void axes_draw_left(const Page *page, const Axes *axes)
+{
+    Stroke stroke = {.color = axes->color, .width = FRAME_WIDTH * page->point};
+    draw_left(page, axes);
+    shape_outline(page->canvas, &stroke, &axes->box);
+}

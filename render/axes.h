@@ -43,5 +43,7 @@ double axes_top_margin(const Axes *axes);   // likewise above: half a number, a 
 
 // Frame, ticks (outwards, left and below), numbers and names. Draw it after the data.
 void axes_draw(const Page *page, const Axes *axes);
+// The same without what stands below the frame.
+void axes_draw_left(const Page *page, const Axes *axes);
 
 #endif

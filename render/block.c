@@ -67,14 +67,24 @@ void block_times_destroy(BlockTimes *times)
     *times = (BlockTimes){0};
 }
 
+bool block_moment_read(const char *at, bool *is_U, double *value, Error *err)
+{
+    char *end = NULL;
+    *is_U = strncmp(at, "U=", 2) == 0;
+    bool known = *is_U || strncmp(at, "t=", 2) == 0;
+    *value = known ? strtod(at + 2, &end) : NAN;
+    if (!end || end == at + 2 || *end || !isfinite(*value))
+        FAIL(err, ERROR_INPUT, "a time is given as U=0.0117 or t=120, not as \"%.40s\"", at);
+cleanup:
+    return error_is_clean(err);
+}
+
 bool block_time_find(const BlockTimes *times, const ResultView *view, const char *at,
                      int32_t *index, Error *err)
 {
-    char *end = NULL;
-    bool by_U = strncmp(at, "U=", 2) == 0, by_t = strncmp(at, "t=", 2) == 0;
-    double wanted = by_U || by_t ? strtod(at + 2, &end) : NAN, nearest = INFINITY;
-    if (!end || end == at + 2 || *end || !isfinite(wanted))
-        FAIL(err, ERROR_INPUT, "a time is given as U=0.0117 or t=120, not as \"%.40s\"", at);
+    bool by_U = false;
+    double wanted = 0, nearest = INFINITY;
+    TRY(block_moment_read(at, &by_U, &wanted, err));
     for (int32_t k = 0; k < times->count; ++k) {
         double away = fabs((by_U ? view->U[times->row[k]] : times->times[k].t) - wanted);
         if (!(away < nearest)) continue;

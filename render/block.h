@@ -39,7 +39,9 @@ typedef struct BlockTimes {
 bool block_times_read(const char *folder, const ResultView *view, BlockTimes *times, Error *err);
 void block_times_destroy(BlockTimes *times);   // zeroed is fine
 
-// The index of the time nearest to `at`, "U=0.0117" or "t=120". ERROR_INPUT: neither of them.
+// "U=0.0117" or "t=120" as a number of one of the two; ERROR_INPUT: neither of them.
+bool block_moment_read(const char *at, bool *is_U, double *value, Error *err);
+// The index of the time nearest to such a moment.
 bool block_time_find(const BlockTimes *times, const ResultView *view, const char *at,
                      int32_t *index, Error *err);
 // The last one up to this displacement of the rod; the first where there is none.

@@ -129,11 +129,10 @@ cleanup:
 }
 
 // Below the floor's line, a colour for each contact node; where there is none, none.
-static void draw_contact(const Page *page, const BlockPage *map, const Block *block,
-                         const Axes *axes)
+void block_page_contact(const Page *page, const BlockPage *map, int64_t row, const Axes *axes)
 {
     const ResultView *view = map->view;
-    const double *status = view->status + block->row * view->nodes;
+    const double *status = view->status + row * view->nodes;
     double unit = map->share * page->point, floor_y = axes_place(axes, 0, 0).y;
     for (int32_t i = 0; i < view->nodes; ++i) {
         bool before = i > 0 && view->pad[i - 1] == view->pad[i];
@@ -199,7 +198,7 @@ bool block_page_draw(const Page *page, const BlockPage *map, const Block *block,
     if (map->edges) block_edges_draw(page, block, axes, &edge);
     TRY(draw_contours(page, map, block, axes, err));
     TRY(block_outline_draw(page, block, axes, &outline, err));
-    draw_contact(page, map, block, axes);
+    block_page_contact(page, map, block->row, axes);
     Point left = axes_place(axes, axes->x.low, 0), right = axes_place(axes, axes->x.high, 0);
     left.y = right.y += CONTACT_GAP * unit;
     shape_segment(page->canvas, &ground, left, right);

@@ -35,6 +35,10 @@ bool block_page_fit(BlockPage *map, const Block *blocks, int32_t count, BlockQua
 bool block_page_draw(const Page *page, const BlockPage *map, const Block *block, const Axes *axes,
                      Error *err);
 
+// What the contact does at a step of the history, in its place below the block; part of
+// block_page_draw.
+void block_page_contact(const Page *page, const BlockPage *map, int64_t row, const Axes *axes);
+
 // What the colours of the contact mean, from `place` to the right.
 void block_page_legend(const Page *page, Point place);
 

@@ -259,6 +259,24 @@ cleanup:
     return error_is_clean(err);
 }
 
+const uint8_t *canvas_pixels(Canvas *canvas, int32_t *stride, Error *err)
+{
+    if (!canvas_check(canvas, err)) return NULL;
+    cairo_surface_flush(canvas->surface);
+    *stride = cairo_image_surface_get_stride(canvas->surface);
+    return cairo_image_surface_get_data(canvas->surface);
+}
+
+void canvas_copy(Canvas *canvas, Canvas *from)
+{
+    size_t line = (size_t)cairo_image_surface_get_stride(from->surface);
+    cairo_surface_flush(from->surface);
+    cairo_surface_flush(canvas->surface);
+    memcpy(cairo_image_surface_get_data(canvas->surface),
+           cairo_image_surface_get_data(from->surface), line * (size_t)from->def.height);
+    cairo_surface_mark_dirty(canvas->surface);
+}
+
 static bool encode_png(Canvas *canvas, const char *title, bool small, Error *err)
 {
     PngPicture picture = {.width = canvas->def.width,

@@ -77,6 +77,14 @@ Error *canvas_failure(Canvas *canvas);
 // caller (memory_free). Only of CANVAS_PNG.
 bool canvas_read(Canvas *canvas, uint8_t **pixels, Error *err);
 
+// The pixels themselves, until the next call that draws: four bytes each, blue, green, red, unused,
+// *stride bytes from row to row. NULL: something went wrong. Only of CANVAS_PNG.
+const uint8_t *canvas_pixels(Canvas *canvas, int32_t *stride, Error *err);
+
+// All that is drawn on `from` so far, in place of what is on `canvas`: both CANVAS_PNG, equally
+// large.
+void canvas_copy(Canvas *canvas, Canvas *from);
+
 // The finished picture, in memory that stays the canvas's.
 typedef struct PictureBytes {
     const char *bytes;   // [size]

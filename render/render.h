@@ -2,7 +2,8 @@
 // Pictures of a result, drawn off-screen from its stored history alone: `amontons render RESULT`
 // redraws any of them without solving again; of curves that a file describes; and of a mesh before
 // anything is computed. A module opened on first use (symbols "amontons_render",
-// "amontons_render_plot", "amontons_render_mesh"); knows base/ and io/ only.
+// "amontons_render_plot", "amontons_render_film", "amontons_render_mesh"); knows
+// base/ and io/ only.
 #ifndef AMONTONS_RENDER_RENDER_H
 #define AMONTONS_RENDER_RENDER_H
 
@@ -44,6 +45,10 @@ typedef bool (*RenderPlotFunction)(const char *plot, const char *picture, const 
                                    Error *err);
 bool amontons_render_plot(const char *plot, const char *picture, const PictureStyle *style,
                           Error *err);
+
+// amontons_film.
+typedef bool (*RenderFilmFunction)(const char *folder, const FilmRequest *request, Error *err);
+bool amontons_render_film(const char *folder, const FilmRequest *request, Error *err);
 
 // A mesh to draw: arrays as in io/mesh_file, all borrowed.
 typedef struct RenderMesh {

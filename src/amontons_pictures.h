@@ -5,6 +5,7 @@
 
 #include "amontons_error.h"
 
+#include <signal.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -51,6 +52,30 @@ bool amontons_render_sweep(const char *folder, const char *plot, const PictureSt
 // Writes one page about results (count folders) into `file`, an .html that needs nothing else: of a
 // run, of a sweep, or of several runs side by side.
 bool amontons_report(const char *const *results, int32_t count, const char *file, Error *err);
+
+// Called after each frame of a film that is drawn, `frame` from 1.
+typedef void (*FrameCallback)(int32_t frame, int32_t frames, void *context);
+
+// A film of a result; zeroed but for its path is fine.
+typedef struct FilmRequest {
+    const char *path;   // ends in .mp4, .webm or .gif; or a folder of PNG frames, or their names
+        // with one number: "run-%04d.png"
+    double seconds;   // 0: 20
+    int32_t rate;   // frames a second; 0: 30, of a GIF 20
+    int32_t width, height;   // pixels, even; 0: 1920 and 1080, of a GIF 800 and 450
+    const char *begin, *end;   // "U=0.0117" or "t=120"; NULL: those of the history
+    bool last_cycle;   // from the end of a bulk sliding to a little after the next, the last
+    const char *of;   // field of the block, as FieldChoice has it; without fields not asked
+    double magnification;   // of the deformation; 0: chosen
+    bool dark;   // light lines on dark paper
+    FrameCallback on_frame;   // NULL: none
+    void *context;   // handed to it
+    const volatile sig_atomic_t *stop;   // non-zero: ERROR_INTERRUPT, and no file; NULL: never
+} FilmRequest;
+
+// Films the result in `folder`: the block where fields are stored, slip rate along the contact, the
+// force. Time goes slower where slip is rapid. The file has its name once it is whole.
+bool amontons_film(const char *folder, const FilmRequest *request, Error *err);
 
 #ifdef __cplusplus
 }

@@ -42,7 +42,7 @@ class FileError(AmontonsError, OSError):
 
 
 class LibraryError(AmontonsError):
-    """A library that amontons needs (gmsh, HDF5, VTK, Cairo, OSMesa) cannot be used."""
+    """A library that amontons needs (gmsh, HDF5, VTK, Cairo, OSMesa, libav) cannot be used."""
 
 
 class ComputeError(AmontonsError):

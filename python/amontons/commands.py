@@ -207,6 +207,18 @@ def render_sweep(folder: Any, plot: str | None = None, **style: Any) -> None:
     call(lib.amontons_render_sweep, str(folder).encode(), None if plot is None else plot.encode(), ctypes.byref(given))
 
 
+def film(result: Any, path: Any, **options: Any) -> Path:
+    """A film of a stored result: `amontons film`. path: its ending (.mp4, .webm, .gif) says what is made; a folder gets
+    PNG frames. options: seconds, rate (frames a second), width and height (pixels), begin and end ("U=0.0117"),
+    last_cycle, of (field), magnification, dark. Ctrl-C stops; there is then no film."""
+    stop = ctypes.c_int(0)
+    folder = result.folder if isinstance(result, Result) else Path(result)
+    words_of = {name: value.encode() if isinstance(value, str) else value for name, value in options.items()}
+    request = c.FilmRequest(path=str(path).encode(), stop=ctypes.pointer(stop), **words_of)
+    call_stoppable(lib.amontons_film, stop, str(folder).encode(), ctypes.byref(request))
+    return Path(path)
+
+
 def info(path: Any, settings: Settings | None = None, picture: Any = None) -> str:
     """What a mesh (.msh, .geo), a scene or a result folder holds, in words: `amontons info`. picture: a PNG of the mesh
     and the rod to be drawn."""

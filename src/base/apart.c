@@ -62,8 +62,10 @@ static void be_child(const ApartWork *work, int pipe, pid_t parent)
 {
     Error err = {0};
     FILE *reply = fdopen(pipe, "wb");
-    signal(SIGTERM, SIG_DFL);
-    signal(SIGINT, SIG_DFL);
+    if (!work->stop) {
+        signal(SIGTERM, SIG_DFL);
+        signal(SIGINT, SIG_DFL);
+    }
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (!reply || getppid() != parent) _exit(1);
     limit(RLIMIT_CORE, 0);
@@ -78,9 +80,10 @@ static void be_child(const ApartWork *work, int pipe, pid_t parent)
 // --- in the parent ------------------------------------------------------------------------------
 
 // To the end of the pipe. Memory may be short: the rest is then not read, and the child ends.
-static bool take_all(int pipe, ApartReply *reply, Error *err)
+static bool take_all(const ApartWork *work, pid_t child, int pipe, ApartReply *reply, Error *err)
 {
     int64_t room = FIRST_BYTES;
+    bool told = false;   // Ctrl-C comes to both; kill to one
     TRY((reply->bytes = memory_bytes(room, err)));
     for (;;) {
         if (reply->size == room) {
@@ -90,7 +93,10 @@ static bool take_all(int pipe, ApartReply *reply, Error *err)
             room *= 2;
         }
         ssize_t count = read(pipe, reply->bytes + reply->size, (size_t)(room - reply->size));
-        if (count < 0 && errno == EINTR) continue;
+        if (count < 0 && errno == EINTR) {
+            if (work->stop && *work->stop && !told) told = kill(child, SIGTERM) == 0;
+            continue;
+        }
         if (count <= 0) break;
         reply->size += count;
     }
@@ -143,7 +149,7 @@ bool apart_read(const ApartWork *work, ApartReply *reply, Error *err)
     }
     int cause = errno;
     close(ends[1]);
-    if (child > 0) take_all(ends[0], reply, err);
+    if (child > 0) take_all(work, child, ends[0], reply, err);
     close(ends[0]);
     if (child < 0) FAIL(err, ERROR_FILE, "cannot start a process: %s", strerror(cause));
     while (wait4(child, &ending, 0, &used) < 0 && errno == EINTR) continue;

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 
+#include <signal.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -19,6 +20,9 @@ typedef struct ApartWork {
     const char *reader;   // whose fault it is when the process crashes: "gmsh"
     int32_t seconds;   // of processor time that it may take
     const char *advice;   // what to do when that is not enough
+    // NULL, or a flag that the caller's handler of SIGINT and SIGTERM sets and `read` looks at: the
+    // other process keeps this handler and is passed on SIGTERM, so that it ends in order.
+    const volatile sig_atomic_t *stop;
     // Runs in the other process. What it writes to `reply` the caller gets; its error, too.
     bool (*read)(void *context, FILE *reply, Error *err);
     void *context;

@@ -11,6 +11,7 @@ int command_model1d(int argc, char **argv);
 int command_sweep(int argc, char **argv);
 int command_render(int argc, char **argv);
 int command_report(int argc, char **argv);
+int command_film(int argc, char **argv);
 int command_info(int argc, char **argv);
 int command_cache(int argc, char **argv);
 

@@ -30,6 +30,7 @@ static const Command commands[] = {
     {"sweep", command_sweep, "STUDY", "computes many runs over varied keys, into one table"},
     {"render", command_render, "RESULT", "draws the pictures of a stored result again"},
     {"report", command_report, "RESULT", "writes a page about a run, a sweep or several runs"},
+    {"film", command_film, "RESULT", "films a stored result: block, slip, force"},
     {"info", command_info, "FILE", "prints what a mesh, a scene or a result holds"},
     {"cache", command_cache, "", "says how large the cache of reductions is, or cleans it"},
 };

@@ -111,14 +111,14 @@ static void format_state(const Progress *progress, const StepView *view, double 
 //     [######............]  33 %  U 0.00198/0.006  mu 0.2034  dt 0.012  3 events  0:12 left
 //
 // In a narrow window the bar goes first, then the end of the text.
-static void draw_bar(const StepView *view, const char *state)
+static void draw_bar(double part, const char *state)
 {
-    int32_t width = terminal_width() - 1, percent = (int32_t)(100 * view->fraction);
+    int32_t width = terminal_width() - 1, percent = (int32_t)(100 * part);
     int32_t bar = width - STATE_WIDTH - (int32_t)strlen("[] 100 %  ");
     char line[2 * WIDTH_MAX], marks[BAR_MAX + 3] = "";
     if (bar > BAR_MAX) bar = BAR_MAX;
     if (bar >= BAR_MIN) {
-        int32_t filled = (int32_t)(view->fraction * bar);
+        int32_t filled = (int32_t)(part * bar);
         marks[0] = '[';
         memset(marks + 1, '.', (size_t)bar);
         memset(marks + 1, '#', (size_t)(filled < bar ? filled : bar));
@@ -178,7 +178,7 @@ void progress_step(const StepView *view, void *context)
     if (progress->style == PROGRESS_BAR) {
         if (progress->running && seconds_between(&progress->drawn, &now) < draw_interval) return;
         format_state(progress, view, elapsed, state, sizeof state);
-        draw_bar(view, state);
+        draw_bar(view->fraction, state);
         progress->drawn = now;
         progress->bar_stands = true;
     } else if ((int32_t)(10 * view->fraction) > progress->tenths) {
@@ -187,6 +187,30 @@ void progress_step(const StepView *view, void *context)
         fprintf(stderr, "%3d %%  %s\n", 10 * progress->tenths, state);
     }
     progress->running = true;
+}
+
+// "[####....]  33 %  of the film  0:12 left"
+void progress_part(Progress *progress, double part, const char *what)
+{
+    char state[WIDTH_MAX], left[40] = "", time[32];
+    struct timespec now;
+    if (progress->style == PROGRESS_QUIET) return;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    if (!progress->running) progress->started = now;
+    bool drawn = progress->running && seconds_between(&progress->drawn, &now) < draw_interval;
+    double elapsed = seconds_between(&progress->started, &now);
+    progress->running = true;
+    progress_format_left(elapsed * (1 - part) / part, time, sizeof time);
+    if (elapsed > SECONDS_LEAST) snprintf(left, sizeof left, "  %s left", time);
+    snprintf(state, sizeof state, "%s%s", what, left);
+    if (progress->style == PROGRESS_BAR && !drawn) {
+        draw_bar(part, state);
+        progress->drawn = now;
+        progress->bar_stands = true;
+    } else if (progress->style == PROGRESS_LINES && (int32_t)(10 * part) > progress->tenths) {
+        progress->tenths = (int32_t)(10 * part);
+        fprintf(stderr, "%3d %%  %s\n", 10 * progress->tenths, state);
+    }
 }
 
 // The line is cleared for what is printed next. Called also after a failure; a second time it does

@@ -32,6 +32,9 @@ Progress progress_begin(bool quiet);   // looks whether standard error is a term
 void progress_stage(const char *stage, void *progress);   // a StageCallback
 void progress_step(const StepView *view, void *progress);   // a StepCallback
 
+// Of work that is not steps: its part so far, 0 to 1, and of what ("of the film").
+void progress_part(Progress *progress, double part, const char *what);
+
 // "1:05", "2:03:40"; "-:--" for NaN.
 void progress_format_left(double seconds, char *text, size_t size);
 

@@ -10,13 +10,24 @@
 #include <string.h>
 #include <sys/stat.h>
 
-// Some minutes: far above what the longest history takes.
-enum { SECONDS_MAX = 600 };
+// Processor time. Some minutes: far above what the longest history takes; of a film hours.
+enum { SECONDS_MAX = 600, FILM_SECONDS_MAX = 36000 };
 
 bool pictures_draw(const char *folder, const PictureRequest *request, Error *err)
 {
     RenderFunction render = (RenderFunction)module_function("render", "amontons_render", err);
     return render && render(folder, request, err);
+}
+
+static bool check_folder(const char *folder, Error *err)
+{
+    struct stat status;
+    if (stat(folder, &status) != 0)
+        FAIL(err, ERROR_INPUT, "cannot open the result %s: %s", folder, strerror(errno));
+    if (!S_ISDIR(status.st_mode))
+        FAIL(err, ERROR_INPUT, "%s is a file, not a result folder", folder);
+cleanup:
+    return error_is_clean(err);
 }
 
 typedef struct DrawRequest {
@@ -35,7 +46,6 @@ static bool draw_apart(void *context, FILE *reply, Error *err)
 bool amontons_render_result(const char *folder, const PictureRequest *request, Error *err)
 {
     static const PictureRequest all = {0};
-    struct stat status;
     ApartReply reply = {0};
     DrawRequest draw = {folder, request ? request : &all};
     ApartWork work = {.path = folder,
@@ -44,11 +54,40 @@ bool amontons_render_result(const char *folder, const PictureRequest *request, E
                       .advice = "its history is damaged",
                       .read = draw_apart,
                       .context = &draw};
-    if (stat(folder, &status) != 0)
-        FAIL(err, ERROR_INPUT, "cannot open the result %s: %s", folder, strerror(errno));
-    if (!S_ISDIR(status.st_mode))
-        FAIL(err, ERROR_INPUT, "%s is a file, not a result folder", folder);
+    TRY(check_folder(folder, err));
     TRY(apart_is_wanted() ? apart_read(&work, &reply, err) : draw_apart(&draw, NULL, err));
+cleanup:
+    apart_destroy(&reply);
+    return error_is_clean(err);
+}
+
+typedef struct FilmWork {
+    const char *folder;
+    const FilmRequest *request;
+} FilmWork;
+
+static bool film_apart(void *context, FILE *reply, Error *err)
+{
+    const FilmWork *film = context;
+    (void)reply;
+    RenderFilmFunction render =
+        (RenderFilmFunction)module_function("render", "amontons_render_film", err);
+    return render && render(film->folder, film->request, err);
+}
+
+bool amontons_film(const char *folder, const FilmRequest *request, Error *err)
+{
+    ApartReply reply = {0};
+    FilmWork film = {folder, request};
+    ApartWork work = {.path = folder,
+                      .reader = "HDF5",
+                      .seconds = FILM_SECONDS_MAX,
+                      .advice = "its history is damaged",
+                      .stop = request->stop,
+                      .read = film_apart,
+                      .context = &film};
+    TRY(check_folder(folder, err));
+    TRY(apart_is_wanted() ? apart_read(&work, &reply, err) : film_apart(&film, NULL, err));
 cleanup:
     apart_destroy(&reply);
     return error_is_clean(err);

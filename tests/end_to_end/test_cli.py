@@ -60,6 +60,7 @@ class Help(unittest.TestCase):
                          "amontons run validation/paper/fig1.yaml"],
                  "static": ["SCENE", "--output", "--set", "amontons static "],
                  "render": ["RESULT", "--figure", "force, slip-map", "amontons render "],
+                 "film": ["RESULT", "--output", ".webm", "--cycle", "amontons film "],
                  "sweep": ["STUDY", "--jobs", "--slurm", "vary", "Example", "amontons sweep "],
                  "info": ["FILE", ".msh", "keys", "amontons info meshes/pads.geo"]}
         for command, wanted in words.items():

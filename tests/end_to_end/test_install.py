@@ -73,7 +73,7 @@ class Installed(unittest.TestCase):
 
     def test_library_is_a_guest(self):
         for library in [self.prefix / "lib/libamontons.so", self.prefix / "lib/amontons/amontons_hdf5.so",
-                        self.prefix / "lib/amontons/amontons_render.so"]:
+                        self.prefix / "lib/amontons/amontons_render.so", self.prefix / "lib/amontons/amontons_libav.so"]:
             listing = run("nm", "-D", "--undefined-only", library).stdout
             used = {line.split()[-1].split("@")[0] for line in listing.splitlines()}
             self.assertEqual(used & HOSTS_OWN, set(), library.name)

@@ -41,7 +41,7 @@ def allowed(folder, include):
     if folder == "render":
         return include.startswith(("base/", "render/")) or include in (
             "io/array_file.h", "io/mesh_file.h", "io/field_read.h", "io/folder.h", "io/part_file.h", "io/html_writer.h", "io/result_file.h",
-            "io/yaml_document.h", "io/shape.h")   # fields inside an element
+            "io/video_file.h", "io/yaml_document.h", "io/shape.h")   # fields inside an element
     if folder == "cli":
         return include in PUBLIC or include.startswith("cli/")
     if include in (*PUBLIC, "render/render.h"):
@@ -235,20 +235,20 @@ class Modules(unittest.TestCase):
     def test_exports(self):
         modules = sorted(MODULES.glob("amontons_*.so"))
         self.assertEqual([m.stem for m in modules],
-                         ["amontons_gmsh", "amontons_hdf5", "amontons_render", "amontons_vtk"])
+                         ["amontons_gmsh", "amontons_hdf5", "amontons_libav", "amontons_render", "amontons_vtk"])
         for module in modules:
             foreign = [s for s in exported(module) if not s.startswith("amontons_")]
             self.assertEqual(foreign, [], module.name)
 
     def test_program_loads_no_heavy_library(self):
-        """gmsh, HDF5, VTK and Cairo come with their modules, on first use; OpenGL with the first image, within the module."""
+        """gmsh, HDF5, VTK and Cairo come with their modules, on first use; OpenGL with the first image, libav with the first film."""
         program = MODULES / "amontons"
         needed = subprocess.run(["ldd", program], capture_output=True, text=True, check=True).stdout
         self.assertIn("libamontons.so", needed)
-        for library in ("libgmsh", "libhdf5", "libcurl", "libvtk", "libcairo"):
+        for library in ("libgmsh", "libhdf5", "libcurl", "libvtk", "libcairo", "libav"):
             self.assertNotIn(library, needed)
         drawn = subprocess.run(["ldd", MODULES / "amontons_render.so"], capture_output=True, text=True, check=True).stdout
-        for library in ("libOSMesa", "libEGL", "libGL.so"):
+        for library in ("libOSMesa", "libEGL", "libGL.so", "libav", "libswscale"):
             self.assertNotIn(library, drawn)
         if "libubsan" not in needed:   # which is in C++ itself
             self.assertNotIn("libstdc++", needed)

@@ -39,7 +39,7 @@ class Packages(unittest.TestCase):
 
     def test_depend_on_what_they_need(self):
         needed = self.depends("amontons")
-        for name in ("libgmsh4.8", "libvtk9.1", "libhdf5-103-1", "libcairo2", "libosmesa6", "libcholmod3",
+        for name in ("libgmsh4.8", "libvtk9.1", "libhdf5-103-1", "libcairo2", "libosmesa6", "libavcodec59", "libavformat59", "libswscale6", "libcholmod3",
                      "fonts-dejavu-core"):
             self.assertIn(name, needed)
         self.assertFalse([name for name in needed if name.endswith("-dev")])

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// `amontons film`: a film of a stored result.
+#include "cli/commands.h"
+#include "cli/options.h"
+#include "cli/progress.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { RATE_MAX = 240, NAME_SIZE = 256 };
+
+static const CommandText text = {
+    .name = "film",
+    .argument = "RESULT",
+    .what = "result folder",
+    .example = "amontons film fig1-result -o fig1.mp4",
+    .help =
+        "Films the result folder RESULT, from what is stored in it; nothing is computed. The film "
+        "shows a field of the block (where the scene had output.fields; else the interface alone), "
+        "the slip rate along the contact, and F_T/F_N. Where slip is rapid time goes slower by "
+        "itself: a band at the foot says how much."
+        "\vThe ending of -o says what is made: .mp4 (H.264), .webm (VP9) or .gif; a name without "
+        "an ending is a folder of PNG frames, and so is a pattern such as frames/run-%04d.png. "
+        "Without -o the film is RESULT.mp4 in the current folder. Of the fields each frame shows "
+        "the one stored nearest in time: store many where much happens. Examples:\n\n"
+        "  amontons film fig1-result\n"
+        "  amontons film fig1-result -o cycle.webm --cycle --size 1280x720\n"
+        "  amontons film fig1-result -o sliding.gif --from U=0.0114 --to U=0.0116 --seconds 8\n"
+        "  amontons film fig1-result -o frames/ --of velocity --dark"};
+
+// A number above 0, with nothing behind it.
+static int read_number(const char *name, const char *word, double *number)
+{
+    char *end = NULL;
+    if (!word) return 0;
+    *number = strtod(word, &end);
+    if (end == word || *end || !(*number > 0) || !isfinite(*number))
+        return report_misuse("%s %s: a number above 0 is allowed", name, word);
+    return 0;
+}
+
+// "1280x720".
+static int read_size(const char *word, FilmRequest *film)
+{
+    int end = 0;
+    if (!word) return 0;
+    if (sscanf(word, "%dx%d%n", &film->width, &film->height, &end) != 2 || word[end] ||
+        film->width <= 0 || film->height <= 0)
+        return report_misuse("--size %s: width and height in pixels are given as 1280x720", word);
+    return 0;
+}
+
+// results/fig1/ becomes fig1.mp4.
+static void name_film(const char *result, char *name, size_t size)
+{
+    size_t length = strlen(result);
+    while (length > 1 && result[length - 1] == '/') --length;
+    size_t first = length;
+    while (first > 0 && result[first - 1] != '/') --first;
+    bool named = strspn(result + first, "./") < length - first;
+    snprintf(name, size, "%.*s.mp4", named ? (int)(length - first) : 4,
+             named ? result + first : "film");
+}
+
+static void show_frame(int32_t frame, int32_t frames, void *context)
+{
+    progress_part(context, (double)frame / frames, "of the film");
+}
+
+static int make_film(const char *result, FilmRequest *film, bool quiet)
+{
+    Error err = {0};
+    Progress progress = progress_begin(quiet);
+    film->on_frame = show_frame;
+    film->context = &progress;
+    film->stop = stop_on_signals();
+    stop_in_order();
+    bool done = amontons_film(result, film, &err);
+    progress_end(&progress);
+    if (!done) return report_error(&err);
+    if (!quiet) printf("film: %s\n", film->path);
+    return 0;
+}
+
+int command_film(int argc, char **argv)
+{
+    const char *result = NULL, *seconds = NULL, *rate = NULL, *size = NULL, *magnification = NULL;
+    char name[NAME_SIZE];
+    bool quiet = false;
+    FilmRequest film = {0};
+    const Option options[] = {
+        {"output", 'o', "FILE", "The film; its ending says of which kind", .word = &film.path},
+        {"seconds", 0, "S", "How long it lasts; 20 by default", .word = &seconds},
+        {"fps", 0, "N", "Frames a second; 30 by default, of a GIF 20", .word = &rate},
+        {"size", 0, "WxH", "Pixels, even numbers; 1920x1080 by default, of a GIF 800x450",
+         .word = &size},
+        {"from", 0, "U=U", "Where it begins; or t=TIME; the start by default", .word = &film.begin},
+        {"to", 0, "U=U", "Where it ends; or t=TIME; the end by default", .word = &film.end},
+        {"cycle", 0, NULL,
+         "The last cycle: from the last bulk sliding but one to a little after the last",
+         .flag = &film.last_cycle},
+        {"of", 0, "FIELD",
+         "What is shown of the block: von_mises (default), stress_xx, stress_zz, stress_xz, "
+         "pressure, velocity, displacement, strain_energy or dissipation",
+         .word = &film.of},
+        {"magnification", 0, "N", "Of the block's deformation; chosen by default",
+         .word = &magnification},
+        {"dark", 0, NULL, "Light lines on dark paper", .flag = &film.dark},
+        {"quiet", 'q', NULL, "Print nothing but errors", .flag = &quiet},
+        {0}};
+    int status = options_read(&text, options, argc, argv, &result);
+    if (status == 0) status = read_number("--seconds", seconds, &film.seconds);
+    if (status == 0) status = read_number("--magnification", magnification, &film.magnification);
+    if (status == 0 && rate) status = option_count("--fps", rate, 1, RATE_MAX, &film.rate);
+    if (status == 0) status = read_size(size, &film);
+    if (status != 0) return status;
+    name_film(result, name, sizeof name);
+    if (!film.path) film.path = name;
+    return make_film(result, &film, quiet);
+}
