@@ -21,7 +21,8 @@ typedef struct PointSettings {
 
 // --- values of a scene --------------------------------------------------------------------------
 
-// Twelve digits: what a user typed comes back as it was typed.
+// Twelve digits: what a user typed comes back as it was typed. A key that is not given and has no
+// default (rod.stiffness) has no value: it is not 0.
 void study_scene_value(const Scene *scene, const char *key, char *words, int32_t size,
                        double *number)
 {
@@ -30,6 +31,7 @@ void study_scene_value(const Scene *scene, const char *key, char *words, int32_t
     const SceneKey *keys = scene_keys(&count);
     *words = 0;
     *number = NAN;
+    if (index >= 0 && keys[index].may_lack && !scene->given[index]) return;
     if (scene_number(scene, key, number))
         snprintf(words, (size_t)size, "%.12g", *number);
     else if (parameter)

@@ -20,6 +20,7 @@ static bool add_columns(Study *study, const char *key, const YamlDocument *docum
 {
     bool opens = yaml_kind(document, node) == YAML_MAP;
     bool is_map_of_keys = strcmp(key, "mesh.set") == 0 || strcmp(key, "output.fields") == 0 ||
+                          strcmp(key, "materials") == 0 || strncmp(key, "materials.", 10) == 0 ||
                           (scene_key_is_group(key) && scene_key_index(key) < 0);
     if (!opens || !is_map_of_keys) return study_add_column(study, key, err);
     for (YamlNode item = yaml_first(document, node); item != YAML_NO_NODE;

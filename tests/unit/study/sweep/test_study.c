@@ -247,6 +247,19 @@ static void test_columns_of_maps(void **state)
     assert_string_equal(study->columns[1], "mesh.set.nz");
     assert_true(value_at(study, 1, "mesh.set.nz") == 8);
     drop(study);
+    study = read_body("vary:\n  materials.pads: [{young: 5, eta1: 2}, {young: 7, eta1: 3}]\n");
+    assert_int_equal(study->column_count, 2);
+    assert_string_equal(study->columns[0], "materials.pads.young");
+    assert_true(value_at(study, 1, "materials.pads.eta1") == 3);
+    drop(study);
+    study = read_body("vary:\n  materials: [{pads: {young: 5}}, {top: {young: 2}}]\n");
+    assert_string_equal(study->columns[1], "materials.top.young");
+    assert_true(isnan(value_at(study, 0, "materials.top.young")));
+    drop(study);
+    study = read_body("cases:\n  - {rod.stiffness: 0.5}\n  - {rod.kind: bonded}\n");
+    assert_true(value_at(study, 0, "rod.stiffness") == 0.5);
+    assert_true(isnan(value_at(study, 1, "rod.stiffness")));
+    drop(study);
 }
 
 // Lines count from the study's first, which names the scene.
