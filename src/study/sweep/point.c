@@ -214,7 +214,7 @@ void point_words(const Sweep *sweep, const Scene *scene, char words[POINT_WORDS_
         double number = 0;
         study_scene_value(scene, sweep->study.columns[k], text, sizeof text, &number);
         int length = snprintf(words + used, POINT_WORDS_SIZE - used, "%s%s=%s", used ? " " : "",
-                              sweep->study.columns[k], text);
+                              sweep->study.columns[k], *text ? text : "none");
         if (length < 0 || (size_t)length >= POINT_WORDS_SIZE - used) break;
         used += (size_t)length;
     }
