@@ -135,6 +135,7 @@ cairo_t *canvas_ink(Canvas *canvas, Color color)
     if (canvas->def.dark) color = color_on_dark(color);
     cairo_set_source_rgba(canvas->cairo, (double)color.red, (double)color.green, (double)color.blue,
                           (double)color.alpha);
+    cairo_new_path(canvas->cairo);   // text leaves a point, from which the next shape would begin
     return canvas->cairo;
 }
 

@@ -207,6 +207,24 @@ static void text_turns_and_aligns(void **state)
     text_destroy(text);
 }
 
+// A letter leaves no point behind from which the next shape would begin.
+static void shapes_after_text_are_right(void **state)
+{
+    (void)state;
+    const Point corners[] = {{300, 300}, {320, 300}, {320, 320}, {300, 320}};
+    Text *text = text_begin();
+    TextStyle style = {.size = 40, .color = BLACK};
+    text_draw(text, &style, (Point){20, 50}, "0");
+    double letter = area_read();
+    shape_polygon(canvas, BLACK, corners, 4);
+    assert_float_equal(area_read(), letter + 400, 1e-9);
+    text_draw(text, &style, (Point){20, 100}, "0");
+    double before = area_read();
+    shape_disc(canvas, BLACK, (Point){200, 200}, 40);
+    assert_float_equal(area_read(), before + 5027, 50);
+    text_destroy(text);
+}
+
 // Broken UTF-8 and braces draw something and end.
 static void odd_words_do_no_harm(void **state)
 {
@@ -287,6 +305,7 @@ int main(void)
         CASE(a_heat_map_too_large_is_reported),
         CASE(text_has_width_and_ink),
         CASE(text_turns_and_aligns),
+        CASE(shapes_after_text_are_right),
         CASE(odd_words_do_no_harm),
         CASE(sizes_have_limits),
         cmocka_unit_test(dark_paper_turns_lightness),
