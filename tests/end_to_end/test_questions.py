@@ -39,8 +39,8 @@ class Questions(unittest.TestCase):
             self.assertGreater(self.plan(study), 2, study)
 
     def test_page_is_its_template_filled_in(self):
-        """Words are changed in page.md, and numbers by questions.py alone."""
-        template, page = (" ".join((QUESTIONS / name).read_text(encoding="utf-8").split()) for name in ("page.md", "README.md"))
+        """Words are changed in page.in, and numbers by questions.py alone."""
+        template, page = (" ".join((QUESTIONS / name).read_text(encoding="utf-8").split()) for name in ("page.in", "README.md"))
         pattern = "(.+?)".join(re.escape(part) for part in re.split(r"\[\[[^]]+\]\]", template))
         self.assertTrue(re.fullmatch(pattern, page), "run validation/questions/questions.py")
 

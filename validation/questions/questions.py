@@ -4,7 +4,7 @@
 
     validation/questions/questions.py [-o DIR] [-j N] [--program PROGRAM]
 
-Sweeps the studies of this folder (a call that is stopped goes on where it was) and writes README.md from page.md, with what was
+Sweeps the studies of this folder (a call that is stopped goes on where it was) and writes README.md from page.in, with what was
 measured in the place of [[names]], and the figures beside it. Needs h5py and numpy (python3-h5py)."""
 import argparse
 import csv
@@ -540,10 +540,10 @@ def towards_rigid(study):
 # --- the page -------------------------------------------------------------------------------------
 
 def write_page(study):
-    text = (HERE / "page.md").read_text(encoding="utf-8")
+    text = (HERE / "page.in").read_text(encoding="utf-8")
     missing = sorted({name for name in re.findall(r"\[\[([^]]+)\]\]", text) if name not in study.measured})
     if missing:
-        raise SystemExit("page.md names what was not measured: " + ", ".join(missing))
+        raise SystemExit("page.in names what was not measured: " + ", ".join(missing))
     page = re.sub(r"\[\[([^]]+)\]\]", lambda found: str(study.measured[found.group(1)]), text)
     (HERE / "README.md").write_text("\n\n".join(wrapped(part) for part in page.strip().split("\n\n")) + "\n", encoding="utf-8")
 
