@@ -22,31 +22,36 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Always false.
+static bool refuse_other_end(Error *err)
+{
+    FAIL(
+        err, ERROR_INPUT,
+        "output.window.last is counted back from the end of the run, and so far it had another one "
+        "(--overwrite begins anew)");
+cleanup:
+    return false;
+}
+
+// The last steps of a run are cut to its end. With a later one, states from before it would lead to
+// other steps there: the run can be taken back to that end at the most.
 bool rewind_start(Simulation *simulation, Error *err)
 {
     const Window *window = &simulation->window;
-    bool begins = window_is_sought(window) && !window->again && simulation->kept.count == 0;
-    return !begins || keep(simulation, err);
-}
-
-// A result that was gone on with to a later end has its last slidings behind it.
-static bool stays_inside(const Simulation *simulation, Error *err)
-{
-    const Window *window = &simulation->window;
-    if (window->def.last > 0 && simulation->control.now.time > window->furthest)
-        FAIL(err, ERROR_INPUT,
-             "output.window.last: the slidings before t = %g were written as the last; a run that "
-             "goes further has others (--overwrite begins anew)",
-             window->furthest);
-cleanup:
-    return error_is_clean(err);
+    if (!window_is_sought(window)) return true;
+    bool moved = simulation->goes_on && simulation->end_moved;
+    if (moved && window->def.last > 0) return refuse_other_end(err);
+    if (moved) kept_states_destroy(&simulation->kept);
+    return window->again || simulation->kept.count > 0 || keep(simulation, err);
 }
 
 bool rewind_follow(Simulation *simulation, bool *finished, Error *err)
 {
     Window *window = &simulation->window;
     if (!window_is_sought(window)) return true;
-    if (window->again) return stays_inside(simulation, err);
+    bool goes_further = window->again && simulation->control.now.time > window->furthest;
+    if (goes_further && window->def.last > 0) return refuse_other_end(err);
+    if (window->again) return true;
     if (window->ended && !window->found) TRY(keep(simulation, err));
     if (*finished) window_close(window, simulation->kept.times[0]);
     if (!window->found) goto cleanup;

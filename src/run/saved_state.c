@@ -137,6 +137,7 @@ static void archive_end(Simulation *simulation, Archive *archive)
     if (!archive_reads(archive)) return;
     bool same = until[0] == simulation->scene.time.until_U &&
                 until[1] == simulation->scene.time.until_t;
+    simulation->end_moved = !same;
     const Rod *rod = &simulation->rod;
     bool steered = rod->since != 0 || rod->velocity != simulation->scene.rod.velocity;
     if (same)
@@ -270,9 +271,13 @@ bool amontons_simulation_restore(Simulation *simulation, const SavedState *state
     return restore(simulation, true, state, err);
 }
 
+// What it allocates is not the loop's.
 bool saved_state_take_back(Simulation *simulation, const SavedState *state, Error *err)
 {
-    return restore(simulation, false, state, err);
+    int64_t before = memory_counters().allocations;
+    bool done = restore(simulation, false, state, err);
+    simulation->allocations_before += memory_counters().allocations - before;
+    return done;
 }
 
 bool amontons_state_write(const SavedState *state, const char *path, Error *err)

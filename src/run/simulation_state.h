@@ -50,6 +50,7 @@ struct Simulation {
     const Levels *levels;   // several meshes and runs, of which this is one; NULL: it is alone
     char identity[HASH_TEXT_SIZE];   // of scene, bulk and interface; empty: not asked for yet
     bool goes_on;   // from a checkpoint
+    bool end_moved;   // whose scene ended elsewhere
     int32_t resumed;   // so many times since t = 0
     bool checkpoint_failed;   // and the run was warned of it
     double checkpoint_at, checkpoint_cost;   // wall clock of the last one; how long it took, s

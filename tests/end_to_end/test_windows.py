@@ -69,7 +69,7 @@ class Windows(Driven):
         numpy.testing.assert_allclose(self.written("last"), found["time"][self.due(found["time"], 5)], rtol=1e-12)
         again = self.call("run", *window, "time.until={U: 0.03, slidings: 4}", scene=EXAMPLE, status=2,
                           flags=("-q", "-o", self.folder / "last", "--resume"))
-        self.assertIn("output.window.last: the slidings before t = 84.6", again)
+        self.assertIn("output.window.last is counted back from the end of the run", again)
 
     def test_all_slidings_from_the_start(self):
         found = self.run_scene("three", "output.window={last: 3 slidings}", ROWS, "output.fields=none", scene=EXAMPLE)
@@ -85,14 +85,17 @@ class Windows(Driven):
         numpy.testing.assert_allclose(self.written("part"), found["time"][self.due(found["time"], 2)], rtol=1e-12)
 
     def test_killed(self):
-        """While it goes through the window for the second time; no file has its name before it is whole."""
-        for name, window, every in (("around", "around: sliding 2", "every_step: true"), ("last", "last: 1 sliding", "every_t: 1")):
-            words = [PROGRAM, "run", EXAMPLE, "--set", f"output.window={{{window}}}", ROWS, f"output.fields={{{every}}}",
-                     "-q", "-o"]
+        """While it goes through the window for the second time, and before; no file has its name before it is whole."""
+        sixteen = ["output.fields=none", "time.until={U: 1, slidings: 16}"]
+        for name, window, more, until in (
+                ("around", "around: sliding 2", [], "fields/bulk_000005.vtu"),
+                ("last", "last: 1 sliding", ["output.fields={every_t: 1}"], "fields/bulk_000005.vtu"),
+                ("all", "last: 16 slidings", sixteen, "checkpoint.bin")):
+            words = [PROGRAM, "run", EXAMPLE, "--set", f"output.window={{{window}}}", ROWS, *more, "-q", "-o"]
             subprocess.run([*words, self.folder / f"{name}-whole"], check=True)
             cut = self.folder / f"{name}-cut"
             process = subprocess.Popen([*words, cut, "--checkpoint", "0.02s"])
-            while not (cut / "fields/bulk_000005.vtu").exists():
+            while not (cut / until).exists():
                 self.assertIsNone(process.poll())
                 time.sleep(0.001)
             process.kill()
@@ -102,6 +105,14 @@ class Windows(Driven):
                 self.assertTrue(path.read_text(errors="replace").rstrip().endswith("</VTKFile>"), path)
             subprocess.run([*words, cut, "--resume"], check=True)
             self.assertEqual(kills.differences(self.folder / f"{name}-whole", cut), [])
+
+    def test_gone_on_with(self):
+        """The run ended before the window's sliding, and is given a later end."""
+        window = ("output.window={around: sliding 2}", "output.fields={every_step: true}")
+        self.run_scene("early", *window, "time.until={U: 4.5e-3}", scene=EXAMPLE)
+        self.assertFalse((self.folder / "early/fields.pvd").exists())
+        found = self.run_scene("early", *window, scene=EXAMPLE, flags=["--resume"])
+        numpy.testing.assert_allclose(self.written("early"), found["time"][self.sliding(found, 2)], rtol=1e-12)
 
     def test_explicit(self):
         scheme = ("time.scheme=explicit", "time.until={t: 80}")

@@ -21,7 +21,25 @@
     X(MISTAKE_SMOOTHED_STICK, "smoothed-stick") /* mu(v) tanh(v/v_0) in place of stick */          \
     X(MISTAKE_GLUED_CONTACT, "glued-contact") /* what touched does not leave */                    \
     X(MISTAKE_HALF_SLIP_RATE, "half-slip-rate") /* mu(v/2) */                                      \
-    X(MISTAKE_STAGE_MATRIX, "stage-matrix") /* K twice in the matrix of a stage */
+    X(MISTAKE_STAGE_MATRIX, "stage-matrix") /* K twice in the matrix of a stage */                 \
+    /* of scenes.c, in words in scenes.py */                                                       \
+    X(MISTAKE_REGION_DENSITY, "region-density")                                                    \
+    X(MISTAKE_REGION_VISCOSITY, "region-viscosity")                                                \
+    X(MISTAKE_REGION_KEY, "region-key")                                                            \
+    X(MISTAKE_ONE_LAW, "one-law")                                                                  \
+    X(MISTAKE_FLAT_FLOOR, "flat-floor")                                                            \
+    X(MISTAKE_FLAT_MESH, "flat-mesh")                                                              \
+    X(MISTAKE_PROFILE_STEPS, "profile-steps")                                                      \
+    X(MISTAKE_PROFILE_NAME, "profile-name")                                                        \
+    X(MISTAKE_LOAD_STAIRS, "load-stairs")                                                          \
+    X(MISTAKE_LOAD_POINTS, "load-points")                                                          \
+    X(MISTAKE_ROD_WAY, "rod-way")                                                                  \
+    X(MISTAKE_MACHINE_RIGID, "machine-rigid")                                                      \
+    X(MISTAKE_MACHINE_FORCE, "machine-force")                                                      \
+    X(MISTAKE_WINDOW_FIRST, "window-first")                                                        \
+    X(MISTAKE_WINDOW_FORGOTTEN, "window-forgotten")                                                \
+    X(MISTAKE_STATES_FORGOTTEN, "states-forgotten")                                                \
+    X(MISTAKE_STATE_ROUNDED, "state-rounded")
 
 typedef enum Mistake {
 #define X(symbol, name) symbol,

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Mistakes in what a scene of a real contact has: regions, laws and gaps of contacts, programs, the
+// machine, output by window. scenes.py says which tests must see them.
+#include "mistake.h"
+
+#include "bulk/machine.h"
+#include "bulk/mesh.h"
+#include "contact/rod_course.h"
+#include "model/contact_laws.h"
+#include "model/gaps.h"
+#include "model/shape_cache.h"
+#include "run/kept_states.h"
+#include "run/saved_state.h"
+#include "scene/keys.h"
+#include "scene/materials.h"
+#include "scene/profile.h"
+#include "stepping/load_course.h"
+
+#include <math.h>
+#include <string.h>
+
+// The library's own NAME, and what stands in its place.
+#define REPLACED(type, name, ...)                                                                  \
+    type __real_##name(__VA_ARGS__);                                                               \
+    type __wrap_##name(__VA_ARGS__)
+
+REPLACED(double, scene_material_number, const Scene *scene, const SceneMaterial *region, int32_t k);
+REPLACED(bool, shape_key, const Scene *scene, double tolerance, char key[HASH_TEXT_SIZE],
+         Error *err);
+REPLACED(bool, model_lay_laws, Model *model, Error *err);
+REPLACED(bool, model_lay_gaps, Model *model, Error *err);
+REPLACED(double, mesh_gap, const Mesh *mesh, int32_t node);
+REPLACED(double, scene_profile_at, const SceneProfile *profile, double x);
+REPLACED(bool, scene_hash, const Scene *scene, bool (*counts)(const char *key), Hash *hash,
+         Error *err);
+REPLACED(double, load_factor, const LoadCourse *course, double time);
+REPLACED(double, load_next, const LoadCourse *course, double time);
+REPLACED(double, rod_course_way, const RodCourse *course, double time);
+REPLACED(bool, machine_soften, const Machine *machine, double reach, int32_t count, double *schur,
+         MachineColumn *column, Error *err);
+REPLACED(void, machine_refer, MachineColumn *column, double *g);
+REPLACED(bool, window_take_back, Window *window, const Observation *seen, Error *err);
+REPLACED(void, window_archive, Window *window, Archive *archive);
+REPLACED(bool, kept_states_archive, KeptStates *kept, Archive *archive, Error *err);
+REPLACED(bool, saved_state_take_back, Simulation *simulation, const SavedState *state, Error *err);
+
+static bool made(Mistake mistake)
+{
+    return mistake_made() == mistake;
+}
+
+// --- regions and contacts -----------------------------------------------------------------------
+
+double __wrap_scene_material_number(const Scene *scene, const SceneMaterial *region, int32_t k)
+{
+    bool left_out = (made(MISTAKE_REGION_DENSITY) && k == MATERIAL_DENSITY) ||
+                    (made(MISTAKE_REGION_VISCOSITY) && (k == MATERIAL_ETA1 || k == MATERIAL_ETA2));
+    const SceneMaterial whole = {0};
+    return __real_scene_material_number(scene, left_out ? &whole : region, k);
+}
+
+bool __wrap_shape_key(const Scene *scene, double tolerance, char key[HASH_TEXT_SIZE], Error *err)
+{
+    static Scene other;
+    if (!made(MISTAKE_REGION_KEY)) return __real_shape_key(scene, tolerance, key, err);
+    other = *scene;
+    memset(&other.materials, 0, sizeof other.materials);
+    return __real_shape_key(&other, tolerance, key, err);
+}
+
+bool __wrap_model_lay_laws(Model *model, Error *err)
+{
+    return made(MISTAKE_ONE_LAW) || __real_model_lay_laws(model, err);
+}
+
+bool __wrap_model_lay_gaps(Model *model, Error *err)
+{
+    return made(MISTAKE_FLAT_FLOOR) || __real_model_lay_gaps(model, err);
+}
+
+double __wrap_mesh_gap(const Mesh *mesh, int32_t node)
+{
+    return made(MISTAKE_FLAT_MESH) ? 0 : __real_mesh_gap(mesh, node);
+}
+
+// Of the point before it.
+double __wrap_scene_profile_at(const SceneProfile *profile, double x)
+{
+    if (!made(MISTAKE_PROFILE_STEPS)) return __real_scene_profile_at(profile, x);
+    int32_t k = 0;
+    while (k + 1 < profile->count && profile->x[k + 1] <= x) k++;
+    return profile->gap[k];
+}
+
+bool __wrap_scene_hash(const Scene *scene, bool (*counts)(const char *key), Hash *hash, Error *err)
+{
+    static Scene other;
+    if (!made(MISTAKE_PROFILE_NAME)) return __real_scene_hash(scene, counts, hash, err);
+    other = *scene;
+    memset(other.contact.profile, 0, sizeof other.contact.profile);
+    hash_text(hash, scene->contact.profile);
+    return __real_scene_hash(&other, counts, hash, err);
+}
+
+// --- programs and the machine -------------------------------------------------------------------
+
+// That at the beginning of the stretch: stairs for ramps.
+double __wrap_load_factor(const LoadCourse *course, double time)
+{
+    double from;
+    if (!course || !made(MISTAKE_LOAD_STAIRS)) return __real_load_factor(course, time);
+    double x = course->by_way ? rod_displacement(course->rod, time) : time;
+    if (course->schedule.count == 0) return 1;
+    return course->schedule.factor[schedule_stretch(&course->schedule, x, &from)];
+}
+
+double __wrap_load_next(const LoadCourse *course, double time)
+{
+    return made(MISTAKE_LOAD_POINTS) ? INFINITY : __real_load_next(course, time);
+}
+
+// With the velocity of now all the time.
+double __wrap_rod_course_way(const RodCourse *course, double time)
+{
+    if (!made(MISTAKE_ROD_WAY)) return __real_rod_course_way(course, time);
+    return rod_course_velocity(course, time) * time;
+}
+
+bool __wrap_machine_soften(const Machine *machine, double reach, int32_t count, double *schur,
+                           MachineColumn *column, Error *err)
+{
+    Machine other = *machine;
+    bool in_step = reach > 0;
+    if (made(MISTAKE_MACHINE_RIGID) && in_step) other.stiffness *= 2;
+    return __real_machine_soften(&other, reach, count, schur, column, err);
+}
+
+void __wrap_machine_refer(MachineColumn *column, double *g)
+{
+    if (made(MISTAKE_MACHINE_FORCE)) column->force *= 0.99;
+    __real_machine_refer(column, g);
+}
+
+// --- output by window ---------------------------------------------------------------------------
+
+// The state that it is taken back to is not looked at.
+bool __wrap_window_take_back(Window *window, const Observation *seen, Error *err)
+{
+    if (!made(MISTAKE_WINDOW_FIRST)) return __real_window_take_back(window, seen, err);
+    Observation before = *seen;
+    before.t = -INFINITY;
+    return __real_window_take_back(window, &before, err);
+}
+
+void __wrap_window_archive(Window *window, Archive *archive)
+{
+    if (!made(MISTAKE_WINDOW_FORGOTTEN)) __real_window_archive(window, archive);
+}
+
+bool __wrap_kept_states_archive(KeptStates *kept, Archive *archive, Error *err)
+{
+    return made(MISTAKE_STATES_FORGOTTEN) || __real_kept_states_archive(kept, archive, err);
+}
+
+// One displacement is off by its rounding.
+bool __wrap_saved_state_take_back(Simulation *simulation, const SavedState *state, Error *err)
+{
+    bool done = __real_saved_state_take_back(simulation, state, err);
+    double *displacement = simulation->control.now.displacement;
+    if (made(MISTAKE_STATE_ROUNDED)) displacement[0] = nextafter(displacement[0], INFINITY);
+    return done;
+}

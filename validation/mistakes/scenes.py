@@ -1,0 +1,77 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Deliberate mistakes in regions, gaps, laws of contacts, programs, the machine and output by window (scenes.c): the tests
+below must fail with each, and pass with none. Prints the table of README.md; the exit status is 1 where one is missed.
+
+    validation/mistakes/scenes.py [--build build] [MISTAKE ...]
+"""
+import argparse
+import os
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+TESTS = ROOT / "tests/end_to_end"
+# mistake, in words, the test that is to see it
+TABLE = (
+    ("region-density", "the density of a region is that of the block", "test_regions.Regions.test_column"),
+    ("region-viscosity", "so are its viscosities", "test_regions.Regions.test_column"),
+    ("region-key", "a shape is looked for in the cache without its regions", "test_regions.Regions.test_reduced_and_cached"),
+    ("one-law", "every contact has the scene's law", "test_friction_contacts.Contacts"),
+    ("flat-floor", "radius, gap and profile are passed over", "test_gaps.Gaps.test_hertz"),
+    ("flat-mesh", "the gaps that the mesh itself leaves are", "test_gaps.Gaps.test_hertz"),
+    ("profile-steps", "a profile is level between its points", "test_gaps.Gaps.test_profile"),
+    ("profile-name", "results know a profile by its name, not by its content", "test_gaps.Gaps.test_profile"),
+    ("load-stairs", "the load jumps where it should rise", "test_programs.Programs.test_rigid_block"),
+    ("load-points", "steps pass over the points of a load's program", "test_programs.Programs.test_schemes_agree"),
+    ("rod-way", "U is the velocity of the moment times t", "test_programs.Programs.test_rigid_block"),
+    ("machine-rigid", "the spring is twice as stiff in steps", "test_machine.Machine.test_rigid_block"),
+    ("machine-force", "its force is 1 % too small", "test_machine.Machine.test_rigid_block"),
+    ("window-first", "the step a window begins with is left out", "test_windows.Windows.test_last"),
+    ("window-forgotten", "a checkpoint does not have the window", "test_windows.Windows.test_killed"),
+    ("states-forgotten", "a checkpoint does not have the states that a run may be taken back to",
+     "test_windows.Windows.test_killed"),
+    ("state-rounded", "a run that is taken back is off by one rounding", "test_windows.Windows.test_around"),
+)
+
+
+def failures(programs, mistake, test):
+    """What of `test` fails, by name and line of the assertion; [] where all passes."""
+    environment = dict(os.environ, AMONTONS_SOURCE=str(ROOT), AMONTONS_BIN=str(programs), AMONTONS_MISTAKE=mistake)
+    done = subprocess.run([sys.executable, "-m", "unittest", test], cwd=TESTS, env=environment, capture_output=True, text=True)
+    found = re.findall(r"^(?:FAIL|ERROR): (\w+)", done.stderr, re.M)
+    if (done.returncode == 0) != (not found):
+        raise SystemExit(f"{test}: {done.stderr}")
+    return sorted(set(found))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", type=Path, default=ROOT / "build")
+    parser.add_argument("mistakes", nargs="*")
+    given = parser.parse_args()
+    missed, passed = 0, {}
+    with tempfile.TemporaryDirectory(prefix="amontons-mistakes-") as folder:
+        programs = Path(folder)
+        for item in (given.build / "bin").iterdir():
+            (programs / item.name).symlink_to(item.resolve())
+        (programs / "amontons").unlink()
+        (programs / "amontons").symlink_to(next(given.build.glob("**/amontons_mistaken")).resolve())
+        print("| mistake | what is wrong | seen by |\n|---|---|---|")
+        for mistake, words, test in TABLE:
+            if given.mistakes and mistake not in given.mistakes:
+                continue
+            if test not in passed:
+                passed[test] = not failures(programs, "none", test)
+            found = failures(programs, mistake, test)
+            seen = ", ".join(f"`{test.split('.')[0]}`: {name}" for name in found) or "**nothing**"
+            missed += not found or not passed[test]
+            print(f"| {mistake} | {words} | {seen}{'' if passed[test] else ' (fails without it, too)'} |", flush=True)
+    return 1 if missed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
