@@ -60,17 +60,17 @@ int32_t frames_choose(const ResultView *view, const int64_t *rows, int32_t count
     }
     int32_t found = choose_events(view, rows, count, most, chosen), wanted = most - found;
     Way all = way_between(view, rows[0], rows[count - 1]);
-    double done = 0, before = 0;
+    double done = 0, before = 0, total = (all.U > 0) + (all.mu > 0);
     int32_t next = 0;   // of the frames wanted
     for (int32_t k = 0; k < count && next < wanted; ++k) {
         Way way = k > 0 ? way_between(view, rows[k - 1], rows[k]) : (Way){0};
         before = done;
         done += (all.U > 0 ? way.U / all.U : 0) + (all.mu > 0 ? way.mu / all.mu : 0);
-        double target = 2 * (double)next / (wanted > 1 ? wanted - 1 : 1) - SLACK;
+        double target = total * next / (wanted > 1 ? wanted - 1 : 1) - SLACK;
         if (done < target) continue;
         bool earlier = k > 0 && target - before < done - target;
         found = insert(earlier ? k - 1 : k, chosen, found);
-        while (next < wanted && 2 * (double)next / (wanted > 1 ? wanted - 1 : 1) - SLACK <= done)
+        while (next < wanted && total * next / (wanted > 1 ? wanted - 1 : 1) - SLACK <= done)
             ++next;
     }
     return found;

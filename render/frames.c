@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 enum { STRIPS = 3, PRINTED = 6, STATUSES = 4 };
+enum { FIELDS_LEAST = 4 };   // stored times: fewer tell no story, the steps of the history do
 
 // Units of the drawing; a page shows it some 500 pixels wide.
 enum { WIDTH = 560, LEFT = 70, RIGHT = 505, TOP = 26, STRIP = 72, STRIP_GAP = 16 };
@@ -56,7 +57,7 @@ static void frames_destroy(Frames *frames)
 
 // --- which times ---------------------------------------------------------------------------------
 
-// With fields their times, else all steps.
+// With some fields their times, else all steps.
 static bool choose(const char *folder, Frames *frames, Error *err)
 {
     char path[PATH_MAX];
@@ -64,7 +65,7 @@ static bool choose(const char *folder, Frames *frames, Error *err)
     snprintf(path, sizeof path, "%s/fields.pvd", folder);
     frames->fields = access(path, R_OK) == 0;
     if (frames->fields) TRY(block_times_read(folder, view, &frames->times, err));
-    frames->fields = frames->times.count > 0;
+    frames->fields = frames->times.count >= FIELDS_LEAST;
     int64_t stored = frames->fields ? frames->times.count : view->rows;
     if (stored > INT32_MAX) FAIL(err, ERROR_INPUT, "the history has too many steps for a page");
     frames->stored = (int32_t)stored;
@@ -301,6 +302,18 @@ static bool is_printed(const Frames *frames, int32_t k)
     return k % every == every / 2;
 }
 
+// What a reader wants to see first: the last sliding, where there is one.
+static int32_t first_shown(const Frames *frames)
+{
+    const ResultView *view = &frames->view;
+    double U = INFINITY;
+    for (int32_t e = 0; e < view->event_count; ++e)
+        if (view->events[e].kind == VIEW_LEADING) U = view->events[e].U_start;
+    for (int32_t k = 0; k < frames->count; ++k)
+        if (view->U[frames->rows[frames->chosen[k]]] >= U) return k + 1;
+    return 1;
+}
+
 // A figure is whole also where its picture fails.
 static bool write_frame(const Frames *frames, const FrameImages *images, int32_t k,
                         HtmlWriter *html, Error *err)
@@ -327,7 +340,7 @@ amontons_render_frames(const char *folder, HtmlWriter *html, RenderFrames *found
     if (frames.fields) TRY(result_view_read_status(&frames.view, err));
     if (frames.fields) TRY(frame_images_fit(&images, frames.chosen, frames.count, err));
     write_common(&frames, html);
-    html_markup(html, "<div class='frames' id='frames'>\n");
+    html_markup(html, "<div class='frames' id='frames' data-first='%d'>\n", first_shown(&frames));
     for (int32_t k = 0; k < frames.count && error_is_clean(err); ++k) {
         write_frame(&frames, &images, k, html, err);
         found->U[k] = frames.view.U[frames.rows[frames.chosen[k]]];

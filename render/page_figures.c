@@ -10,9 +10,10 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 // Of the pictures; a page shows them as wide as its column.
-static const double WIDTH = 140, MAP_DPI = 200;   // mm
+static const double WIDTH = 140, DPI = 240;   // mm; of maps
 
 // Units of the drawing of several curves.
 enum { CURVES_WIDTH = 760, CURVES_HEIGHT = 400, CURVES_LEFT = 70, CURVES_RIGHT = 740 };
@@ -21,47 +22,55 @@ enum { CURVES_TOP = 24, CURVES_BOTTOM = 350 };
 static const double HEADROOM = 1.05;
 
 static const struct {
-    const char *name, *alt, *caption;
+    const char *name, *format, *alt, *caption;
 } FIGURES[] = {
-    {"force", "Line: friction force over load against the displacement of the rod.",
+    {"force", "svg", "Line: friction force over load against the displacement of the rod.",
      "<i>F</i><sub>T</sub>/<i>F</i><sub>N</sub> against the rod\u2019s displacement <i>U</i>. "
      "Circles: the peaks before the block slides as a whole, filled if they count for "
      "<i>\u03bc</i><sub>M</sub>. The inset enlarges the last precursors before a sliding."},
-    {"slip-map", "Map: slip rate along the contact against the displacement of the rod.",
+    {"slip-map", "png", "Map: slip rate along the contact against the displacement of the rod.",
      "Slip rate over the rod\u2019s velocity, against <i>U</i> and the place <i>x</i> along the "
      "contact. Grey: stick."},
-    {"contact-density",
-     "Map: contact density before a sliding, along the contact and against the "
-     "displacement of the rod.",
+    {"contact-density", "png",
+     "Map: contact density before a sliding, along the contact and against the displacement of "
+     "the rod.",
      "Contact density max(0, 1 \u2212 |<i>v</i>|/<i>v</i><sub>c</sub>) in the last precursors "
      "before a sliding. Black line: the front of slip."},
 };
 
 // --- pictures ------------------------------------------------------------------------------------
 
-// What draws a picture on a fresh page.
-typedef bool (*DrawFunction)(void *context, const PictureStyle *style, Page *page, Error *err);
+// What is drawn on a fresh page, and the words with it: ours, caption is markup.
+typedef struct Drawing {
+    bool (*draw)(void *context, const PictureStyle *style, Page *page, Error *err);
+    void *context;
+    const char *format, *alt, *caption;
+} Drawing;
 
-static bool make_picture(DrawFunction draw, void *context, bool dark, Page *page,
-                         PictureBytes *picture, Error *err)
+static bool make_picture(const Drawing *drawing, bool dark, Page *page, PictureBytes *picture,
+                         Error *err)
 {
-    const PictureStyle style = {.format = "svg", .width = WIDTH, .dpi = MAP_DPI, .dark = dark};
-    return draw(context, &style, page, err) && canvas_finish(page->canvas, "", false, picture, err);
+    const PictureStyle style = {
+        .format = drawing->format, .width = WIDTH, .dpi = DPI, .dark = dark};
+    return drawing->draw(drawing->context, &style, page, err) &&
+           canvas_finish(page->canvas, "", true, picture, err);
 }
 
-// Both are drawn before anything is written: a failure leaves no half markup. caption: markup.
-static bool write_figure(HtmlWriter *html, DrawFunction draw, void *context, const char *alt,
-                         const char *caption, Error *err)
+// Both are drawn before anything is written: a failure leaves no half markup.
+static bool write_figure(HtmlWriter *html, const Drawing *drawing, Error *err)
 {
     Page pages[2] = {0};
     PictureBytes pictures[2];
+    const char *type = strcmp(drawing->format, "svg") == 0 ? "image/svg+xml" : "image/png";
     for (int32_t dark = 0; dark < 2; ++dark)
-        TRY(make_picture(draw, context, dark, &pages[dark], &pictures[dark], err));
-    html_markup(html, "<figure><picture><source media='(prefers-color-scheme: dark)' srcset='");
-    html_data(html, "image/svg+xml", pictures[1].bytes, pictures[1].size);
+        TRY(make_picture(drawing, dark, &pages[dark], &pictures[dark], err));
+    html_markup(html, "<figure><picture><source media='screen and (prefers-color-scheme: dark)' "
+                      "srcset='");
+    html_data(html, type, pictures[1].bytes, pictures[1].size);
     html_markup(html, "'><img src='");
-    html_data(html, "image/svg+xml", pictures[0].bytes, pictures[0].size);
-    html_markup(html, "' alt='%s'></picture><figcaption>%s</figcaption></figure>\n", alt, caption);
+    html_data(html, type, pictures[0].bytes, pictures[0].size);
+    html_markup(html, "' alt='%s'></picture><figcaption>%s</figcaption></figure>\n", drawing->alt,
+                drawing->caption);
 cleanup:
     for (int32_t dark = 0; dark < 2; ++dark) page_destroy(&pages[dark]);
     return error_is_clean(err);
@@ -87,7 +96,9 @@ __attribute__((visibility("default"))) bool amontons_render_figures(const char *
     view.title[0] = view.warnings[0] = '\0';
     for (size_t k = 0; k < sizeof FIGURES / sizeof *FIGURES; ++k) {
         HistoryFigure figure = {&view, FIGURES[k].name};
-        TRY(write_figure(html, draw_history, &figure, FIGURES[k].alt, FIGURES[k].caption, err));
+        const Drawing drawing = {draw_history, &figure, FIGURES[k].format, FIGURES[k].alt,
+                                 FIGURES[k].caption};
+        TRY(write_figure(html, &drawing, err));
     }
 cleanup:
     result_view_close(&view);
@@ -110,7 +121,8 @@ amontons_render_plot_html(const char *path, const char *caption, HtmlWriter *htm
     Plot *plot = NEW_ARRAY(Plot, 1, err);
     TRY(plot);
     TRY(plot_file_read(path, plot, err));
-    TRY(write_figure(html, draw_plot, plot, caption, caption, err));
+    const Drawing drawing = {draw_plot, plot, "svg", caption, caption};
+    TRY(write_figure(html, &drawing, err));
 cleanup:
     if (plot) plot_destroy(plot);
     memory_free(plot);

@@ -5,7 +5,7 @@
 
 #include <stdlib.h>
 
-enum { BITS = 6, DROPPED = 8 - BITS, BINS = 1 << 3 * BITS };
+enum { BITS = 5, DROPPED = 8 - BITS, BINS = 1 << 3 * BITS };
 
 // Pixels whose colours agree in their upper bits.
 typedef struct Bin {

@@ -20,7 +20,7 @@ typedef struct Palette {
     uint8_t *index;   // [height * width] of the picture; owned
 } Palette;
 
-// Colours that agree in their upper six bits are one, their mean; of these the most frequent stay,
+// Colours that agree in their upper five bits are one, their mean; of these the most frequent stay,
 // and the others become the nearest of them.
 bool palette_make(const PalettePixels *picture, Palette *palette, Error *err);
 void palette_destroy(Palette *palette);   // zeroed is fine

@@ -13,7 +13,7 @@
 
 // Large areas of one colour: a low level is five times as fast as the default and 10 % larger.
 // A palette has few bytes to begin with, and is for a page that is sent around.
-enum { COMPRESSION_LEVEL = 3, COMPRESSION_SMALL = 9, TEXTS = 2 };
+enum { COMPRESSION_LEVEL = 3, COMPRESSION_SMALL = 6, TEXTS = 2 };
 
 typedef struct Output {
     PngSink sink;

@@ -82,7 +82,7 @@ typedef bool (*RenderPlotHtmlFunction)(const char *plot, const char *caption, Ht
                                        Error *err);
 bool amontons_render_plot_html(const char *plot, const char *caption, HtmlWriter *html, Error *err);
 
-enum { RENDER_FRAMES_MAX = 60, RENDER_CURVES_MAX = 8 };
+enum { RENDER_FRAMES_MAX = 40, RENDER_CURVES_MAX = 8 };
 
 // What amontons_render_frames found.
 typedef struct RenderFrames {

@@ -65,7 +65,7 @@ bool frames_write(HtmlWriter *html, const RunSource *run, RenderFrames *found, E
                     "or the rod moves much%s. ",
                     found->count, found->stored,
                     found->fields ? "stored times" : "steps of the history",
-                    found->fields ? "" : "; the run stored no fields of the block");
+                    found->fields ? "" : "; of the block it stored no fields, or too few");
         html_markup(html,
                     "Below the floor, or above the curves: the contact <span "
                     "class='swatch status1'></span> sticks, <span class='swatch status2'></span> "

@@ -86,9 +86,10 @@ static void write_cell(HtmlWriter *html, const RunSource *run, const NumberRow *
             html_markup(html, "none");
     } else {
         snprintf(path, sizeof path, "%s_error", row->path);
-        estimate_write(html, value, run_number(run, path), true);
+        double error = run_number(run, path);
+        estimate_write(html, value, error, true);
         snprintf(path, sizeof path, "%s_error_parts.mesh", row->path);
-        if (row->kind == NUMBER_ESTIMATE && isfinite(value) && !isfinite(run_number(run, path)))
+        if (isfinite(error) && !isfinite(run_number(run, path)))
             html_markup(html,
                         "<br><span class='unknown'>the mesh\u2019s error is not known</span>");
     }
@@ -116,9 +117,9 @@ static void write_rows(HtmlWriter *html, const NumberRow *rows, size_t row_count
 static void begin_table(HtmlWriter *html, const char *caption, const RunSource *runs, int32_t count)
 {
     html_markup(html,
-                "<div class='wide'><table><caption>%s</caption><thead><tr><th scope='col'>"
+                "<div class='wide'><table%s><caption>%s</caption><thead><tr><th scope='col'>"
                 "quantity</th>",
-                caption);
+                count == 1 ? " class='one'" : "", caption);
     for (int32_t k = 0; k < count; ++k) {
         html_markup(html, "<th scope='col' class='number'>");
         html_text(html, count == 1 ? "value" : runs[k].name);

@@ -6,6 +6,10 @@
 #include "page/pages.h"
 #include "page/run_source.h"
 
+#include <errno.h>
+#include <string.h>
+#include <sys/stat.h>
+
 enum { SECONDS_MAX = 600 };   // far above what the longest history takes
 
 typedef struct ReportRequest {
@@ -14,30 +18,41 @@ typedef struct ReportRequest {
     const char *file;
 } ReportRequest;
 
-static bool write_page(const ReportRequest *request, HtmlWriter *html, Error *err)
+static bool check_folders(const ReportRequest *request, Error *err)
 {
-    for (int32_t k = 0; k < request->count; ++k)
-        if (request->count > 1 && folder_holds(request->results[k], "sweep.csv", NULL))
+    struct stat status;
+    for (int32_t k = 0; k < request->count; ++k) {
+        const char *folder = request->results[k];
+        if (stat(folder, &status) != 0)
+            FAIL(err, ERROR_INPUT, "cannot open the result %s: %s", folder, strerror(errno));
+        if (!S_ISDIR(status.st_mode))
+            FAIL(err, ERROR_INPUT, "%s is a file, not a result folder", folder);
+        if (request->count > 1 && folder_holds(folder, "sweep.csv", NULL))
             FAIL(err, ERROR_INPUT,
-                 "%s is a sweep: only runs are compared; a sweep has its own page",
-                 request->results[k]);
-    if (request->count > 1)
-        compare_page_write(html, request->results, request->count, err);
-    else if (folder_holds(request->results[0], "sweep.csv", NULL))
-        sweep_page_write(html, request->results[0], err);
-    else
-        run_page_write(html, request->results[0], err);
+                 "%s is a sweep: only runs are compared; a sweep has its own page", folder);
+    }
 cleanup:
     return error_is_clean(err);
+}
+
+static bool write_page(const ReportRequest *request, HtmlWriter *html, Error *err)
+{
+    if (request->count > 1) return compare_page_write(html, request->results, request->count, err);
+    if (folder_holds(request->results[0], "sweep.csv", NULL))
+        return sweep_page_write(html, request->results[0], err);
+    return run_page_write(html, request->results[0], err);
 }
 
 static bool write_file(void *context, FILE *reply, Error *err)
 {
     const ReportRequest *request = context;
-    HtmlWriter *html = html_create(request->file, err);
+    HtmlWriter *html = NULL;
     (void)reply;   // the page is a file
-    if (!html) return false;
-    if (write_page(request, html, err)) return html_finish(html, err);
+    TRY(check_folders(request, err));
+    TRY(html = html_create(request->file, err));
+    TRY(write_page(request, html, err));
+    return html_finish(html, err);
+cleanup:
     html_abandon(html);
     return false;
 }

@@ -60,7 +60,9 @@ static void write_lead(HtmlWriter *html, const RunSource *run)
         html_markup(html, " The block as a whole slides at <i>F</i><sub>T</sub>/<i>F</i>"
                           "<sub>N</sub> = <strong><i>\u03bc</i><sub>M</sub> = ");
         estimate_write(html, mu_M, run_number(run, "results.mu_M_error"), true);
-        html_markup(html, "</strong>.");
+        bool mesh_known = isfinite(run_number(run, "results.mu_M_error_parts.mesh"));
+        html_markup(html, "</strong>%s.",
+                    mesh_known ? "" : " (of the peaks alone: the mesh\u2019s error is not known)");
     } else {
         html_markup(html, " The block as a whole did not slide after the start in this run.");
     }

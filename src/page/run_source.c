@@ -83,7 +83,8 @@ void run_source_close(RunSource *source)
 double run_number(const RunSource *source, const char *path)
 {
     double value = NAN;
-    return json_find_number(source->json, path, &value) ? value : (double)NAN;
+    bool found = source->json && json_find_number(source->json, path, &value);
+    return found ? value : (double)NAN;
 }
 
 // Quotes inside of texts are escaped in JSON: the pattern is found nowhere else.

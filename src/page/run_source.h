@@ -23,7 +23,7 @@ typedef struct RunSource {
 bool run_source_open(const char *folder, RunSource *source, Error *err);
 void run_source_close(RunSource *source);   // zeroed is fine
 
-// The number at `path` in run.json; NaN: there is none.
+// The number at `path` in run.json; NaN: there is none, or the source is zeroed.
 double run_number(const RunSource *source, const char *path);
 // How many events of this kind, "leading rapid".
 int32_t run_events(const RunSource *source, const char *kind);

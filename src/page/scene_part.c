@@ -170,8 +170,9 @@ bool scene_text_write(HtmlWriter *html, const RunSource *run, Error *err)
     if (!raw) return true;
     TRY(scene = NEW_ARRAY(char, (int64_t)length + 2, err));
     for (int32_t k = 0; k < length; ++k) {
+        bool ends = raw[k] == '\n';
         scene[used++] = raw[k];
-        for (int32_t i = 0; raw[k] == '\n' && i < INDENT && raw[k + 1] == ' '; ++i) ++k;
+        for (int32_t i = 0; ends && i < INDENT && raw[k + 1] == ' '; ++i) ++k;
     }
     scene[used++] = '\n';
     html_markup(html, "<p><a download='scene.json' href='");

@@ -241,6 +241,10 @@ static void write_tables(HtmlWriter *html, const SweepSource *sweep)
     snprintf(caption, sizeof caption,
              "%d of %d points, with \u00b1 where an error is known; more columns in sweep.csv",
              shown, rows);
+    if (run_number(&sweep->run, "scene.accuracy.mu") == 0)
+        html_markup(html,
+                    "<p class='note'>\u00b1 leaves out the mesh\u2019s error, which is not "
+                    "known; <code>set: {accuracy.mu: 1%%}</code> in the study asks for it.</p>\n");
     write_table(html, sweep, &sweep->table, ROWS_MAX, caption);
 }
 
