@@ -5,29 +5,25 @@
 
 #include "base/memory.h"
 #include "io/cache_file.h"
-#include "near.h"
+#include "result_place.h"
 
-#include <sys/stat.h>
-#include <unistd.h>
-
-enum { FOLDER_SIZE = 64, PATH_SIZE = 256 };
+enum { PATH_SIZE = 2 * PLACE_SIZE };
 static const char KEY[] = "0123456789abcdef0123456789abcdef";
 
-static char folder[FOLDER_SIZE];
+static char folder[PLACE_SIZE];
 
 static int make_folder(void **state)
 {
     (void)state;
-    snprintf(folder, sizeof folder, "/tmp/amontons-meshes-XXXXXX");
-    return mkdtemp(folder) ? setenv("AMONTONS_CACHE", folder, 1) : -1;
+    place_make(folder);
+    return setenv("AMONTONS_CACHE", folder, 1);
 }
 
 static int remove_folder(void **state)
 {
     (void)state;
-    char command[FOLDER_SIZE + 16];
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    return system(command);
+    place_remove(folder);
+    return 0;
 }
 
 static const char *write_text(const char *name, const char *text, char path[PATH_SIZE])

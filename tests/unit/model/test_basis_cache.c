@@ -6,29 +6,27 @@
 #include "base/memory.h"
 #include "io/cache_file.h"
 #include "random_numbers.h"
+#include "result_place.h"
 #include "unit/bulk/reduced_block.h"
 
-#include <unistd.h>
-
-enum { FOLDER_SIZE = 64, PATH_SIZE = 128, M = 7, ALL = 11, DOFS = 40, LEVELS = 3 };
+enum { PATH_SIZE = 2 * PLACE_SIZE, M = 7, ALL = 11, DOFS = 40, LEVELS = 3 };
 static const char NAME[] = "00112233445566778899aabbccddeeff";
 static const char OTHER[] = "00112233445566778899aabbccddeef0";
 
-static char folder[FOLDER_SIZE];
+static char folder[PLACE_SIZE];
 
 static int make_folder(void **state)
 {
     (void)state;
-    snprintf(folder, sizeof folder, "/tmp/amontons-basis-XXXXXX");
-    return mkdtemp(folder) ? setenv("AMONTONS_CACHE", folder, 1) : -1;
+    place_make(folder);
+    return setenv("AMONTONS_CACHE", folder, 1);
 }
 
 static int remove_folder(void **state)
 {
     (void)state;
-    char command[FOLDER_SIZE + 16];
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    return system(command);
+    place_remove(folder);
+    return 0;
 }
 
 static double *random_array(Random *random, int64_t count)
