@@ -47,6 +47,9 @@ bool drops_create(const Events *events, double tolerance, Drops *drops, Error *e
 void drops_destroy(Drops *drops);
 bool drops_record(void *self, const Observation *seen, Error *err);   // a Recorder
 
+// So many cells must slip before slow slip turns fast for mu to be sure; measured: run/warnings.
+enum { SLIP_CELLS_ENOUGH = 8 };
+
 bool drop_is(const Drop *drop, DropKind kind);
 int32_t drops_count(const Drops *drops, DropKind kind);
 // Drop k of the list as one of this kind: what it holds since the drop before, it holds since the

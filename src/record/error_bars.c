@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "record/error_bars.h"
 
+#include "record/drops.h"
+
 #include <math.h>
 #include <stddef.h>
 
 const char *const ANSWER_NAMES[ANSWER_KINDS] = {"mu_M", "mu_hold"};
 
 // Chosen on 78 of the 160 cases before those of promise.py, by validation/benchmark/priors.py.
-static const double SLOPE = 0.1;   // of mu, over the nodes in contact: the way to cells of no size
+static const double SLOPE = 0.08;   // of mu, over the nodes in contact: the way to cells of no size
 static const double SLOPE_PADS = 0.5;   // the same, of several pads, at whose edges slip waits
-static const double SCATTER = 0.14;   // of mu, over the nodes in contact: of one mesh
+static const double SCATTER = 0.12;   // of mu, over the nodes in contact: of one mesh
 static const double SCATTER_PADS = 0.7;
 enum { SCATTER_LEVELS = 8 };   // so many levels would it be worth to know that scatter
 static const double END_WAITS = 2;   // mu rises as much again before the front comes to those nodes
@@ -113,6 +115,25 @@ static bool is_alone(const Levels *levels, AnswerKind kind)
     return !is_known(last, kind) || last->contact_nodes == coarsest_nodes(levels, kind);
 }
 
+// Cells over those on which slip is resolved, at most 1; of pads, 1.
+static double resolution_of(const Level *level)
+{
+    if (level->pads > 1 || isnan(level->slip_cells)) return 1;
+    return fmin(fmax(level->slip_cells, 1) / SLIP_CELLS_ENOUGH, 1);
+}
+
+bool levels_resolved(const Levels *levels)
+{
+    return resolution_of(&levels->list[levels->count - 1]) == 1;
+}
+
+// Of a level's value, relative.
+static double scatter_of(const Level *level)
+{
+    double per_node = level->pads > 1 ? SCATTER_PADS : SCATTER;
+    return per_node / level->contact_nodes / resolution_of(level);
+}
+
 // What the levels say together: value = a + b / n on n contact nodes, each level off by a scatter
 // that falls like 1 / n, and by what its few runs leave of their spread over branches; b is about
 // 0, as far as SLOPE, before anything is known.
@@ -133,7 +154,6 @@ static Limit limit_of(const Levels *levels, AnswerKind kind, double spread)
     const Level *last = &levels->list[levels->count - 1];
     double origin = value_of(last, kind);   // all in parts of it
     double slope = last->pads > 1 ? SLOPE_PADS : SLOPE;
-    double scatter = last->pads > 1 ? SCATTER_PADS : SCATTER;
     double S = 0, Sx = 0, Sxx = 1 / (slope * slope), Sv = 0, Sxv = 0, Svv = 0, of_runs = 0;
     double weight[LEVELS_MAX] = {0};
     for (int32_t l = 0; l < levels->count; l++) {
@@ -141,7 +161,7 @@ static Limit limit_of(const Levels *levels, AnswerKind kind, double spread)
         double x = 1.0 / level->contact_nodes, v = value_of(level, kind) / origin - 1;
         if (!is_known(level, kind)) continue;
         double runs = variance_of_runs(level, spread) / (origin * origin);
-        double w = weight[l] = 1 / (scatter * x * scatter * x + runs);
+        double w = weight[l] = 1 / (scatter_of(level) * scatter_of(level) + runs);
         S += w, Sx += w * x, Sxx += w * x * x;
         Sv += w * v, Sxv += w * x * v, Svv += w * v * v;
     }
@@ -317,6 +337,7 @@ void levels_write_json(const Levels *levels, JsonWriter *json)
         json_integer(json, "contact_nodes", level->contact_nodes);
         json_number(json, "seconds", level->seconds);
         json_boolean(json, "undamped", level->undamped);
+        json_number(json, "slip_cells", level->slip_cells);
         json_number(json, "end_wait", level->end_wait);
         write_bars(level->answer, json);
         write_runs(level, json);

@@ -13,7 +13,8 @@
 //              until levels are enough to say more).
 //              a, on cells of no size, is the answer, Student's 95 % of its deviation the part. At
 //              least what steps and reduction leave. Levels whose cells are too long for slip
-//              (`undamped`) have no part in it. Twice what mu rises by while the last nodes of
+//              (`undamped`) have no part in it; where slip turns fast on too few
+//              cells they scatter more. Twice what mu rises by while the last nodes of
 //              the contact hold (`end_wait`) is added. One level: its own value, nothing known.
 //
 // How often bars hold, and by how much, is measured by validation/benchmark/promise.py.
@@ -23,6 +24,7 @@
 #include "record/answers.h"
 
 enum { LEVELS_MAX = 11, LEVEL_RUNS_MAX = 9 };
+enum { LEVELS_LEAST = 3 };   // two agree by chance
 
 typedef enum AnswerKind { ANSWER_MU_M, ANSWER_MU_HOLD, ANSWER_KINDS } AnswerKind;
 
@@ -44,6 +46,7 @@ typedef struct Level {
     int32_t contact_nodes;
     int32_t pads;   // pieces of the contact, at least 1
     bool undamped;   // friction weakens faster than viscosity can damp on a cell: no answer
+    double slip_cells;   // least that slipped before slow slip turned fast; NaN: not known
     double end_wait;   // what mu rises by while the last nodes of the contact hold (run/end_wait)
     int32_t run_count;
     LevelRun runs[LEVEL_RUNS_MAX];
@@ -72,6 +75,10 @@ const ErrorBar *levels_answer(const Levels *levels, AnswerKind kind);   // of th
 
 // Damped levels whose runs all have such an answer; the others have no part in a bar.
 int32_t levels_known(const Levels *levels, AnswerKind kind);
+
+// Slip turned fast on cells enough on the last level, where one contact says so; on pads, at whose
+// edges slip waits, their number tells little.
+bool levels_resolved(const Levels *levels);
 
 // Puts value, error and parts of both answers in the place of those of one run.
 void levels_answer_for(const Levels *levels, Answers *answers);

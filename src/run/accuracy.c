@@ -22,7 +22,6 @@ enum {
     PAD_NODES_MIN = 5,   // of it on each piece of the contact
     PEAKS_MIN = 8,   // that count in a run, before its answer can be known
     RUNS_FIRST = 2,   // on every level, at either end of the window
-    LEVELS_LEAST = 3,   // two agree by chance
     COARSER_MAX = 3,   // halvings of the scene's mesh that are tried
 };
 static const double DROPS_SHARE = 0.2;   // of the bar wanted, for the drops of each run
@@ -177,6 +176,8 @@ static bool run_member(Accuracy *accuracy, double pressure, bool *coarse, Error 
     if (coarse && (*coarse = level->undamped || !contact_has_nodes(interface))) goto cleanup;
     TRY(step_until_known(accuracy, simulation, &wait, err));
     Answers answers = answers_of(&simulation->drops);
+    const Event *least = drops_least_resolved(&simulation->drops, answers.first);
+    if (least) level->slip_cells = fmin(level->slip_cells, least->slip_cells);
     level->end_wait = fmax(level->end_wait, end_wait_of(&wait, interface, answers.critical_length));
     if (!accuracy->out_of_time)
         levels_add_run(&accuracy->levels, pressure, &answers,
@@ -210,7 +211,7 @@ cleanup:
 
 static void begin_level(Accuracy *accuracy, double refine)
 {
-    accuracy->levels.list[accuracy->levels.count++] = (Level){.refine = refine};
+    accuracy->levels.list[accuracy->levels.count++] = (Level){.refine = refine, .slip_cells = NAN};
 }
 
 // From a mesh that is so many times coarser than the scene's up: one that gmsh refuses or that has
@@ -277,7 +278,8 @@ static bool is_met(const Accuracy *accuracy)
 {
     const ErrorBar *answer = asked(accuracy);
     return levels_known(&accuracy->levels, accuracy->levels.asked) >= LEVELS_LEAST &&
-           !isnan(answer->parts.mesh) && answer->bar <= accuracy->levels.wanted * answer->value;
+           levels_resolved(&accuracy->levels) && !isnan(answer->parts.mesh) &&
+           answer->bar <= accuracy->levels.wanted * answer->value;
 }
 
 // Wall time that the next level will take, from the last ones, s.
@@ -319,7 +321,7 @@ static bool go_on(Accuracy *accuracy, bool *ended, Error *err)
     const ErrorBar *answer = asked(accuracy);
     Level *level = last_level(accuracy);
     double between = hypot(answer->parts.branches, answer->parts.drops);
-    bool enough = accuracy->levels.count >= LEVELS_LEAST;
+    bool enough = accuracy->levels.count >= LEVELS_LEAST && levels_resolved(&accuracy->levels);
     if (isnan(answer->value)) return *ended = end_here(accuracy, "no load drop in any run");
     accuracy->levels.met = is_met(accuracy);
     if (accuracy->levels.met) return *ended = end_here(accuracy, "the error bar is met");
@@ -356,30 +358,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Of the mesh's part.
-static const char *why_unknown(const Accuracy *accuracy)
-{
-    const Level *last = &accuracy->levels.list[accuracy->levels.count - 1];
-    return last->undamped ? "cells are too long for slip" : "one mesh";
-}
-
-static void warn_of_bar(const Accuracy *accuracy, RunWarnings *warnings)
-{
-    const ErrorBar *answer = asked(accuracy);
-    const char *name = ANSWER_NAMES[accuracy->levels.asked];
-    if (isnan(answer->parts.mesh))
-        warnings_add(warnings, "error bar not met: the mesh's part of it is not known (%s: %s)",
-                     why_unknown(accuracy), accuracy->levels.ended);
-    else
-        warnings_add(warnings,
-                     "error bar not met: %s is known to %.1f %%%s, asked for %.1f %% (%s)", name,
-                     100 * answer->bar / answer->value,
-                     levels_known(&accuracy->levels, accuracy->levels.asked) < LEVELS_LEAST
-                         ? " from two meshes, which agree by chance"
-                         : "",
-                     100 * accuracy->levels.wanted, accuracy->levels.ended);
-}
-
 // Branches, not the mesh, are why the bar is not met, and more runs may mend it.
 static bool levels_lack_runs(const Accuracy *accuracy)
 {
@@ -408,7 +386,7 @@ static bool run_in_full(Accuracy *accuracy, RunSummary *summary, Error *err)
         TRY(add_runs(accuracy, 2, err));
     if (levels->met && !is_met(accuracy)) levels->ended = "the run in full widened it";
     levels->met = is_met(accuracy);
-    if (!levels->met) warn_of_bar(accuracy, &simulation->warnings);
+    if (!levels->met) warnings_of_bar(levels, &simulation->warnings);
     simulation->started = accuracy->started;
     simulation->levels = levels;
     TRY(amontons_simulation_finish(simulation, summary, err));

@@ -14,13 +14,12 @@
 #include "run/warnings.h"
 
 #include "model/model.h"
+#include "record/drops.h"
 
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-
-static const double CELLS_ENOUGH = 8;
 
 void warnings_add(RunWarnings *warnings, const char *format, ...)
 {
@@ -84,7 +83,7 @@ void warnings_of_slip(const Scene *scene, const Interface *interface, const Even
                       RunWarnings *warnings)
 {
     char where[GROUP_NAME_SIZE + 32] = "the contact";
-    if (!least || least->slip_cells >= CELLS_ENOUGH) return;
+    if (!least || least->slip_cells >= SLIP_CELLS_ENOUGH) return;
     if (interface->pad_count > 1 && interface->pad_name)
         snprintf(where, sizeof where, "pad \"%s\"", interface->pad_name[least->pad]);
     if (least->slip_cells == 0) {
@@ -99,7 +98,34 @@ void warnings_of_slip(const Scene *scene, const Interface *interface, const Even
                  "(a length of %.3g); with fewer than %g mu_M and mu_hold can be several per cent "
                  "off: %s, and compare",
                  least->slip_cells, least->slip_cells == 1 ? "" : "s", where, least->slip_length,
-                 CELLS_ENOUGH, finer_mesh(scene));
+                 (double)SLIP_CELLS_ENOUGH, finer_mesh(scene));
+}
+
+// Of the mesh's part.
+static const char *why_unknown(const Levels *levels)
+{
+    const Level *last = &levels->list[levels->count - 1];
+    return last->undamped ? "cells are too long for slip" : "one mesh";
+}
+
+static const char *why_not_sure(const Levels *levels)
+{
+    if (levels_known(levels, levels->asked) < LEVELS_LEAST)
+        return " from two meshes, which agree by chance";
+    return levels_resolved(levels) ? "" : " on cells that do not resolve slip";
+}
+
+void warnings_of_bar(const Levels *levels, RunWarnings *warnings)
+{
+    const ErrorBar *answer = levels_answer(levels, levels->asked);
+    if (isnan(answer->parts.mesh))
+        warnings_add(warnings, "error bar not met: the mesh's part of it is not known (%s: %s)",
+                     why_unknown(levels), levels->ended);
+    else
+        warnings_add(warnings,
+                     "error bar not met: %s is known to %.1f %%%s, asked for %.1f %% (%s)",
+                     ANSWER_NAMES[levels->asked], 100 * answer->bar / answer->value,
+                     why_not_sure(levels), 100 * levels->wanted, levels->ended);
 }
 
 static bool gives_parameter(const Scene *scene, const char *name)

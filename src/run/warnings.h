@@ -10,6 +10,7 @@
 
 #include "amontons.h"
 #include "contact/friction_law.h"
+#include "record/error_bars.h"
 #include "record/events.h"
 #include "scene/scene.h"
 #include "stepping/certificate.h"
@@ -32,6 +33,9 @@ void warnings_of_rod(const Scene *scene, const Interface *interface, double heig
 // least: the event with the fewest cells (record/drops); NULL: none, and nothing is said.
 void warnings_of_slip(const Scene *scene, const Interface *interface, const Event *least,
                       RunWarnings *warnings);
+
+// An error bar that was asked for and is not met: how far the answer is known, and why no farther.
+void warnings_of_bar(const Levels *levels, RunWarnings *warnings);
 
 void warnings_add(RunWarnings *warnings, const char *format, ...)
     __attribute__((format(printf, 2, 3)));   // what does not fit is left out
