@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "render/figure_curves.h"
 #include "render/figures.h"
+#include "render/plot_file.h"
 #include "render/svg_chart.h"
 
 #include <math.h>
