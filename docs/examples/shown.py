@@ -71,6 +71,9 @@ def commands(block):
 
 def keep_picture(made, kept):
     from PIL import Image
+    if made.suffix == ".gif":   # a film
+        shutil.copyfile(made, kept)
+        return
     picture = Image.open(made).convert("RGB")
     if picture.width > WIDTH:
         picture = picture.resize((WIDTH, round(picture.height * WIDTH / picture.width)), Image.LANCZOS)
