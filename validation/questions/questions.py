@@ -320,6 +320,8 @@ def question_film(study):
         if same(P, 0.003):
             changed = depends(study.sweep("lubricated-depends"), lambda p: film(p)[0], ("none", "trailing"))
             study.measured["film depends"] = table(["", "no film", "film"], [["as computed", plain, here["trailing", 0.2].over(plain)], *changed])
+    steady = [p for p in points if same(p["load.pressure"], 0.001) and film(p)[:2] == ("leading", 0.4)]
+    study.measured["film steady"] = f"{steady[0].run['results']['mu_max']:.3f}"
     study.measured["film table"] = table(["P", "no film", "trailing 0.1", "0.2", "0.4", "middle 0.2", "leading 0.1", "0.2", "0.4"], lines)
     study.plot("lubricated", title="A film that leaves 0.3 of the friction", legend="outside",
                x={"label": "length of the film / ~{L}", "range": [0, 0.44]}, y={"label": f"{MU} over that without a film"},
@@ -406,6 +408,7 @@ def question_round(study):
     designs = ("sharp", "trailing", "leading")
     study.measured["round depends"] = table(["", *designs], [["as computed", *first], *depends(
         study.sweep("rounded-depends"), lambda p: edges(p)[0], designs)])
+    study.measured.update(zip(("round sharp", "round mesh", "round gap"), (p.row["mu_hold"][:6] for p in study.sweep("rounded-mesh"))))
     round_mechanism(study)
     lines = []
     set_b = study.sweep("rounded-b")
