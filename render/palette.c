@@ -13,16 +13,22 @@ typedef struct Bin {
     int32_t count, place;   // place: in the table, then in the palette
 } Bin;
 
-static const uint8_t *pixel_at(const PalettePixels *picture, int64_t k)
-{
-    int64_t row = k / picture->width, column = k % picture->width;
-    return picture->bytes + row * picture->stride + 4 * column;
-}
-
 // Of a pixel: blue, green, red.
 static int32_t bin_of(const uint8_t *pixel)
 {
     return pixel[2] >> DROPPED << 2 * BITS | pixel[1] >> DROPPED << BITS | pixel[0] >> DROPPED;
+}
+
+static void count_pixels(const PalettePixels *picture, Bin *bins)
+{
+    for (int32_t row = 0; row < picture->height; ++row) {
+        const uint8_t *pixel = picture->bytes + (int64_t)row * picture->stride;
+        for (int32_t k = 0; k < picture->width; ++k, pixel += 4) {
+            Bin *bin = &bins[bin_of(pixel)];
+            for (int32_t c = 0; c < 3; ++c) bin->sum[c] += pixel[2 - c];
+            ++bin->count;
+        }
+    }
 }
 
 // The most frequent first; equally frequent ones by their place: same picture, same palette.
@@ -73,12 +79,7 @@ bool palette_make(const PalettePixels *picture, Palette *palette, Error *err)
     TRY(bins);
     TRY(of_bin = NEW_ARRAY(uint8_t, BINS, err));
     TRY(palette->index = memory_bytes(pixels, err));
-    for (int64_t k = 0; k < pixels; ++k) {
-        const uint8_t *pixel = pixel_at(picture, k);
-        Bin *bin = &bins[bin_of(pixel)];
-        for (int32_t c = 0; c < 3; ++c) bin->sum[c] += pixel[2 - c];
-        ++bin->count;
-    }
+    count_pixels(picture, bins);
     sort_bins(bins, &used);
     palette->count = used < PALETTE_SIZE ? used : PALETTE_SIZE;
     for (int32_t k = 0; k < palette->count; ++k)
@@ -86,7 +87,11 @@ bool palette_make(const PalettePixels *picture, Palette *palette, Error *err)
             palette->color[k][c] = (uint8_t)(bins[k].sum[c] / bins[k].count);
     for (int32_t k = 0; k < used; ++k)
         of_bin[bins[k].place] = k < palette->count ? (uint8_t)k : nearest(palette, &bins[k]);
-    for (int64_t k = 0; k < pixels; ++k) palette->index[k] = of_bin[bin_of(pixel_at(picture, k))];
+    for (int32_t row = 0; row < picture->height; ++row) {
+        const uint8_t *line = picture->bytes + (int64_t)row * picture->stride;
+        uint8_t *index = palette->index + (int64_t)row * picture->width;
+        for (int32_t k = 0; k < picture->width; ++k) index[k] = of_bin[bin_of(line + 4 * k)];
+    }
 cleanup:
     memory_free(bins);
     memory_free(of_bin);

@@ -11,11 +11,28 @@
 #include "page/sheet.h"
 #include "render/render.h"
 
+#include <string.h>
+
 enum { WORDS_SIZE = 700 };
 
 static const SheetPart PARTS[] = {{"numbers", "Key numbers"},  {"differences", "What differs"},
                                   {"figures", "Force curves"}, {"again", "To reproduce"},
                                   {"cite", "How to cite"},     {0}};
+
+// Folders of one name are told apart by the end of their paths.
+static void name_runs(RunSource *runs, int32_t count)
+{
+    for (int32_t k = 1; k < count; ++k)
+        for (int32_t j = 0; j < k; ++j) {
+            if (strcmp(runs[j].name, runs[k].name) != 0) continue;
+            for (int32_t each = 0; each < count; ++each) {
+                size_t length = strlen(runs[each].folder);
+                size_t cut = length < RUN_NAME_SIZE ? 0 : length - RUN_NAME_SIZE + 1;
+                snprintf(runs[each].name, RUN_NAME_SIZE, "%s", runs[each].folder + cut);
+            }
+            return;
+        }
+}
 
 static void write_states(HtmlWriter *html, const RunSource *run)
 {
@@ -84,6 +101,7 @@ bool compare_page_write(HtmlWriter *html, const char *const *folders, int32_t co
         FAIL(err, ERROR_INPUT, "%d runs: a comparison takes up to %d; a sweep takes many", count,
              RENDER_CURVES_MAX);
     for (int32_t k = 0; k < count; ++k) TRY(run_source_open(folders[k], &runs[k], err));
+    name_runs(runs, count);
     snprintf(title, sizeof title, "Comparison of %d runs", count);
     sheet_begin(html, title, "Report by amontons", PARTS);
     for (int32_t k = 0; k < count; ++k) write_states(html, &runs[k]);

@@ -30,12 +30,24 @@ static bool go_on_without(HtmlWriter *html, const char *what, Error *err)
     return true;
 }
 
+// Where an error bar was asked for: runs over contact nodes.
+static bool bar_figure_write(HtmlWriter *html, const RunSource *run, Error *err)
+{
+    char path[PATH_MAX];
+    if (!folder_holds(run->folder, "figures/accuracy.json", path)) return true;
+    RenderPlotHtmlFunction render =
+        (RenderPlotHtmlFunction)module_function("render", "amontons_render_plot_html", err);
+    if (render)
+        render(path, "How the error bar was found: runs on finer and finer meshes.", html, err);
+    return go_on_without(html, "figure of the error bar", err);
+}
+
 bool figures_write(HtmlWriter *html, const RunSource *run, Error *err)
 {
     RenderFiguresFunction render =
         (RenderFiguresFunction)module_function("render", "amontons_render_figures", err);
     if (render) render(run->folder, html, err);
-    return go_on_without(html, "figures", err);
+    return go_on_without(html, "figures", err) && bar_figure_write(html, run, err);
 }
 
 // --- frames --------------------------------------------------------------------------------------

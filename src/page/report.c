@@ -3,12 +3,14 @@
 #include "amontons.h"
 
 #include "base/apart.h"
+#include "io/part_file.h"
 #include "page/pages.h"
 #include "page/run_source.h"
 
 #include <errno.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 enum { SECONDS_MAX = 600 };   // far above what the longest history takes
 
@@ -57,6 +59,17 @@ cleanup:
     return false;
 }
 
+// What a process that crashed has left; not what another one is writing.
+static void drop_part(const char *file)
+{
+    char part[PATH_MAX + 8];
+    PartFile left = {0};
+    Error ignored = {0};
+    if (part_file_name(file, part) && access(part, F_OK) == 0 &&
+        part_file_create(&left, file, &ignored))
+        part_file_discard(&left);
+}
+
 // A stranger's history may crash HDF5, or keep it busy for ever.
 bool amontons_report(const char *const *results, int32_t count, const char *file, Error *err)
 {
@@ -71,6 +84,7 @@ bool amontons_report(const char *const *results, int32_t count, const char *file
     if (count < 1) FAIL(err, ERROR_INPUT, "a report needs a result folder");
     TRY(apart_is_wanted() ? apart_read(&work, &reply, err) : write_file(&request, NULL, err));
 cleanup:
+    if (!error_is_clean(err)) drop_part(file);
     apart_destroy(&reply);
     return error_is_clean(err);
 }

@@ -79,8 +79,8 @@ class Page(HTMLParser):
         return list(self.root.all(*name, **wanted))
 
 
-def report(*words, status=0):
-    done = subprocess.run([PROGRAM, "report", *words], capture_output=True, text=True)
+def report(*words, status=0, cwd=None):
+    done = subprocess.run([PROGRAM, "report", *words], capture_output=True, text=True, cwd=cwd)
     assert done.returncode == status, done
     return done.stdout if status == 0 else done.stderr
 
@@ -262,8 +262,11 @@ class Run(Sound):
             file.write_text("damaged")
         with h5py.File(folder / "history.h5", "a") as history:
             del history["interface/slip_rate"]
+        (folder / "figures").mkdir(exist_ok=True)
+        (folder / "figures/accuracy.json").write_text('{"title": "x", "series": [{"label": "a", "x": [1, 2], "y": [1, 2]}]}')
         report(folder)
         page = Page(folder / "report.html")
+        self.assertEqual(len(page.all("picture")), 2, "the force curve needs no slip rates; and the error bar's figure")
         self.check_sound(page)
         self.assertGreaterEqual(len(page.all("p", class_="box failure")), 1)
         self.assertTrue(page.all("td", data_path="results.mu_M"))
@@ -297,6 +300,13 @@ class Run(Sound):
         differences = next(page.all("section", id="differences")[0].all("tbody"))
         self.assertEqual([[c.text for c in row.children] for row in differences.children],
                          [["load.pressure", "0.003", "0.004"]])
+        (self.folder / "there").mkdir(exist_ok=True)
+        shutil.copytree(other, self.folder / "there/one", dirs_exist_ok=True)
+        (self.folder / "there/one/history.h5").unlink()
+        report("one", "there/one", "-o", "names.html", cwd=self.folder)
+        named = Page(self.folder / "names.html")
+        self.assertEqual([h.text for h in next(named.all("thead")[0].all("tr")).children[1:3]], ["one", "there/one"])
+        self.assertIn("1 of 2 runs kept no history", named.source)
         curves = [p for p in page.all("path") if re.fullmatch(r"curve\d", p.attributes["class"]) and len(p.attributes["d"]) > 99]
         self.assertEqual(len(curves), 2)
 
