@@ -116,7 +116,7 @@ static herr_t disk_read(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_t a
     memset(next, 0, size);   // past the end, or unreadable
     int cause = array_journal_overlay(&disk->journal, (int64_t)from, buffer, whole);
     if (cause != 0) note_failure(disk, cause);
-    return 0;
+    return disk->reading && disk->failure != 0 ? -1 : 0;
 }
 
 static void write_over(ArrayDisk *disk, haddr_t address, size_t size, const void *buffer)
@@ -184,11 +184,11 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool array_disk_look(ArrayDisk *disk, const PartFile *file, Error *err)
+bool array_disk_look(ArrayDisk *disk, const PartFile *file, bool finished, Error *err)
 {
     struct stat status;
-    *disk = (ArrayDisk){.file = file};
-    int cause = array_journal_find(&disk->journal, file->path);
+    *disk = (ArrayDisk){.file = file, .reading = true};
+    int cause = finished ? 0 : array_journal_find(&disk->journal, file->path);
     if (cause != 0)
         FAIL(err, ERROR_FILE, "cannot read %s.journal: %s", file->path, strerror(cause));
     if (fstat(file->descriptor, &status) == 0) disk->end_of_file = (haddr_t)status.st_size;

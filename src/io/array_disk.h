@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The driver (virtual file layer) under an HDF5 file being written. HDF5 1.10 does not survive a
-// write that fails: closing afterwards can crash inside it. So it never sees one: this driver keeps
-// the first cause and drops what cannot be written; whoever wrote asks it afterwards. Called by
+// The driver (virtual file layer) under an HDF5 file. HDF5 1.10 does not survive a write or a close
+// that fails: closing afterwards, or the program's end, can crash inside it. So it never sees one:
+// this driver keeps the first cause and drops what cannot be written; whoever wrote asks it
+// afterwards. A read that fails HDF5 is told where the file is only read. Called by
 // io/array_file_module and io/array_series.
 #ifndef AMONTONS_IO_ARRAY_DISK_H
 #define AMONTONS_IO_ARRAY_DISK_H
@@ -17,6 +18,7 @@ enum { HDF5_CAUSE_SIZE = 512 };
 typedef struct ArrayDisk {
     H5FD_t base;   // HDF5's part; stands first, so that HDF5's pointer is ours
     const PartFile *file;   // the file; not owned
+    bool reading;   // only
     int failure;   // errno of the first access that failed; 0: none
     haddr_t end_of_space;   // bytes handed out to HDF5
     haddr_t end_of_file;   // bytes the file has, or would have if nothing had failed
@@ -28,8 +30,8 @@ typedef struct ArrayDisk {
 // Begins with a file that is open. anew: it is empty; else what a killed writer left half done is
 // done first. ERROR_FILE.
 bool array_disk_open(ArrayDisk *disk, const PartFile *file, bool anew, Error *err);
-// The same for a file that is only read: what is half done is seen as done.
-bool array_disk_look(ArrayDisk *disk, const PartFile *file, Error *err);
+// The same for a file that is only read: of an unfinished one what is half done is seen as done.
+bool array_disk_look(ArrayDisk *disk, const PartFile *file, bool finished, Error *err);
 
 // Makes `access` (a file access property list) use `disk`, which must stay where it is until the
 // HDF5 file is closed; `driver` is released by the caller with H5FDunregister.

@@ -163,14 +163,14 @@ cleanup:
     return error_is_clean(err);
 }
 
-// A file that has not got its name yet is read through the journal that its writer left.
-static bool use_journal(Hdf5File *file, const char *path, hid_t access, Error *err)
+// By our driver; a file that has not got its name yet through the journal that its writer left.
+static bool use_disk(Hdf5File *file, const char *path, hid_t access, Error *err)
 {
     char cause[HDF5_CAUSE_SIZE];
-    if (strcmp(file->path, path) == 0) goto cleanup;
-    TRY(part_file_look(&file->part, path, err));
-    TRY(array_disk_look(&file->disk, &file->part, err));
-    if (file->disk.journal.holds && !array_disk_use(&file->disk, access, &file->driver))
+    bool finished = strcmp(file->path, path) == 0;
+    TRY(part_file_look(&file->part, path, finished, err));
+    TRY(array_disk_look(&file->disk, &file->part, finished, err));
+    if (!array_disk_use(&file->disk, access, &file->driver))
         FAIL(err, ERROR_LIBRARY, "cannot read %s: %s", file->path, hdf5_cause(cause));
 cleanup:
     return error_is_clean(err);
@@ -189,7 +189,7 @@ static Hdf5File *hdf5_open(const char *path, Error *err)
         FAIL(err, ERROR_FILE, "cannot read %s: %s", file->path, strerror(errno));
     properties = H5Pcreate(H5P_FILE_ACCESS);
     H5Pset_file_locking(properties, false, true);
-    TRY(use_journal(file, path, properties, err));
+    TRY(use_disk(file, path, properties, err));
     file->id = H5Fopen(file->path, H5F_ACC_RDONLY, properties);
     if (file->id < 0)
         FAIL(err, ERROR_FILE, "cannot read %s, not a whole HDF5 file: %s", file->path,

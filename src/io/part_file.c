@@ -76,12 +76,12 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool part_file_look(PartFile *file, const char *path, Error *err)
+bool part_file_look(PartFile *file, const char *path, bool finished, Error *err)
 {
     TRY(name_part(file, path, err));
-    file->descriptor = open(file->part, O_RDONLY | O_CLOEXEC);
-    if (file->descriptor < 0)
-        FAIL(err, ERROR_FILE, "cannot read %s: %s", file->part, strerror(errno));
+    const char *name = finished ? path : file->part;
+    file->descriptor = open(name, O_RDONLY | O_CLOEXEC);
+    if (file->descriptor < 0) FAIL(err, ERROR_FILE, "cannot read %s: %s", name, strerror(errno));
     file->open = true;
 cleanup:
     return error_is_clean(err);

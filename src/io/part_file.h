@@ -30,8 +30,9 @@ bool part_file_create(PartFile *file, const char *path, Error *err);
 // Opens what there is of `path` to be gone on with: its .part, or the finished file, which is
 // called .part again until it is committed. ERROR_FILE where there is neither.
 bool part_file_reopen(PartFile *file, const char *path, Error *err);
-// Opens `path`.part for reading, without a lock, whoever writes it; to leave.
-bool part_file_look(PartFile *file, const char *path, Error *err);
+// Opens `path`, or `path`.part where that is not finished, for reading, without a lock, whoever
+// writes it; to leave.
+bool part_file_look(PartFile *file, const char *path, bool finished, Error *err);
 bool part_file_write(PartFile *file, const void *bytes, int64_t size, Error *err);
 
 // Onto the disk (fsync), then under the final name. A failure leaves it open, to discard or leave.
