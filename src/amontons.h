@@ -143,6 +143,7 @@ typedef void (*StepCallback)(const StepView *view, void *context);
 
 // Called when "meshing", "reducing" or "relaxing" begins. Static storage.
 typedef void (*StageCallback)(const char *stage, void *context);
+typedef void (*ReportCallback)(const char *json, void *context);   // json: during the call
 
 typedef struct RunOptions {
     const char *folder;   // the result folder, created; NULL: nothing is written at all
@@ -152,6 +153,7 @@ typedef struct RunOptions {
     StepCallback on_step;   // NULL: none
     LevelCallback on_level;   // NULL: none
     StageCallback on_stage;   // NULL: none
+    ReportCallback on_report;   // what run.json holds, also where nothing is written; NULL: none
     void *context;   // handed to these
     const volatile sig_atomic_t *stop;   // non-zero: finish the step, keep what is there, return
         // ERROR_INTERRUPT; NULL: never

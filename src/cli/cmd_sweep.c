@@ -52,7 +52,8 @@ static const CommandText text = {
         "value of a key, `with` names folders of other sweeps to show beside; a list draws several "
         "plots, told apart by `name`. `amontons render DIR --plot` draws others later.\n\n"
         "Each point ends when its peaks are periodic, and keeps no history and no pictures, "
-        "unless the study sets output.history: true and the like. Finished points stay in "
+        "unless the study sets output.history: true and the like; with `keep: table` it leaves no "
+        "folder either. Finished points stay in "
         "DIR/points: the same command continues an interrupted sweep, and computes only what is "
         "new when the study has changed.\n\n"
         "With --slurm each point is an element of a job array. The sweep waits for them, on a "
@@ -155,13 +156,16 @@ static void show_point(const SweepView *view, void *context)
 static int close_sweep(const SweepDisplay *display, const char *folder, const char *ranked,
                        const SweepSummary *summary)
 {
+    char points[AMONTONS_PATH_SIZE + 8];
     if (!display->quiet) {
         printf("%d points: %d computed in %.1f s", summary->points, summary->computed,
                summary->seconds);
         if (summary->refined) printf(" (%d again, to decide ranks)", summary->refined);
         if (summary->reused) printf(", %d computed before", summary->reused);
         if (summary->failed) printf(", %d failed", summary->failed);
-        printf("\nTable in %s: sweep.csv and sweep.h5; each point's run.json in points/\n", folder);
+        snprintf(points, sizeof points, "%s/points", folder);
+        printf("\nTable in %s: sweep.csv and sweep.h5%s\n", folder,
+               access(points, F_OK) == 0 ? "; each point's run.json in points/" : "");
         if (ranked) fputs(ranked, stdout);
     }
     if (summary->failed == 0) return 0;

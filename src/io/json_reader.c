@@ -203,6 +203,30 @@ const char *json_find_raw(const char *text, const char *path, int32_t *length)
     return end ? at : NULL;
 }
 
+void json_drop(char *text, const char *path)
+{
+    char *at = (char *)find(text, path);   // a place in `text`
+    const char *end = at ? skip_value(at) : NULL;
+    if (!end || end - at < 4) return;
+    memcpy(at, "null", 4);
+    memmove(at + 4, end, strlen(end) + 1);
+}
+
+void json_compact(char *text)
+{
+    char *to = text;
+    bool inside = false;
+    for (const char *at = text; *at; at++) {
+        if (!inside && strchr(" \t\r\n", *at)) continue;
+        if (inside && *at == '\\' && at[1])
+            *to++ = *at++;
+        else if (*at == '"')
+            inside = !inside;
+        *to++ = *at;
+    }
+    *to = 0;
+}
+
 bool json_is_whole(const char *text)
 {
     const char *end = skip_value(text);

@@ -22,6 +22,10 @@ bool json_find_key(const char *text, const char *path, int32_t index, char *key,
 bool json_find_text(const char *text, const char *path, char *value, int32_t size);
 // The value at `path` as it stands in the text: *length bytes from the pointer on. NULL: none.
 const char *json_find_raw(const char *text, const char *path, int32_t *length);
+// Shortens `text` in place: the value at `path`, where there is one, becomes null; space outside of
+// texts goes.
+void json_drop(char *text, const char *path);
+void json_compact(char *text);
 // The brackets of the whole text match: it was not cut off.
 bool json_is_whole(const char *text);
 

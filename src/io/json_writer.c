@@ -127,7 +127,7 @@ JsonWriter *json_create(const char *path, Error *err)
 {
     JsonWriter *json = NEW_ARRAY(JsonWriter, 1, err);
     if (!json) return NULL;
-    TRY(part_file_create(&json->file, path, err));
+    if (path) TRY(part_file_create(&json->file, path, err));
     json->capacity = FIRST_CAPACITY;
     json->text = NEW_ARRAY(char, json->capacity, err);
     if (!json->text) goto cleanup;
@@ -195,22 +195,37 @@ void json_boolean(JsonWriter *json, const char *key, bool value)
     append_text(json, value ? "true" : "false");
 }
 
-bool json_finish(JsonWriter *json, Error *err)
+// A missing end is a bug of the caller; the file would not be JSON.
+static bool end_document(JsonWriter *json, Error *err)
 {
-    // A missing end is a bug of the caller; the file would not be JSON.
     if (json->depth != 0 || json->levels[0].count != 1)
         error_set(&json->first, ERROR_LIBRARY, __FILE__, __LINE__, "%s: the document is not whole",
                   json->file.path);
+    if (!error_is_clean(&json->first) && error_is_clean(err)) *err = json->first;
+    return error_is_clean(err);
+}
+
+bool json_finish(JsonWriter *json, Error *err)
+{
     append_text(json, "\n");
-    if (!error_is_clean(&json->first)) {
-        if (error_is_clean(err)) *err = json->first;
-        goto cleanup;
-    }
+    TRY(end_document(json, err));
     TRY(part_file_write(&json->file, json->text, json->length, err));
     TRY(part_file_commit(&json->file, err));
 cleanup:
     json_abandon(json);
     return error_is_clean(err);
+}
+
+char *json_take(JsonWriter *json, Error *err)
+{
+    char *text = NULL;
+    append_bytes(json, "\n", 2);   // with the end of the text
+    TRY(end_document(json, err));
+    text = json->text;
+    json->text = NULL;
+cleanup:
+    json_abandon(json);
+    return text;
 }
 
 void json_abandon(JsonWriter *json)

@@ -12,7 +12,7 @@
 typedef struct JsonWriter JsonWriter;
 
 // `key` is NULL inside a list and at the top. The first failure is kept and reported by finish.
-JsonWriter *json_create(const char *path, Error *err);
+JsonWriter *json_create(const char *path, Error *err);   // path NULL: for json_take
 void json_begin_object(JsonWriter *json, const char *key);
 void json_begin_list(JsonWriter *json, const char *key);
 void json_end(JsonWriter *json);   // of the innermost object or list
@@ -21,6 +21,8 @@ void json_number(JsonWriter *json, const char *key, double value);
 void json_integer(JsonWriter *json, const char *key, int64_t value);
 void json_boolean(JsonWriter *json, const char *key, bool value);
 bool json_finish(JsonWriter *json, Error *err);   // flush, fsync, rename; frees `json` either way
+// In place of finish: the document in memory (memory_free), NULL on failure. Frees `json` either way.
+char *json_take(JsonWriter *json, Error *err);
 void json_abandon(JsonWriter *json);   // removes what was written; NULL is fine
 
 #endif

@@ -164,14 +164,9 @@ static void write_errors(JsonWriter *json, const RunErrors *errors)
     json_end(json);
 }
 
-// report->failure NULL: the run ended as it should. Written beside its name and renamed: never half
-// a report.
-bool report_write(const char *folder, const RunReport *report, Error *err)
+// report->failure NULL: the run ended as it should.
+static void write_all(JsonWriter *json, const char *folder, const RunReport *report)
 {
-    char path[AMONTONS_PATH_SIZE + 16];
-    snprintf(path, sizeof path, "%s/run.json", folder);
-    JsonWriter *json = json_create(path, err);
-    if (!json) return false;
     json_begin_object(json, NULL);
     json_text(json, "status", report->failure ? "failed" : "done");
     if (report->failure) {
@@ -190,5 +185,23 @@ bool report_write(const char *folder, const RunReport *report, Error *err)
     if (report->levels) levels_write_json(report->levels, json);
     write_errors(json, report->errors);
     json_end(json);
+}
+
+// Written beside its name and renamed: never half a report.
+bool report_write(const char *folder, const RunReport *report, Error *err)
+{
+    char path[AMONTONS_PATH_SIZE + 16];
+    snprintf(path, sizeof path, "%s/run.json", folder);
+    JsonWriter *json = json_create(path, err);
+    if (!json) return false;
+    write_all(json, folder, report);
     return json_finish(json, err);
+}
+
+char *report_text(const char *folder, const RunReport *report, Error *err)
+{
+    JsonWriter *json = json_create(NULL, err);
+    if (!json) return NULL;
+    write_all(json, folder, report);
+    return json_take(json, err);
 }

@@ -45,5 +45,7 @@ typedef struct RunReport {
 } RunReport;
 
 bool report_write(const char *folder, const RunReport *report, Error *err);
+// The same in memory (memory_free); NULL on failure. Paths in it are as seen from `folder`.
+char *report_text(const char *folder, const RunReport *report, Error *err);
 
 #endif

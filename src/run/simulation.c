@@ -298,6 +298,19 @@ static Answers answers_to_report(const Simulation *simulation)
     return answers;
 }
 
+static bool hand_out_report(const Simulation *simulation, const RunReport *report, Error *err)
+{
+    const RunOptions *options = &simulation->options;
+    char *text = NULL;
+    if (writes_results(simulation)) TRY(report_write(simulation->folder.path, report, err));
+    if (!options->on_report) goto cleanup;
+    TRY((text = report_text(options->folder ? options->folder : ".", report, err)));
+    options->on_report(text, options->context);
+cleanup:
+    memory_free(text);
+    return error_is_clean(err);
+}
+
 bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary *summary,
                        Error *err)
 {
@@ -324,7 +337,7 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
     simulation->timing.output += clock_seconds() - started;
     simulation->timing.total = clock_seconds() - simulation->started;
     simulation->timing.outside += clock_processor_seconds();
-    if (writes_results(simulation)) {
+    if (writes_results(simulation) || simulation->options.on_report) {
         RunReport report = {.scene = &simulation->scene,
                             .failure = failure,
                             .counters = &counters,
@@ -341,7 +354,7 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
                             .pads = &simulation->pads,
                             .levels = simulation->levels,
                             .warnings = &simulation->warnings};
-        TRY(report_write(simulation->folder.path, &report, err));
+        TRY(hand_out_report(simulation, &report, err));
     }
     summary_fill(simulation, &counters, &answers, summary);
 cleanup:

@@ -248,6 +248,35 @@ class Sweep(unittest.TestCase):
         self.assertEqual([row["status"] for row in self.table()], ["done"] * 2 + ["failed"] + ["done"] * 6)
         self.assertIn("signal 11", self.table()[2]["message"])
 
+    def test_table_alone(self):
+        """`keep: table`: the same rows without a folder a point; taken up again also where a kill cut a line."""
+        text = HEAD + "keep: table\ncases:\n" + "".join(QUICK[:4]) + "  - {groups.top: roof}\n"
+        self.sweep(study=self.study(text.replace("keep: table\n", "")), out="folders", status=1)
+        study, reports = self.study(text), self.folder / "out/reports"
+        wanted = [row | {"run": row["run"].split("/")[1]} for row in self.without_times("folders")]
+        self.assertIn("5 points: 5 computed", self.sweep(study=study, status=1).stdout)
+        self.assertEqual(self.without_times("out"), wanted)
+        self.assertEqual(sorted(path.name for path in (self.folder / "out").iterdir()),
+                         ["lock", "reports", "sweep.csv", "sweep.h5"])
+        self.assertIn("5 points: 0 computed", self.sweep(study=study, status=1).stdout)
+        lines = reports.read_bytes().splitlines(True)
+        reports.write_bytes(b"".join(lines[:2]) + lines[2][:200])
+        self.assertIn("5 points: 3 computed", self.sweep(study=study, status=1).stdout)
+        self.assertEqual(self.without_times("out"), wanted)
+        self.assertEqual(reports.read_bytes().count(b"\n"), 5)
+        for more, said in (("set: {output.history: true, ", "no folder for a history"), ("keep: rows\nset: {", "keep: ")):
+            wrong = self.sweep(study=self.study(text.replace("set: {", more, 1)), out="wrong", status=2)
+            self.assertIn(said, wrong.stderr)
+
+    def test_crash_with_the_table_alone(self):
+        process = self.start(self.study(HEAD + "keep: table\ncases:\n" + "".join(QUICK[:2] + ENDLESS[:1] + QUICK[2:3])), "1")
+        reports = self.folder / "out/reports"
+        self.wait(lambda: reports.exists() and reports.read_bytes().count(b"\n") == 2)   # the third is handed out
+        os.kill(self.children(process)[0], signal.SIGSEGV)
+        process.communicate(timeout=120)
+        self.assertEqual([row["status"] for row in self.table()], ["done", "done", "failed", "done"])
+        self.assertIn("signal 11", self.table()[2]["message"])
+
     def test_ranking(self):
         """The order and the gains as the table has them; both pictures; what is wrong with a baseline."""
         wanted = "rank: {by: mu_M, top: 3, against: {rod.kind: push, load.pressure: 0.006}}\n"

@@ -153,7 +153,7 @@ bool amontons_sweep_element(const char *path, int32_t element, Error *err)
     TRY(text_file_read(path, ELEMENTS_BYTES_MAX, &text, &size, err));
     TRY(read_element(text, element, sweep, &point, err));
     TRY(check_scene(sweep, point, err));
-    TRY(point_run(sweep, point, err));
+    TRY(point_run(sweep, point, &report, err));
 cleanup:
     if (!error_is_clean(err) && sweep && sweep->points && point >= 0) {
         report = point_report(sweep, point, &ignored);

@@ -58,12 +58,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// A point's hash, to be sorted by; equal ones by number.
-typedef struct HashedPoint {
-    const char *hash;   // not owned
-    int32_t point;
-} HashedPoint;
-
 static int compare_hashes(const void *a, const void *b)
 {
     const HashedPoint *one = a, *other = b;
@@ -71,19 +65,41 @@ static int compare_hashes(const void *a, const void *b)
     return order != 0 ? order : one->point - other->point;
 }
 
-// Sorted: a study may have 100 000 points.
-bool points_find_same(Sweep *sweep, Error *err)
+// A study may have 100 000 points: none is compared with all others.
+bool points_sort(Sweep *sweep, PointsByHash *points, Error *err)
 {
     int32_t count = sweep->study.point_count;
-    HashedPoint *sorted = NEW_ARRAY(HashedPoint, count, err);
-    if (!sorted) return false;
-    for (int32_t k = 0; k < count; k++) sorted[k] = (HashedPoint){sweep->points[k].hash, k};
-    qsort(sorted, (size_t)count, sizeof *sorted, compare_hashes);
-    for (int32_t k = 0, first = 0; k < count; k++) {
-        if (strcmp(sorted[k].hash, sorted[first].hash) != 0) first = k;
-        sweep->points[sorted[k].point].same_as = sorted[first].point;
+    *points = (PointsByHash){.sweep = sweep, .list = NEW_ARRAY(HashedPoint, count, err)};
+    if (!points->list) return false;
+    for (int32_t k = 0; k < count; k++) points->list[k] = (HashedPoint){sweep->points[k].hash, k};
+    qsort(points->list, (size_t)count, sizeof *points->list, compare_hashes);
+    return true;
+}
+
+int32_t points_look_up(const PointsByHash *points, const char *hash)
+{
+    int32_t low = 0, count = points->sweep->study.point_count, high = count;
+    while (low < high) {
+        int32_t middle = low + (high - low) / 2;
+        if (strcmp(points->list[middle].hash, hash) < 0)
+            low = middle + 1;
+        else
+            high = middle;
     }
-    memory_free(sorted);
+    bool found = low < count && strcmp(points->list[low].hash, hash) == 0;
+    return found ? points->list[low].point : -1;
+}
+
+bool points_find_same(Sweep *sweep, Error *err)
+{
+    PointsByHash sorted;
+    if (!points_sort(sweep, &sorted, err)) return false;
+    for (int32_t k = 0, first = 0; k < sweep->study.point_count; k++) {
+        const HashedPoint *list = sorted.list;
+        if (strcmp(list[k].hash, list[first].hash) != 0) first = k;
+        sweep->points[list[k].point].same_as = list[first].point;
+    }
+    memory_free(sorted.list);
     return true;
 }
 
@@ -112,6 +128,9 @@ static void report_path(const Sweep *sweep, int32_t point, char path[POINT_PATH_
 // Missing is no error; unreadable is.
 char *point_report(const Sweep *sweep, int32_t point, Error *err)
 {
+    const SweepPoint *first = &sweep->points[sweep->points[point].same_as];
+    if (sweep->reports.open)
+        return first->place.size > 0 ? reports_read(&sweep->reports, first->place, err) : NULL;
     char path[POINT_PATH_SIZE + 16], *bytes = NULL;
     int32_t size = 0;
     report_path(sweep, point, path);
@@ -145,8 +164,10 @@ static void checkpoint_path(const Sweep *sweep, int32_t point, char path[POINT_P
 }
 
 // run.json, which alone makes a point finished; anew: and what it could be gone on with from.
-void point_remove(const Sweep *sweep, int32_t point, bool anew)
+void point_remove(Sweep *sweep, int32_t point, bool anew)
 {
+    sweep->points[point].place = (ReportPlace){0};
+    if (sweep->reports.open) return;
     char path[POINT_PATH_SIZE + 16];
     report_path(sweep, point, path);
     unlink(path);   // the rest is the next run's to overwrite
@@ -155,17 +176,50 @@ void point_remove(const Sweep *sweep, int32_t point, bool anew)
     unlink(path);
 }
 
+// For a ReportCallback: the text is the point's only where memory is.
+static void take_report(const char *json, void *context)
+{
+    char **report = context;
+    Error ignored = {0};
+    memory_free(*report);   // of a run on another mesh
+    *report = memory_text(json, &ignored);
+}
+
+// Without any file.
+static bool run_for_table(const Scene *scene, char **report, Error *err)
+{
+    RunSummary summary;
+    RunOptions options = {.on_report = take_report, .context = report};
+    bool done = amontons_run(scene, &options, &summary, err);
+    if (!*report) return done;
+    json_drop(*report, "scene");
+    json_drop(*report, "results.events");
+    json_compact(*report);
+    return done;
+}
+
+bool point_keep(Sweep *sweep, int32_t point, const char *report, Error *err)
+{
+    SweepPoint *at = &sweep->points[point];
+    return reports_add(&sweep->reports, at->hash, report, &at->place, err);
+}
+
 // An ordinary run, which goes on with what was cut off or is written over what an earlier try may
 // have left in the folder.
-bool point_run(const Sweep *sweep, int32_t point, Error *err)
+bool point_run(const Sweep *sweep, int32_t point, char **report, Error *err)
 {
     char folder[POINT_PATH_SIZE], checkpoint[POINT_PATH_SIZE + 16];
     RunSummary summary;
     RunOptions options = {.folder = folder, .overwrite = true};
     Scene *scene = NEW_ARRAY(Scene, 1, err);
+    *report = NULL;
     TRY(scene);
     point_folder(sweep, point, folder);
     TRY(point_scene(sweep, point, scene, err));
+    if (sweep->reports.open) {
+        TRY(run_for_table(scene, report, err));
+        goto cleanup;
+    }
     checkpoint_path(sweep, point, checkpoint);
     options.resume = access(checkpoint, F_OK) == 0 && !(scene->accuracy.mu > 0);
     if (amontons_run(scene, &options, &summary, err) || !options.resume) goto cleanup;
@@ -179,27 +233,33 @@ cleanup:
 }
 
 // Has the scene in it like every run.json, so that it can be run again by hand.
-bool point_write_failure(const Sweep *sweep, int32_t point, const char *failure,
-                         const char *message, Error *err)
+bool point_write_failure(Sweep *sweep, int32_t point, const char *failure, const char *message,
+                         Error *err)
 {
-    char folder[POINT_PATH_SIZE], path[POINT_PATH_SIZE + 16];
+    char folder[POINT_PATH_SIZE], path[POINT_PATH_SIZE + 16], *report = NULL;
+    bool table = sweep->reports.open;
     Scene *scene = NEW_ARRAY(Scene, 1, err);
     JsonWriter *json = NULL;
     TRY(scene);
     TRY(point_scene(sweep, point, scene, err));
     point_folder(sweep, point, folder);
-    mkdir(folder, 0777);   // a failure shows when the report is written
+    if (!table) mkdir(folder, 0777);   // a failure shows when the report is written
     report_path(sweep, point, path);
-    TRY((json = json_create(path, err)));
+    TRY((json = json_create(table ? NULL : path, err)));
     json_begin_object(json, NULL);
     json_text(json, "status", "failed");
     json_text(json, "failure", failure);
     json_text(json, "message", message);
     json_text(json, "version", AMONTONS_VERSION);
-    scene_write_json(scene, json, "scene", folder);
+    if (!table) scene_write_json(scene, json, "scene", folder);
     json_end(json);
-    TRY(json_finish(json, err));
+    if (!table) TRY(json_finish(json, err));
+    if (!table) goto cleanup;
+    TRY((report = json_take(json, err)));
+    json_compact(report);
+    TRY(point_keep(sweep, point, report, err));
 cleanup:
+    memory_free(report);
     memory_free(scene);
     return error_is_clean(err);
 }

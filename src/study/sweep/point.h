@@ -2,6 +2,7 @@
 // A sweep, its points, and their files. An interrupted point is not finished.
 //
 //     DIR/points/<hash>/run.json   one finished point, under a hash of its full scene
+//     DIR/reports                  in its place one file for all points, with `keep: table`
 //     DIR/sweep.csv, DIR/sweep.h5  the table, a row a point in the study's order
 //     DIR/ranking.csv              the same points, the best first, where the study asks (`rank`)
 //     DIR/figures/*.png            pictures of the ranking and of the study's `plot`
@@ -15,6 +16,7 @@
 
 #include "amontons.h"
 #include "base/hash.h"
+#include "study/sweep/reports.h"
 #include "study/sweep/study.h"
 
 typedef enum PointStatus { POINT_PENDING, POINT_DONE, POINT_FAILED } PointStatus;
@@ -25,6 +27,7 @@ typedef struct SweepPoint {
     int32_t same_as;   // an earlier point with the same scene; its own index: none
     int32_t baseline;   // the point that `rank` measures it against; -1: none
     bool reused;   // was finished when the sweep began
+    ReportPlace place;   // of its report, with `keep: table`
     double accuracy;   // accuracy.mu that its rank called for; 0: as the study has it
     bool settled;   // a smaller accuracy is of no use
     double seconds;   // in this sweep
@@ -34,6 +37,7 @@ typedef struct Sweep {
     const SweepOptions *options;   // not owned
     Study study;   // owned
     char folder[AMONTONS_PATH_SIZE];
+    Reports reports;   // open: `keep: table`
     int lock;   // file descriptor; -1: none
     SweepPoint *points;   // [study.point_count]; owned
     double started;   // wall clock, s
@@ -54,17 +58,33 @@ typedef struct PointMesh {
 bool point_scene(const Sweep *sweep, int32_t point, Scene *scene, Error *err);
 // A name for all that decides what a point comes to: version, mesh file, every key but the title.
 bool point_hash(const Scene *scene, PointMesh *mesh, char hash[HASH_TEXT_SIZE], Error *err);
+// The points sorted by hash, equal ones by number.
+typedef struct HashedPoint {
+    const char *hash;   // not owned
+    int32_t point;
+} HashedPoint;
+
+typedef struct PointsByHash {
+    Sweep *sweep;   // not owned
+    HashedPoint *list;   // [study.point_count]; memory_free
+} PointsByHash;
+
+bool points_sort(Sweep *sweep, PointsByHash *points, Error *err);
+int32_t points_look_up(const PointsByHash *points, const char *hash);   // the first; -1: none
 // Of points with the same hash the first one is `same_as` of all.
 bool points_find_same(Sweep *sweep, Error *err);
 // run.json of the point (memory_free); NULL without an error when there is none.
 char *point_report(const Sweep *sweep, int32_t point, Error *err);
 PointStatus point_status(const char *report);   // of a run.json, or NULL
 const char *point_status_name(PointStatus status);   // "pending"; static storage
-void point_remove(const Sweep *sweep, int32_t point, bool anew);
-bool point_run(const Sweep *sweep, int32_t point, Error *err);   // in this process
+void point_remove(Sweep *sweep, int32_t point, bool anew);
+// In this process. *report: with `keep: table` what run.json would hold, but for the scene and the
+// list of events, on one line (memory_free); else NULL.
+bool point_run(const Sweep *sweep, int32_t point, char **report, Error *err);
+bool point_keep(Sweep *sweep, int32_t point, const char *report, Error *err);   // in the sweep's
 // run.json for a point that left none: `failure` in a word or two, `message` in full.
-bool point_write_failure(const Sweep *sweep, int32_t point, const char *failure,
-                         const char *message, Error *err);
+bool point_write_failure(Sweep *sweep, int32_t point, const char *failure, const char *message,
+                         Error *err);
 // "load.pressure=0.003 mesh.set.nx=40"
 void point_words(const Sweep *sweep, const Scene *scene, char words[POINT_WORDS_SIZE]);
 

@@ -11,6 +11,7 @@
 #include "study/sweep/tally.h"
 
 #include <errno.h>
+#include <malloc.h>
 #include <poll.h>
 #include <string.h>
 #include <sys/prctl.h>
@@ -21,6 +22,7 @@
 enum {
     JOBS_MAX = 1024,
     WAKE_MS = 200,   // how often the stop flag is looked at
+    MEMORY_KEPT = 1 << 26,   // bytes
     POINTS_EACH = 256   // of a child: whatever a library does not free goes with it
 };
 
@@ -32,9 +34,10 @@ typedef struct Worker {
     double started;   // the point; wall clock, s
 } Worker;
 
-// A point has ended.
+// A point has ended; `size` bytes of its report follow.
 typedef struct Reply {
-    char message[ERROR_MESSAGE_SIZE];   // empty: it ended well, or its run.json says how
+    char message[ERROR_MESSAGE_SIZE];   // empty: it ended well, or its report says how
+    int32_t size;   // 0: its report is run.json, or there is none
 } Reply;
 
 // Processes, not threads: the libraries below keep states of their own (gmsh, HDF5), and a crash
@@ -61,6 +64,19 @@ static bool read_whole(int socket, void *bytes, size_t size)
     return true;
 }
 
+static bool send_whole(int socket, const void *bytes, size_t size)
+{
+    const char *next = bytes;
+    while (size > 0) {
+        ssize_t count = send(socket, next, size, MSG_NOSIGNAL);
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) return false;
+        next += count;
+        size -= (size_t)count;
+    }
+    return true;
+}
+
 // --- in the child -------------------------------------------------------------------------------
 
 // Never returns. The child dies with its parent, and by the signals that the parent handles.
@@ -71,12 +87,19 @@ static void be_child(const Sweep *sweep, int socket, pid_t parent)
     signal(SIGINT, SIG_IGN);   // of the terminal: the parent decides
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(1);
+    mallopt(M_TRIM_THRESHOLD, MEMORY_KEPT);   // the next point needs what the last one gave back
+    mallopt(M_MMAP_THRESHOLD, MEMORY_KEPT);
     while (read_whole(socket, &point, sizeof point)) {
         Error err = {0};
         Reply reply = {0};
-        if (!point_run(sweep, point, &err))
+        char *report = NULL;
+        if (!point_run(sweep, point, &report, &err))
             memcpy(reply.message, err.message, sizeof reply.message);
-        if (send(socket, &reply, sizeof reply, MSG_NOSIGNAL) != (ssize_t)sizeof reply) _exit(1);
+        reply.size = report ? (int32_t)strlen(report) : 0;
+        bool sent = send_whole(socket, &reply, sizeof reply) &&
+                    send_whole(socket, report, (size_t)reply.size);
+        memory_free(report);
+        if (!sent) _exit(1);
     }
     _exit(0);
 }
@@ -170,22 +193,35 @@ cleanup:
     return error_is_clean(err);
 }
 
+// *report: what follows the reply; NULL: nothing. false: the child has ended.
+static bool receive(int socket, Reply *reply, char **report, Error *err)
+{
+    if (!read_whole(socket, reply, sizeof *reply)) return false;
+    if (reply->size <= 0) return true;
+    *report = memory_array((int64_t)reply->size + 1, 1, err);
+    return *report && read_whole(socket, *report, (size_t)reply->size);
+}
+
 // The next point is handed out before the result of the last is looked at.
 static bool read_worker(Pool *pool, Worker *worker, Error *err)
 {
     Reply reply = {0};
     Worker before = *worker;
     Error unable = {0};
+    char *report = NULL;
     int ending = 0;
-    if (read_whole(worker->socket, &reply, sizeof reply))
+    bool whole = receive(worker->socket, &reply, &report, err);
+    if (whole)
         worker->point = -1;
     else
         ending = reap(worker);
-    if (before.point < 0) return true;
+    if (before.point < 0) goto cleanup;
     give_point(pool, worker, &unable);
+    if (whole && report) TRY(point_keep(pool->sweep, before.point, report, err));
     TRY(note_result(pool, &before, reply.message, ending, err));
     if (!error_is_clean(&unable)) *err = unable;
 cleanup:
+    memory_free(report);
     return error_is_clean(err);
 }
 

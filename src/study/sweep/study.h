@@ -9,6 +9,7 @@
 //     vary:                                     # the full product, the last key fastest
 //       mesh.set.length: [0.25, 1, 4]
 //       load.pressure: {log: [1e-4, 1e-2], points: 7}
+//     keep: table                               # of points nothing but their numbers
 //     record: [mu_M, period, results.mu_max]
 //     rank: {by: mu_M, order: highest, top: 10, against: {rod.kind: push}, refine: 0.5%}
 //     plot: {x: load.pressure, y: mu_M, series: mesh.set.length, log: x}   # or a list of plots
@@ -85,6 +86,7 @@ typedef struct Study {
     int32_t record_count;
     StudyRecord records[STUDY_RECORDS_MAX];
     int32_t point_count;
+    bool keep_table;   // `keep: table`: points leave no folders
     StudyRank rank;
     int32_t plot_count;
     StudyPlot plots[STUDY_PLOTS_MAX];

@@ -10,7 +10,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#define KEYS(X) X("title") X("scene") X("set") X("cases") X("vary") X("record") X("rank") X("plot")
+#define KEYS(X)                                                                                    \
+    X("title") X("scene") X("set") X("cases") X("vary") X("record") X("keep") X("rank") X("plot")
 
 // A mistyped key would silently change the study.
 static bool check_keys(const Study *study, Error *err)
@@ -35,7 +36,7 @@ static bool check_keys(const Study *study, Error *err)
         else
             yaml_key_error(study->file, item, err,
                            "%.60s: unknown key of a study; allowed: title, scene, set, cases, "
-                           "vary, record, rank, plot",
+                           "vary, record, keep, rank, plot",
                            key);
         return false;
     }
@@ -74,6 +75,17 @@ cleanup:
     return error_is_clean(err);
 }
 
+static bool read_keep(Study *study, Error *err)
+{
+    YamlNode node = yaml_look_up(study->file, "keep");
+    if (node == YAML_NO_NODE) return true;
+    const char *word = yaml_kind(study->file, node) == YAML_SCALAR ? yaml_text(study->file, node)
+                                                                   : "";
+    study->keep_table = strcmp(word, "table") == 0;
+    if (study->keep_table || strcmp(word, "points") == 0) return true;
+    return yaml_refuse(study->file, node, "keep", "points or table", err);
+}
+
 // What is wrong with values shows when scenes are made, point by point (study_point_scene).
 bool study_read(const char *path, const char *const *overrides, int32_t override_count,
                 Study *study, Error *err)
@@ -95,6 +107,7 @@ bool study_read(const char *path, const char *const *overrides, int32_t override
     TRY(read_scene_path(study, err));
     TRY(study_read_vary(study, overrides, override_count, err));
     TRY(study_read_wanted(study, err));
+    TRY(read_keep(study, err));
 cleanup:
     return error_is_clean(err);
 }

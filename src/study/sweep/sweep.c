@@ -42,7 +42,7 @@ static bool take_folder(Sweep *sweep, Error *err)
     if (snprintf(sweep->folder, sizeof sweep->folder, "%s", sweep->options->folder) >=
         (int)sizeof sweep->folder)
         FAIL(err, ERROR_INPUT, "the path of the sweep's folder is too long");
-    snprintf(path, sizeof path, "%s/points", sweep->folder);
+    snprintf(path, sizeof path, "%s%s", sweep->folder, sweep->study.keep_table ? "" : "/points");
     TRY(folder_make(path, err));
     snprintf(path, sizeof path, "%s/lock", sweep->folder);
     sweep->lock = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
@@ -57,15 +57,53 @@ cleanup:
     return error_is_clean(err);
 }
 
-// baseline of point `k`: the point whose scene is its own with the keys of `rank.against`.
-static bool find_baseline(Sweep *sweep, int32_t k, PointMesh *mesh, Scene *scene, Error *err)
+// What `keep: table` cannot do: nothing but numbers is kept.
+static bool check_table(const Sweep *sweep, const Scene *scene, Error *err)
 {
+    if (scene->output.history || scene->output.fields || scene->output.figures.count > 0)
+        FAIL(err, ERROR_INPUT,
+             "%s: keep: with `table` points have no folder for a history, fields or figures: say "
+             "`keep: points`",
+             sweep->study.path);
+    if (sweep->study.rank.refine > 0 || sweep->options->slurm)
+        FAIL(err, ERROR_INPUT, "%s: keep: `table` goes neither with `refine` nor with --slurm",
+             sweep->study.path);
+cleanup:
+    return error_is_clean(err);
+}
+
+// For a ReportFound; context: points by hash.
+static void note_place(void *context, const char *hash, ReportPlace place)
+{
+    const PointsByHash *points = context;
+    int32_t point = points_look_up(points, hash);
+    if (point >= 0) points->sweep->points[point].place = place;
+}
+
+// Reports of an earlier sweep, also of points that the study no longer has.
+static bool open_reports(Sweep *sweep, Error *err)
+{
+    char path[POINT_PATH_SIZE];
+    PointsByHash points = {0};
+    if (!sweep->study.keep_table) return true;
+    snprintf(path, sizeof path, "%s/reports", sweep->folder);
+    TRY(reports_open(&sweep->reports, path, sweep->options->fresh, err));
+    TRY(points_sort(sweep, &points, err));
+    TRY(reports_list(&sweep->reports, note_place, &points, err));
+cleanup:
+    memory_free(points.list);
+    return error_is_clean(err);
+}
+
+// baseline of point `k`: the point whose scene is its own with the keys of `rank.against`.
+static bool find_baseline(const PointsByHash *sorted, int32_t k, PointMesh *mesh, Scene *scene,
+                          Error *err)
+{
+    Sweep *sweep = sorted->sweep;
     char hash[HASH_TEXT_SIZE];
-    int32_t at = 0, count = sweep->study.point_count;
     TRY(study_baseline_scene(&sweep->study, k, scene, err));
     TRY(point_hash(scene, mesh, hash, err));
-    while (at < count && strcmp(sweep->points[at].hash, hash) != 0) at++;
-    sweep->points[k].baseline = at < count ? at : -1;
+    sweep->points[k].baseline = points_look_up(sorted, hash);
 cleanup:
     return error_is_clean(err);
 }
@@ -75,14 +113,17 @@ static bool find_baselines(Sweep *sweep, PointMesh *mesh, Scene *scene, Error *e
 {
     const Study *study = &sweep->study;
     bool found = study->rank.against != AGAINST_KEYS;
+    PointsByHash sorted;
+    TRY(points_sort(sweep, &sorted, err));
     for (int32_t k = 0; k < study->point_count; k++) {
-        if (study->rank.against == AGAINST_KEYS) TRY(find_baseline(sweep, k, mesh, scene, err));
+        if (study->rank.against == AGAINST_KEYS) TRY(find_baseline(&sorted, k, mesh, scene, err));
         found = found || sweep->points[k].baseline >= 0;
     }
     if (!found)
         yaml_error(study->file, study->rank.baseline, err,
                    "against: no point of the study has these values");
 cleanup:
+    memory_free(sorted.list);
     return error_is_clean(err);
 }
 
@@ -97,6 +138,7 @@ static bool plan_points(Sweep *sweep, Error *err)
         SweepPoint *point = &sweep->points[k];
         TRY(point_scene(sweep, k, scene, err));
         TRY(point_hash(scene, &mesh, point->hash, err));
+        if (sweep->study.keep_table) TRY(check_table(sweep, scene, err));
         if (sweep->study.rank.refine > 0 && !(scene->accuracy.mu > 0))
             FAIL(err, ERROR_INPUT,
                  "%s: rank: `refine` halves accuracy.mu, which must be given to begin with, as in "
@@ -182,6 +224,7 @@ bool amontons_sweep(const char *path, const SweepOptions *options, SweepSummary 
     TRY(plan_points(sweep, err));
     sweep->planned = sweep->study.point_count;
     TRY(take_folder(sweep, err));
+    TRY(open_reports(sweep, err));
     TRY(sweep_take_finished(sweep, err));
     TRY(slurm_end_leftovers(sweep, err));
     bool whole = compute_waiting(sweep, &stopped) && decide_ranks(sweep, &stopped);
@@ -195,6 +238,7 @@ bool amontons_sweep(const char *path, const SweepOptions *options, SweepSummary 
 cleanup:
     if (sweep) {
         if (sweep->lock >= 0) close(sweep->lock);
+        reports_close(&sweep->reports);
         memory_free(sweep->points);
         study_destroy(&sweep->study);
     }

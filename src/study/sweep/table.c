@@ -191,7 +191,7 @@ static bool write_row(TableWriter *writer, int32_t point, Scene *scene, Error *e
         json_find_text(report, "message", writer->cell, ERROR_MESSAGE_SIZE);
     csv_text(writer->csv, writer->cell);
     TRY(write_warnings(writer, point, results, err));
-    snprintf(run, sizeof run, "points/%s", at->hash);
+    snprintf(run, sizeof run, "%s%s", sweep->reports.open ? "" : "points/", at->hash);
     csv_text(writer->csv, run);
     csv_end_row(writer->csv);
     writer->table->status[point] = at->status;

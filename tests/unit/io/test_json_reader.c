@@ -155,12 +155,42 @@ static void test_damage(void **state)
     }
 }
 
+static void test_shorter(void **state)
+{
+    (void)state;
+    char text[sizeof TEXT], whole[sizeof TEXT];
+    double value = 0;
+    memcpy(text, TEXT, sizeof TEXT);
+    json_drop(text, "results.nowhere");
+    assert_string_equal(text, TEXT);
+    json_drop(text, "results.peaks");
+    assert_false(json_find_number(text, "results.peaks.0.mu", &value));
+    assert_true(json_find_number(text, "results.list.1", &value) && value == 2.5);
+    assert_true(json_find_number(text, "last", &value) && value == 7);
+    json_compact(text);
+    assert_string_equal(text,
+                        "{\"status\":\"done\",\"odd \\\"key\\\"\":{\"}\":1},"
+                        "\"results\":{\"mu_M\":0.25,\"none\":null,\"periodic\":true,\"off\":false,"
+                        "\"peaks\":null,\"list\":[1,2.5,3]},"
+                        "\"message\":\"say \\\"no\\\", [not] {this}\\n\\u0041\\u20ac end\","
+                        "\"last\":7}");
+    memcpy(whole, text, sizeof whole);
+    json_compact(text);
+    assert_string_equal(text, whole);
+    for (size_t length = 0; length < sizeof TEXT - 1; length++) {   // cut off: survived
+        memcpy(text, TEXT, sizeof TEXT);
+        text[length] = 0;
+        json_drop(text, "results.list");
+        json_compact(text);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_numbers),  cmocka_unit_test(test_absent),
         cmocka_unit_test(test_texts),    cmocka_unit_test(test_short_escape),
         cmocka_unit_test(test_may_hold), cmocka_unit_test(test_keys),
-        cmocka_unit_test(test_damage)};
+        cmocka_unit_test(test_damage),   cmocka_unit_test(test_shorter)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

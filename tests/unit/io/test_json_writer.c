@@ -339,12 +339,32 @@ static void every_path_frees_when_memory_is_short(void **state)
     }
 }
 
+static void a_document_stays_in_memory(void **state)
+{
+    (void)state;
+    Error err = {0};
+    int64_t live = memory_counters().live;
+    JsonWriter *json = json_create(NULL, &err);
+    json_begin_object(json, NULL);
+    json_text(json, "status", "done");
+    json_end(json);
+    char *text = json_take(json, &err);
+    assert_string_equal(text, "{\n  \"status\": \"done\"\n}\n");
+    memory_free(text);
+    json = json_create(NULL, &err);
+    json_begin_object(json, NULL);
+    assert_null(json_take(json, &err));   // not whole
+    assert_int_equal(err.code, ERROR_LIBRARY);
+    assert_int_equal(memory_counters().live, live);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_document_is_laid_out_as_stated),
         cmocka_unit_test(numbers_are_short_and_exact),
         cmocka_unit_test(text_is_escaped),
+        cmocka_unit_test(a_document_stays_in_memory),
         cmocka_unit_test(a_wrong_document_never_gets_its_name),
         cmocka_unit_test(an_earlier_document_stays_until_the_new_one_is_whole),
         cmocka_unit_test(missing_folders_are_named),

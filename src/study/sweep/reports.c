@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Lines are only ever added, each by one write; so whoever is killed leaves at most one that has no
+// end.
+#include "study/sweep/reports.h"
+
+#include "base/hash.h"
+#include "base/memory.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/uio.h>
+#include <unistd.h>
+
+enum { HASH_LENGTH = HASH_TEXT_SIZE - 1 };
+
+bool reports_open(Reports *reports, const char *path, bool anew, Error *err)
+{
+    *reports = (Reports){0};
+    int file = open(path, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | (anew ? O_TRUNC : 0), 0666);
+    if (file < 0) FAIL(err, ERROR_FILE, "cannot write %s: %s", path, strerror(errno));
+    *reports = (Reports){.open = true, .file = file};
+cleanup:
+    return error_is_clean(err);
+}
+
+bool reports_list(Reports *reports, ReportFound found, void *context, Error *err)
+{
+    char *line = NULL;
+    size_t room = 0;
+    int copy = dup(reports->file);   // fclose closes it
+    FILE *file = copy >= 0 ? fdopen(copy, "r") : NULL;
+    if (!file) FAIL(err, ERROR_FILE, "cannot read the reports: %s", strerror(errno));
+    rewind(file);
+    for (ssize_t length; (length = getline(&line, &room, file)) > 0; reports->end += length) {
+        if (line[length - 1] != '\n') break;
+        bool is_one = length > HASH_LENGTH + 2 && line[HASH_LENGTH] == ' ';
+        ReportPlace place = {reports->end + HASH_LENGTH + 1, (int32_t)length - HASH_LENGTH - 2};
+        line[HASH_LENGTH] = 0;
+        if (is_one) found(context, line, place);
+    }
+    if (ftruncate(reports->file, reports->end) != 0)
+        FAIL(err, ERROR_FILE, "cannot cut off the reports: %s", strerror(errno));
+cleanup:
+    free(line);
+    if (file)
+        fclose(file);
+    else if (copy >= 0)
+        close(copy);
+    return error_is_clean(err);
+}
+
+bool reports_add(Reports *reports, const char *hash, const char *json, ReportPlace *place,
+                 Error *err)
+{
+    size_t size = strlen(json);
+    struct iovec parts[] = {{(void *)hash, HASH_LENGTH}, {" ", 1}, {(void *)json, size}, {"\n", 1}};
+    ssize_t length = (ssize_t)(HASH_LENGTH + size + 2), written;
+    while ((written = writev(reports->file, parts, 4)) < 0 && errno == EINTR) continue;
+    if (written != length) {
+        int cause = written < 0 ? errno : ENOSPC;
+        bool cut = written <= 0 || ftruncate(reports->file, reports->end) == 0;
+        FAIL(err, ERROR_FILE, "cannot write the reports of points: %s%s", strerror(cause),
+             cut ? "" : ", and half a line stays");
+    }
+    *place = (ReportPlace){reports->end + HASH_LENGTH + 1, (int32_t)size};
+    reports->end += length;
+cleanup:
+    return error_is_clean(err);
+}
+
+char *reports_read(const Reports *reports, ReportPlace place, Error *err)
+{
+    char *json = memory_array((int64_t)place.size + 1, 1, err);
+    if (!json) goto cleanup;
+    if (pread(reports->file, json, (size_t)place.size, place.at) == place.size) return json;
+    error_set(err, ERROR_FILE, __FILE__, __LINE__, "cannot read the reports of points: %s",
+              strerror(errno));
+cleanup:
+    memory_free(json);
+    return NULL;
+}
+
+void reports_close(Reports *reports)
+{
+    if (reports->open) {
+        fsync(reports->file);   // a failure costs what a power cut may cost
+        close(reports->file);
+    }
+    *reports = (Reports){0};
+}
