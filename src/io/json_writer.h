@@ -21,7 +21,8 @@ void json_number(JsonWriter *json, const char *key, double value);
 void json_integer(JsonWriter *json, const char *key, int64_t value);
 void json_boolean(JsonWriter *json, const char *key, bool value);
 bool json_finish(JsonWriter *json, Error *err);   // flush, fsync, rename; frees `json` either way
-// In place of finish: the document in memory (memory_free), NULL on failure. Frees `json` either way.
+// In place of finish: the document in memory (memory_free), NULL on failure. Frees `json` either
+// way.
 char *json_take(JsonWriter *json, Error *err);
 void json_abandon(JsonWriter *json);   // removes what was written; NULL is fine
 
