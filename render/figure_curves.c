@@ -96,3 +96,17 @@ bool figure_curves(const Page *page, const Plot *plot, Error *err)
 cleanup:
     return error_is_clean(err);
 }
+
+bool figure_plot(Page *page, const Plot *plot, const PictureStyle *style, const char *title,
+                 Error *err)
+{
+    PictureStyle used = *style;
+    PageDef def = {.style = &used, .height = plot->height_over_width, .title = title};
+    double width = 0;
+    if (plot->panel_count > 0) plot_grid_size(plot, &def.height, &width);
+    if (!(used.width > 0)) used.width = width;
+    TRY(page_begin(page, &def, err));
+    TRY(figure_curves(page, plot, err));
+cleanup:
+    return error_is_clean(err);
+}

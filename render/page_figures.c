@@ -108,12 +108,7 @@ cleanup:
 
 static bool draw_plot(void *context, const PictureStyle *style, Page *page, Error *err)
 {
-    const Plot *plot = context;
-    PageDef def = {.style = style, .height = plot->height_over_width};
-    TRY(page_begin(page, &def, err));
-    TRY(figure_curves(page, plot, err));
-cleanup:
-    return error_is_clean(err);
+    return figure_plot(page, context, style, NULL, err);
 }
 
 __attribute__((visibility("default"))) bool

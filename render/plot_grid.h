@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Small multiples: the panels of a plot in rows and columns, with the same axes and colours.
-// Numbers stand at the left and below the lowest. Called by figure_curves and render_plot.
+// Numbers stand at the left and below the lowest. Called by figure_curves.
 #ifndef AMONTONS_RENDER_PLOT_GRID_H
 #define AMONTONS_RENDER_PLOT_GRID_H
 

@@ -5,7 +5,6 @@
 #include "base/memory.h"
 #include "render/figure_curves.h"
 #include "render/plot_file.h"
-#include "render/plot_grid.h"
 
 __attribute__((visibility("default"))) bool
 amontons_render_plot(const char *path, const char *picture, const PictureStyle *style, Error *err)
@@ -16,12 +15,7 @@ amontons_render_plot(const char *path, const char *picture, const PictureStyle *
     TRY(plot);
     TRY(page_style_of_name(picture, &used, err));
     TRY(plot_file_read(path, plot, err));
-    PageDef def = {.style = &used, .height = plot->height_over_width, .title = plot->title};
-    double width = 0;
-    if (plot->panel_count > 0) plot_grid_size(plot, &def.height, &width);
-    if (!(used.width > 0)) used.width = width;
-    TRY(page_begin(&page, &def, err));
-    TRY(figure_curves(&page, plot, err));
+    TRY(figure_plot(&page, plot, &used, plot->title, err));
     TRY(page_finish(&page, picture, plot->title, err));
 cleanup:
     page_destroy(&page);
