@@ -9,7 +9,7 @@
 
 static const double PREFIX_SLACK = 1e-5;   // decades over 3: 0.99999 m is 1 m
 
-enum { TICKS_X_MAX = 7, TICKS_Y_MAX = 6, TICKS_MIN = 2 };
+enum { TICKS_X_MAX = 7, TICKS_Y_MAX = 6, TICKS_MIN = 2, THIRDS_MIN = 3 };
 
 static const double TICK_LENGTH = 2.6;   // points
 static const double MINOR_LENGTH = 1.5;   // points
@@ -73,9 +73,10 @@ Ticks axis_ticks(const Axis *axis, int32_t wanted)
     Ticks log_ticks = {0};
     if (axis->is_log)
         log_ticks = ticks_choose_log(axis->low * axis->factor, axis->high * axis->factor, wanted);
-    if (axis->is_log && log_ticks.count < TICKS_MIN)
-        log_ticks = ticks_choose_thirds(axis->low * axis->factor, axis->high * axis->factor);
     if (log_ticks.count >= TICKS_MIN) return log_ticks;
+    if (axis->is_log)
+        log_ticks = ticks_choose_thirds(axis->low * axis->factor, axis->high * axis->factor);
+    if (log_ticks.count >= THIRDS_MIN) return log_ticks;
     return ticks_choose(axis->low * axis->factor, axis->high * axis->factor, wanted);
 }
 

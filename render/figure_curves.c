@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-static const double RIGHT_MARGIN = 6;   // points: half a number may stand there
+static const double RIGHT_MARGIN = 6, POWER_MARGIN = 9;   // points: half a number may stand there
 static const double BELOW_MARGIN = 6;   // points beside a legend below
 static const double BAR_GAP = 6;   // points: frame to colour bar
 static const double INSET_SHARE = 0.75;   // marks and lines of an inset over the main ones
@@ -54,45 +54,52 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Room below the names of the axes, where the legend stands there.
-static Box room_below(const Page *page, const Plot *plot)
+// The frame above `bottom`, with room for what stands beside it.
+static Axes frame_axes(const Page *page, const Plot *plot, const MapScale *scale, double bottom)
 {
-    double margin = BELOW_MARGIN * page->point, bottom = canvas_height(page->canvas);
-    Box room = {margin, bottom, canvas_width(page->canvas) - margin, bottom};
-    if (legend_is_below(plot)) room.top -= round(legend_below_height(page, &plot->main, &room));
-    return room;
-}
-
-static bool one_frame(const Page *page, const Plot *plot, const Box *below, Error *err)
-{
-    double point = page->point, right = RIGHT_MARGIN;
+    double point = page->point, right = plot->main.x.is_log ? POWER_MARGIN : RIGHT_MARGIN;
     Axes axes = {.x = plot->main.x, .y = plot->main.y, .number_size = NUMBER_SIZE, .color = INK};
-    MapScale scale = map_scale_fit(plot);
-    PanelDef def = {.panel = &plot->main, .scale = &scale, .share = 1};
-    if (plot->main.has_map) right = BAR_GAP + colorbar_width(page, &scale.bar);
+    if (plot->main.has_map) right = BAR_GAP + colorbar_width(page, &scale->bar);
     axes.box.top = page->head + round(axes_top_margin(&axes) * point);
-    axes.box.bottom = round(below->top - axes_bottom_margin(&axes) * point);
+    axes.box.bottom = round(bottom - axes_bottom_margin(&axes) * point);
     axes.box.left = round(axes_left_margin(page, &axes) * point);
     axes.box.right = round(canvas_width(page->canvas) - right * point);
-    Box place = inset_place(plot, &axes.box), legend = {0};
-    if (!legend_is_below(plot))
-        legend = legend_settle(page, &plot->main, 1, plot->has_inset ? &place : NULL, &axes);
-    TRY(panel_draw(page, &def, &axes, err));
-    legend_draw(page, &axes, &plot->main, &legend, 1);
-    if (plot->main.has_map) map_bar_draw(page, &scale, &axes.box);
-    if (plot->has_inset) TRY(inset_draw(page, plot, &scale, &axes.box, err));
+    return axes;
+}
+
+// axes: from frame_axes, narrowed by a legend beside them.
+static bool one_frame(const Page *page, const Plot *plot, Axes *axes, bool legend_is_elsewhere,
+                      Error *err)
+{
+    MapScale scale = map_scale_fit(plot);
+    PanelDef def = {.panel = &plot->main, .scale = &scale, .share = 1};
+    Box place = inset_place(plot, &axes->box), legend = {0};
+    if (!legend_is_elsewhere)
+        legend = legend_settle(page, &plot->main, 1, plot->has_inset ? &place : NULL, axes);
+    TRY(panel_draw(page, &def, axes, err));
+    legend_draw(page, axes, &plot->main, &legend, 1);
+    if (plot->main.has_map) map_bar_draw(page, &scale, &axes->box);
+    if (plot->has_inset) TRY(inset_draw(page, plot, &scale, &axes->box, err));
 cleanup:
     return error_is_clean(err);
 }
 
 bool figure_curves(const Page *page, const Plot *plot, Error *err)
 {
-    Box below = room_below(page, plot);
+    double margin = BELOW_MARGIN * page->point, bottom = canvas_height(page->canvas);
+    MapScale scale = map_scale_fit(plot);
+    Axes axes = frame_axes(page, plot, &scale, bottom);
+    Box below = {margin, bottom, canvas_width(page->canvas) - margin, bottom};
+    bool is_below = legend_is_below(page, plot, &axes);
+    if (is_below) {
+        below.top -= round(legend_below_height(page, &plot->main, &below));
+        axes = frame_axes(page, plot, &scale, below.top);
+    }
     if (plot->panel_count > 0)
         TRY(plot_grid_draw(page, plot, &below, err));
     else
-        TRY(one_frame(page, plot, &below, err));
-    if (legend_is_below(plot)) legend_below_draw(page, &plot->main, &below);
+        TRY(one_frame(page, plot, &axes, is_below, err));
+    if (is_below) legend_below_draw(page, &plot->main, &below);
 cleanup:
     return error_is_clean(err);
 }

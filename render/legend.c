@@ -9,6 +9,7 @@
 static const double LEGEND_SAMPLE = 14, LEGEND_GAP = 3, LEGEND_MARGIN = 4;   // points
 static const double LEGEND_CLEARANCE = 2;   // points: words to data
 static const double LEGEND_PITCH = 1.5;   // line to line, over the size of the words
+static const double FRAME_LEAST = 0.6;   // of its width that a legend beside it leaves
 static const double LEGEND_SPACE = 8;   // points between entries of one line
 
 // What the labelled series take; height 0: there is no legend.
@@ -70,10 +71,18 @@ void legend_draw(const Page *page, const Axes *axes, const PlotPanel *panel, con
 
 // --- below --------------------------------------------------------------------------------------
 
-bool legend_is_below(const Plot *plot)
+bool legend_is_below(const Page *page, const Plot *plot, const Axes *frame)
 {
-    bool usual = plot->main.has_map || plot->panel_count > 0;
-    return plot->main.legend == CORNER_BELOW || (plot->main.legend == CORNER_AUTO && usual);
+    const PlotPanel *panel = &plot->main;
+    if (panel->legend != CORNER_AUTO) return panel->legend == CORNER_BELOW;
+    if (panel->has_map || plot->panel_count > 0) return true;
+    LegendSize size = legend_measure(page, frame, panel, 1);
+    if (plot->has_inset || !(size.height > 0)) return false;
+    PlotCorner corner = legend_choose(panel, frame, &size, NULL);
+    Box box = legend_box(frame, &size, corner);
+    double width = frame->box.right - frame->box.left;
+    if (corner == CORNER_OUTSIDE) return width - size.width - size.margin < FRAME_LEAST * width;
+    return legend_hides(panel, frame, &size, &box) > 0;
 }
 
 // From the room's top down, line by line. Returns the height of all.

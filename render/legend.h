@@ -14,8 +14,9 @@ Box legend_settle(const Page *page, const PlotPanel *panel, double share, const 
 void legend_draw(const Page *page, const Axes *axes, const PlotPanel *panel, const Box *box,
                  double share);
 
-// Whether the legend stands in lines below all.
-bool legend_is_below(const Plot *plot);
+// Whether the legend stands in lines below all: the file says so, the plot has maps or panels, or
+// beside or in `frame` it would take too much room.
+bool legend_is_below(const Page *page, const Plot *plot, const Axes *frame);
 // Pixels that these lines take over the room's width.
 double legend_below_height(const Page *page, const PlotPanel *panel, const Box *room);
 void legend_below_draw(const Page *page, const PlotPanel *panel, const Box *room);

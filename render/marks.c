@@ -7,11 +7,12 @@ static const double THIN_WIDTH = 0.45;   // points
 static const double RIM = 0.62;   // inside over outside of an open mark
 static const double CROSS_ARM = 0.9, CROSS_WIDTH = 0.6;   // of the radius; points
 
-// Told apart by most colour-blind readers and, by lightness, in grey print; 0 is ink.
-static const Color COLORS[PLOT_COLORS] = {{0.08f, 0.08f, 0.10f, 1}, {0.00f, 0.35f, 0.66f, 1},
-                                          {0.80f, 0.28f, 0.02f, 1}, {0.00f, 0.52f, 0.38f, 1},
-                                          {0.55f, 0.20f, 0.55f, 1}, {0.72f, 0.55f, 0.00f, 1},
-                                          {0.30f, 0.62f, 0.85f, 1}, {0.50f, 0.50f, 0.52f, 1}};
+// Any two are more than 25 apart in CIELAB, also for eyes without one of the three kinds of cones;
+// 0 is ink.
+static const Color COLORS[PLOT_COLORS] = {{0.08f, 0.08f, 0.10f, 1}, {0.00f, 0.29f, 0.76f, 1},
+                                          {0.72f, 0.04f, 0.00f, 1}, {0.03f, 0.57f, 0.30f, 1},
+                                          {0.47f, 0.19f, 0.48f, 1}, {0.78f, 0.68f, 0.10f, 1},
+                                          {0.07f, 0.77f, 0.97f, 1}, {0.50f, 0.50f, 0.52f, 1}};
 
 // Sizes are chosen so that circle, square and triangle cover the same area: none looks heavier.
 static void marker_shape(Canvas *canvas, PlotMarker marker, Color color, Point at, double radius)

@@ -7,7 +7,7 @@
 
 static const double BETWEEN = 7;   // points between frames side by side
 static const double TITLE_HEIGHT = 13.5, TITLE_DROP = 3;   // points: above each frame; its baseline
-static const double RIGHT_MARGIN = 6, BAR_GAP = 6;   // points: beside the last frame; to the bar
+static const double RIGHT_MARGIN = 9, BAR_GAP = 6;   // points: beside the last frame; to the bar
 static const double WIDTH_OF[] = {86, 130, 178, 178};   // mm, of so many columns: a journal's sizes
 static const double BESIDE = 0.24,
                     ABOVE = 0.16;   // of the page's width: axis and bar; names, legend

@@ -78,7 +78,8 @@ def keep_picture(made, kept):
     if picture.width > WIDTH:
         picture = picture.resize((WIDTH, round(picture.height * WIDTH / picture.width)), Image.LANCZOS)
     kept.parent.mkdir(exist_ok=True)
-    picture.quantize(200, dither=Image.Dither.NONE).save(kept, optimize=True)
+    # Refined: the colours of a map are many and near to each other.
+    picture.quantize(256, kmeans=4, dither=Image.Dither.NONE).save(kept, optimize=True)
 
 
 def run_page(page, folder, environment, small):

@@ -121,8 +121,15 @@ bool info_draw_mesh(const Mesh *mesh, const double strip[2], const char *unit, c
     char note[200];
     const char *name = strrchr(mesh->path, '/');
     MeshSummary summary = mesh_summarise(mesh);
-    snprintf(note, sizeof note, "%d nodes, %d elements, edges %.3g to %.3g, aspect ratio to %.3g",
-             mesh->node_count, mesh->element_count, summary.edge_min, summary.edge_max,
+    bool in_metres = unit && strcmp(unit, "m") == 0;
+    double factor = in_metres ? 1000 : 1;
+    snprintf(note, sizeof note,
+             "%d nodes, %d elements, edges %.3g to %.3g%s%s, aspect ratio to %.3g",
+             mesh->node_count, mesh->element_count, factor * summary.edge_min,
+             factor * summary.edge_max, unit ? " " : "",
+             in_metres ? "mm"
+             : unit    ? unit
+                       : "",
              summary.aspect_max);
     RenderMesh request = {.title = name ? name + 1 : mesh->path,
                           .note = note,

@@ -96,7 +96,7 @@ void values_label(const Values *values, int32_t which, const char *name,
         snprintf(label, GROUP_LABEL_SIZE, "%.40s = %.40s", word,
                  values->key->words.words[(int32_t)values->value[which]]);
     else
-        snprintf(label, GROUP_LABEL_SIZE, "%.40s = %.6g", word, values->value[which]);
+        snprintf(label, GROUP_LABEL_SIZE, "%.40s = %.4g", word, values->value[which]);
 }
 
 // --- scale --------------------------------------------------------------------------------------

@@ -62,13 +62,24 @@ cleanup:
     return error_is_clean(err);
 }
 
+// The title of its study; where another sweep has the same, its folder.
+static const char *sweep_name(const PlotFigure *self, const Source *source)
+{
+    for (int32_t k = 0; k < self->source_count; k++) {
+        const PlotTable *other = &self->sources[k].table;
+        if (other != &source->table && strcmp(other->title, source->table.title) == 0)
+            return source->table.name;
+    }
+    return source->table.title;
+}
+
 static void panel_label(const PlotFigure *self, const Source *source, int32_t which,
                         char label[GROUP_LABEL_SIZE])
 {
     char value[GROUP_LABEL_SIZE];
     bool names_sweep = self->is_map && self->source_count > 1;
     values_label(&source->panels, which, self->plot->text[PLOT_PANELS], value);
-    snprintf(label, GROUP_LABEL_SIZE, "%.40s%s%.50s", names_sweep ? source->table.title : "",
+    snprintf(label, GROUP_LABEL_SIZE, "%.40s%s%.50s", names_sweep ? sweep_name(self, source) : "",
              names_sweep && value[0] ? ", " : "", value);
 }
 
@@ -78,7 +89,7 @@ static void curve_label(const PlotFigure *self, const Source *source, int32_t wh
     char value[GROUP_LABEL_SIZE];
     bool names_sweep = self->source_count > 1;
     values_label(&source->series, which, self->plot->text[PLOT_SERIES], value);
-    snprintf(label, GROUP_LABEL_SIZE, "%.40s%s%.50s", names_sweep ? source->table.title : "",
+    snprintf(label, GROUP_LABEL_SIZE, "%.40s%s%.50s", names_sweep ? sweep_name(self, source) : "",
              names_sweep && value[0] ? ", " : "", value);
 }
 
@@ -109,10 +120,10 @@ static bool open_sources(PlotFigure *self, const char *folder, const char *besid
         if (k > 0) TRY(folder_of(beside, self->plot->with[k - 1], path, err));
         TRY(source_open(k > 0 ? path : folder, self->plot, source, err));
         TRY(join_doubts(self, source, err));
-        TRY(add_labels(self, source, err));
         if (source->table.count > largest) largest = source->table.count;
         curves += source->series.count;
     }
+    for (int32_t k = 0; k < self->source_count; k++) TRY(add_labels(self, &self->sources[k], err));
     if (!self->is_map && curves > CURVES_MAX)
         FAIL(err, ERROR_INPUT, "plot: %d curves: more than %d are too many", curves, CURVES_MAX);
     TRY(self->work = NEW_ARRAY(double, 6 * (int64_t)largest, err));
@@ -400,7 +411,8 @@ bool figure_of_plot(const char *folder, const char *beside, const StudyPlot *plo
                        .plot = plot,
                        .is_map = plot->text[PLOT_COLOR][0]};
     TRY(open_sources(&self, folder, beside, err));
-    self.figure.title = plot->with_count > 0 ? "" : self.sources[0].table.title;
+    bool of_study = beside && plot->with_count == 0;   // else its title says something else
+    self.figure.title = of_study ? self.sources[0].table.title : "";
     write_figure(&self, err);
     figure_end(&self.figure, err);
 cleanup:

@@ -8,7 +8,7 @@
 #include "study/sweep/plot_words.h"
 
 // Of the sweep in `folder`, which holds its table, and of those that the plot has `with` it, as
-// seen from `beside` (a file; NULL: the working folder). style: NULL is fine.
+// seen from `beside` (the study; NULL: there is none, and the working folder). style: NULL is fine.
 bool figure_of_plot(const char *folder, const char *beside, const StudyPlot *plot,
                     const PictureStyle *style, Error *err);
 

@@ -48,10 +48,10 @@ cleanup:
 static void take_title(PlotTable *table, const char *folder)
 {
     Error missing = {0};
-    array_file_get_text(table->file, "title", table->title, sizeof table->title, &missing);
-    if (table->title[0]) return;
     const char *slash = strrchr(folder, '/');
-    snprintf(table->title, sizeof table->title, "%.500s", slash && slash[1] ? slash + 1 : folder);
+    snprintf(table->name, sizeof table->name, "%.90s", slash && slash[1] ? slash + 1 : folder);
+    array_file_get_text(table->file, "title", table->title, sizeof table->title, &missing);
+    if (!table->title[0]) snprintf(table->title, sizeof table->title, "%s", table->name);
 }
 
 bool plot_table_open(const char *folder, PlotTable *table, Error *err)
