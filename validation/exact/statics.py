@@ -189,12 +189,21 @@ def line_contact(study):
 SLOW = {"radius": 1.0, "force": 2e-3, "mu": 0.5}
 
 
+def parabola_file(study, radius):
+    """x^2/(2 R) about x = 1, as a profile of points that lie a ninetieth of a apart."""
+    path = study.folder / f"parabola-{radius:g}.csv"
+    x = np.linspace(0, 2, 4001)
+    np.savetxt(path, np.column_stack([x, (x - 1)**2 / (2 * radius)]), delimiter=", ", header="x, gap", comments="")
+    return path
+
+
 def shapes(study):
-    """The same contact with the parabola in the mesh (`crown` of block.geo, R = 10) and as a formula."""
+    """The same contact with the parabola in the mesh (`crown` of block.geo, R = 10), as a formula and as a file."""
     mesh = "{length: 2, height: 1, nx: 40, nz: 20, order: 2, grade_x: 0.02, grade_z: 40%s}"
     for name, radius, force, crown, contact in (
             ("drawn in the mesh", 10, 2e-4, ", crown: 0.05", "{radius: 0}"),
-            ("as contact.gap", 1, 2e-3, "", "{gap: (x - 1)^2 / 2}")):
+            ("as contact.gap", 1, 2e-3, "", "{gap: (x - 1)^2 / 2}"),
+            ("as contact.profile", 1, 2e-3, "", f"{{profile: {parabola_file(study, 1)}}}")):
         ours = Static(study, HERE / "line_contact.yaml", "hertz-shape",
                       {"mesh.set": mesh % crown, "contact": contact, "load.pressure": force / 2}, slack=10)
         x, r = ours.position[ours.contact, 0] - 1, ours.reaction[ours.contact, 1]
@@ -208,16 +217,21 @@ def slow_contact(study):
     """Hertz, then Cattaneo and Mindlin, as the slow limit of a run: the block settles without friction and
     is then led slowly along by a rod that holds nearly all of its face upright. Moments are taken
     about the middle of the pressure, which rolls a little (1e-3 of R at the end)."""
-    run = Run(study, HERE / "line_contact_run.yaml", "mindlin-run", {}, ledger=1e-3)
+    for name, contact in (("radius", "{radius: 1}"), ("profile", f"{{profile: {parabola_file(study, 1)}}}")):
+        slow_contact_on(study, name, contact)
+
+
+def slow_contact_on(study, name, contact):
+    run = Run(study, HERE / "line_contact_run.yaml", "mindlin-run", {"contact": contact}, ledger=1e-3)
     x, weight, force, mu = run["x"], run["weight"], SLOW["force"], SLOW["mu"]
     a = np.sqrt(4 * force * SLOW["radius"] * (1 - NU**2) / np.pi)
     press, shear = run["pressure"] * weight, run["shear"] * weight
     first = 2 * np.sqrt(((x - 1)**2 * press[0]).sum() / press[0].sum())
-    study.add(GROUP, "Hertz, a run at rest, Q9 40x20", "half-width a", a, first, abs(first / a - 1), 5e-3)
+    study.add(GROUP, f"Hertz, a run at rest, contact.{name}, Q9 40x20", "half-width a", a, first, abs(first / a - 1), 5e-3)
     middle = (x * press[-1]).sum() / press[-1].sum()
     second = ((x - middle)**2 * shear[-1]).sum() / (mu * force)
     c, share = (a**2 * (a**2 - 4 * second)) ** 0.25, shear[-1].sum() / (mu * force)
-    study.add(GROUP, f"Cattaneo-Mindlin, a slow run to Q = {share:.2f} mu P'",
+    study.add(GROUP, f"Cattaneo-Mindlin, a slow run to Q = {share:.2f} mu P', contact.{name}",
               "stick half-width c (second moment of tau)", a * np.sqrt(1 - share), c,
               abs(c / a / np.sqrt(1 - share) - 1), 1e-2)
 
