@@ -56,12 +56,12 @@ If (edge_radius < 0)
     Abort;
 EndIf
 edge_height = 0;
+If (edge_length <= 0 || (edge_radius > 0 && edge_length >= length))
+    Error("edge_length must be above 0 and below length = %g, found %g", length, edge_length);
+    Abort;
+EndIf
 If (edge_radius > 0)
     edge_height = edge_length ^ 2 / (2 * edge_radius);
-    If (edge_length <= 0 || edge_length >= length)
-        Error("edge_length must be above 0 and below length = %g, found %g", length, edge_length);
-        Abort;
-    EndIf
     If (edge_height >= height)
         Error("the rounded edge is %g high (edge_length^2 / (2 edge_radius)), the block %g",
               edge_height, height);
