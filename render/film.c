@@ -10,7 +10,7 @@
 #include <math.h>
 
 static const double SECONDS = 20, SECONDS_MAX = 3600;
-static const double EASE = 0.25, EASE_SHARE = 1.0 / 80;   // s of film; of all of it, at most
+static const double EASE = 0.5, EASE_SHARE = 1.0 / 40;   // s of film; of all of it, at most
 
 enum {
     RATE = 30,
@@ -67,13 +67,14 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The largest |slip rate| at each step.
+// The largest |slip rate| at each step, of nodes in contact: one that has lifted off does not slip.
 static bool find_fastest(const ResultView *view, double **fastest, Error *err)
 {
     TRY(*fastest = NEW_ARRAY(double, view->rows, err));
     for (int64_t row = 0; row < view->rows; ++row)
-        for (int32_t i = 0; i < view->nodes; ++i)
-            (*fastest)[row] = fmax((*fastest)[row], fabs(view->slip_rate[row * view->nodes + i]));
+        for (int64_t i = row * view->nodes; i < (row + 1) * view->nodes; ++i)
+            if (view->status[i] != 0)
+                (*fastest)[row] = fmax((*fastest)[row], fabs(view->slip_rate[i]));
 cleanup:
     return error_is_clean(err);
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The way there: speed-up of each step; the power; the film's time as a sum over steps; then the
-// ease, on places evenly spaced in that time: each takes the largest speed-up around it, and of
-// these the mean. It can only rise, so that what is rapid is never shown faster than without. The
-// speed-up belongs to times of the run, so easing moves nothing: the film's time is summed anew.
+// ease, on places evenly spaced in that time. The speed-up belongs to times of the run, so easing
+// moves nothing: the film's time is summed anew.
 #include "render/film_clock.h"
 
 #include "base/memory.h"
@@ -13,7 +12,7 @@ static const double RAPID = 2;   // V: what record/events calls rapid
 static const double POWER_MAX = 2;
 static const double EXTRA = 1;   // film time that rapid slip adds, over that of the rest
 
-enum { HALVINGS = 60, PLACES_A_FRAME = 8, PLACES_MAX = 1 << 20 };
+enum { HALVINGS = 60, PLACES_A_FRAME = 64, PLACES_MAX = 1 << 20 };
 
 // Times of the run, rising, and at each the logarithm of the speed-up to the power 1.
 typedef struct Course {
@@ -65,12 +64,16 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Of the step that ends at k: the geometric mean of its ends. A long step is thus not stretched by
-// the speed that only its end has.
+// Of the step that ends at k: that of its slower end. Steps of rapid slip are short; a long one that
+// only begins or ends fast shows nothing that slow motion would be for.
+static double log_fast_of(const Course *course, int64_t k)
+{
+    return fmin(course->log_fast[k - 1], course->log_fast[k]);
+}
+
 static double stretched(const Course *course, int64_t k, double power)
 {
-    double mean = (course->log_fast[k - 1] + course->log_fast[k]) / 2;
-    return (course->t[k] - course->t[k - 1]) * exp(power * mean);
+    return (course->t[k] - course->t[k - 1]) * exp(power * log_fast_of(course, k));
 }
 
 static double length_of(const Course *course, double power)
@@ -111,38 +114,33 @@ static bool course_even(const Course *course, double power, int64_t count, Cours
         }
         double part = own > 0 ? fmin((at - before) / own, 1) : 0;
         even->t[i] = course->t[k - 1] + part * (course->t[k] - course->t[k - 1]);
-        even->log_fast[i] = course->log_fast[k - 1] +
-                            part * (course->log_fast[k] - course->log_fast[k - 1]);
+        even->log_fast[i] = log_fast_of(course, k);
     }
     even->t[count - 1] = course->t[course->count - 1];
 cleanup:
     return error_is_clean(err);
 }
 
-// Of each place the largest value within `reach` places, or the mean.
-static void spread(const double *from, double *to, int64_t count, int64_t reach, bool mean)
+// Speed, 1 without slow motion, grows by no more than `slope` a unit of the run's time, before and
+// behind rapid slip: its logarithm then changes evenly in the film's time. It can only fall, so that
+// nothing rapid is shown faster than without.
+static void course_ease(Course *even, double power, double slope)
 {
-    for (int64_t i = 0; i < count; ++i) {
-        int64_t first = i < reach ? 0 : i - reach;
-        int64_t last = i + reach < count ? i + reach : count - 1;
-        double sum = 0, largest = from[i];
-        for (int64_t k = first; k <= last; ++k) {
-            sum += from[k];
-            largest = fmax(largest, from[k]);
+    double *log_fast = even->log_fast;
+    for (int32_t back = 0; back < 2; ++back)
+        for (int64_t i = 1; i < even->count; ++i) {
+            int64_t k = back ? even->count - 1 - i : i, from = back ? k + 1 : k - 1;
+            double most = exp(-power * log_fast[from]) + slope * fabs(even->t[k] - even->t[from]);
+            if (exp(-power * log_fast[k]) > most) log_fast[k] = -log(most) / power;
         }
-        to[i] = mean ? sum / (double)(last - first + 1) : largest;
-    }
 }
 
-static bool course_ease(Course *even, int64_t reach, Error *err)
+// The slope with which the way from the slowest to the fastest takes `ease` seconds.
+static double ease_slope(const FilmClockDef *def, const Course *even, double power)
 {
-    double *largest = NEW_ARRAY(double, even->count, err);
-    TRY(largest);
-    spread(even->log_fast, largest, even->count, reach, false);
-    spread(largest, even->log_fast, even->count, reach, true);
-cleanup:
-    memory_free(largest);
-    return error_is_clean(err);
+    double largest = 0, seconds = (double)(def->frames - 1) / def->rate;
+    for (int64_t i = 0; i < even->count; ++i) largest = fmax(largest, even->log_fast[i]);
+    return seconds / length_of(even, power) * power * largest / def->ease;
 }
 
 // Frames evenly spaced in the film's time, the first at low, the last at high.
@@ -177,14 +175,13 @@ bool film_clock_create(const FilmClockDef *def, FilmClock *clock, Error *err)
 {
     Course course = {0}, even = {0};
     int64_t places = (int64_t)PLACES_A_FRAME * def->frames;
-    int64_t reach = (int64_t)lround(def->ease * def->rate * PLACES_A_FRAME);
     *clock = (FilmClock){0};
-    if (places > PLACES_MAX) FAIL(err, ERROR_INPUT, "a film of %d frames is too long", def->frames);
+    if (places > PLACES_MAX) places = PLACES_MAX;
     if (!(def->high > def->low)) FAIL(err, ERROR_INPUT, "the film would show no time");
     TRY(course_create(def, &course, err));
     double power = choose_power(&course);
     TRY(course_even(&course, power, places, &even, err));
-    TRY(course_ease(&even, reach, err));
+    if (def->ease > 0) course_ease(&even, power, ease_slope(def, &even, power));
     TRY(frames_place(def, &even, power, clock, err));
 cleanup:
     course_destroy(&course);

@@ -27,7 +27,7 @@ static const CommandText text = {
         "the one stored nearest in time: store many where much happens. Examples:\n\n"
         "  amontons film fig1-result\n"
         "  amontons film fig1-result -o cycle.webm --cycle --size 1280x720\n"
-        "  amontons film fig1-result -o sliding.gif --from U=0.0114 --to U=0.0116 --seconds 8\n"
+        "  amontons film fig1-result -o sliding.gif --from U=0.0114 --to U=0.0116\n"
         "  amontons film fig1-result -o frames/ --of velocity --dark"};
 
 // A number above 0, with nothing behind it.

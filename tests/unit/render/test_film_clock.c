@@ -94,7 +94,7 @@ static void test_ease(void **state)
     Error err = {0};
     FilmClock clock;
     FilmClockDef def = rapid_between(t, fastest, 200);
-    def.ease = 0.25;
+    def.ease = 0.5;
     assert_true(film_clock_create(&def, &clock, &err));
     check_rises(&clock, 0, 100);
     double slowest = INFINITY, steepest = 0;
@@ -105,7 +105,9 @@ static void test_ease(void **state)
             assert_near("speed", clock.speed[k] / clock.speed[FRAMES / 2], 1, 1e-3);
     }
     assert_near("speed", clock.speed[0] / slowest, 101, 0.5);
-    assert_true(steepest < log(101) / 5);   // over half a second, ten frames; at once without
+    assert_true(steepest < log(101) / 6);   // half a second is ten frames
+    double lasts = film_clock_seconds(&clock, 50.5) - film_clock_seconds(&clock, 49.5);
+    assert_true(lasts > 0.45 * 10);   // of ten seconds: easing takes little of them
     film_clock_destroy(&clock);
 }
 
