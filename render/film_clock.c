@@ -64,8 +64,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Of the step that ends at k: that of its slower end. Steps of rapid slip are short; a long one that
-// only begins or ends fast shows nothing that slow motion would be for.
+// Of the step that ends at k: that of its slower end. Steps of rapid slip are short; a long one
+// that only begins or ends fast shows nothing that slow motion would be for.
 static double log_fast_of(const Course *course, int64_t k)
 {
     return fmin(course->log_fast[k - 1], course->log_fast[k]);
@@ -122,8 +122,8 @@ cleanup:
 }
 
 // Speed, 1 without slow motion, grows by no more than `slope` a unit of the run's time, before and
-// behind rapid slip: its logarithm then changes evenly in the film's time. It can only fall, so that
-// nothing rapid is shown faster than without.
+// behind rapid slip: its logarithm then changes evenly in the film's time. It can only fall, so
+// that nothing rapid is shown faster than without.
 static void course_ease(Course *even, double power, double slope)
 {
     double *log_fast = even->log_fast;
