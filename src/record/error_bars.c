@@ -14,7 +14,7 @@ static const double SLOPE_PADS = 0.5;   // the same, of several pads, at whose e
 static const double SCATTER = 0.12;   // of mu, over the nodes in contact: of one mesh
 static const double SCATTER_PADS = 0.7;
 enum { SCATTER_LEVELS = 8 };   // so many levels would it be worth to know that scatter
-static const double END_WAITS = 2;   // mu rises as much again before the front comes to those nodes
+static const double END_WAITS = 3;   // mu may rise so many times as much before they let go
 static const double STEPS = 0.002;   // of mu: what tolerances of steps and reduction leave
 static const double BRANCH_WIDTH = 0.005;   // of mu: the next branch is twice as far and more
 
@@ -127,11 +127,11 @@ bool levels_resolved(const Levels *levels)
     return resolution_of(&levels->list[levels->count - 1]) == 1;
 }
 
-// Of a level's value, relative.
-static double scatter_of(const Level *level)
+// Of a level's value, over `origin`; one that its last nodes hold up says little.
+static double scatter_of(const Level *level, double origin)
 {
     double per_node = level->pads > 1 ? SCATTER_PADS : SCATTER;
-    return per_node / level->contact_nodes / resolution_of(level);
+    return hypot(per_node / level->contact_nodes / resolution_of(level), level->end_wait / origin);
 }
 
 // What the levels say together: value = a + b / n on n contact nodes, each level off by a scatter
@@ -161,7 +161,7 @@ static Limit limit_of(const Levels *levels, AnswerKind kind, double spread)
         double x = 1.0 / level->contact_nodes, v = value_of(level, kind) / origin - 1;
         if (!is_known(level, kind)) continue;
         double runs = variance_of_runs(level, spread) / (origin * origin);
-        double w = weight[l] = 1 / (scatter_of(level) * scatter_of(level) + runs);
+        double own = scatter_of(level, origin), w = weight[l] = 1 / (own * own + runs);
         S += w, Sx += w * x, Sxx += w * x * x;
         Sv += w * v, Sxv += w * x * v, Svv += w * v * v;
     }

@@ -13,9 +13,10 @@
 //              until levels are enough to say more).
 //              a, on cells of no size, is the answer, Student's 95 % of its deviation the part. At
 //              least what steps and reduction leave. Levels whose cells are too long for slip
-//              (`undamped`) have no part in it; where slip turns fast on too few
-//              cells they scatter more. Twice what mu rises by while the last nodes of
-//              the contact hold (`end_wait`) is added. One level: its own value, nothing known.
+//              (`undamped`) have no part in it; where slip turns fast on too few cells they
+//              scatter more, and so where the last nodes of the contact hold the block: three
+//              times what mu rises by meanwhile (`end_wait`) is added. One level: its own
+//              value, nothing known.
 //
 // How often bars hold, and by how much, is measured by validation/benchmark/promise.py.
 #ifndef AMONTONS_RECORD_ERROR_BARS_H
