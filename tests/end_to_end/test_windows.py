@@ -94,8 +94,8 @@ class Windows(Driven):
             words = [PROGRAM, "run", EXAMPLE, "--set", f"output.window={{{window}}}", ROWS, *more, "-q", "-o"]
             subprocess.run([*words, self.folder / f"{name}-whole"], check=True)
             cut = self.folder / f"{name}-cut"
-            process = subprocess.Popen([*words, cut, "--checkpoint", "0.02s"])
-            while not (cut / until).exists():
+            process = subprocess.Popen([*words, cut, "--checkpoint", "0.002s"])
+            while not ((cut / until).exists() and (cut / "checkpoint.bin").exists()):
                 self.assertIsNone(process.poll())
                 time.sleep(0.001)
             process.kill()
