@@ -48,10 +48,17 @@ static bool is_known(const Level *level, AnswerKind kind)
     return !level->undamped && !isnan(mean_of(level, kind));
 }
 
+// By its last nodes, by more than the bar that is wanted.
+static bool is_held(const Levels *levels, const Level *level, AnswerKind kind)
+{
+    return END_WAITS * level->end_wait > levels->wanted * value_of(level, kind);
+}
+
 int32_t levels_known(const Levels *levels, AnswerKind kind)
 {
     int32_t known = 0;
-    for (int32_t l = 0; l < levels->count; l++) known += is_known(&levels->list[l], kind);
+    for (int32_t l = 0; l < levels->count; l++)
+        known += is_known(&levels->list[l], kind) && !is_held(levels, &levels->list[l], kind);
     return known;
 }
 
@@ -175,7 +182,8 @@ static Limit limit_of(const Levels *levels, AnswerKind kind, double spread)
         of_runs += c * c * variance_of_runs(level, spread);
         limit.weight[l] = c;
     }
-    int32_t freedoms = levels_known(levels, kind) - 1 + SCATTER_LEVELS;
+    int32_t free = levels_known(levels, kind) - 1;
+    int32_t freedoms = (free > 0 ? free : 0) + SCATTER_LEVELS;
     double variance = origin * origin * Sxx / determinant - of_runs;
     limit.mesh = student(freedoms) * sqrt((square + SCATTER_LEVELS) / freedoms * variance);
     return limit;

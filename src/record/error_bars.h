@@ -74,7 +74,8 @@ void levels_add_run(Levels *levels, double pressure, const Answers *answers, int
 void levels_estimate(Levels *levels);
 const ErrorBar *levels_answer(const Levels *levels, AnswerKind kind);   // of the last level; NULL
 
-// Damped levels whose runs all have such an answer; the others have no part in a bar.
+// Damped levels whose runs all have such an answer, and whose last nodes do not hold the
+// block up by more than is wanted.
 int32_t levels_known(const Levels *levels, AnswerKind kind);
 
 // Slip turned fast on cells enough on the last level, where one contact says so; on pads, at whose

@@ -111,7 +111,7 @@ static const char *why_unknown(const Levels *levels)
 static const char *why_not_sure(const Levels *levels)
 {
     if (levels_known(levels, levels->asked) < LEVELS_LEAST)
-        return " from two meshes, which agree by chance";
+        return " from fewer than three meshes that count";
     return levels_resolved(levels) ? "" : " on cells that do not resolve slip";
 }
 
