@@ -13,6 +13,7 @@ static const double SLOPE = 0.08;   // of mu, over the nodes in contact: the way
 static const double SLOPE_PADS = 0.5;   // the same, of several pads, at whose edges slip waits
 static const double SCATTER = 0.12;   // of mu, over the nodes in contact: of one mesh
 static const double SCATTER_PADS = 0.7;
+static const double SHORTEST = 0.15;   // slip of all cases, over the contact: both grow below
 enum { SCATTER_LEVELS = 8 };   // so many levels would it be worth to know that scatter
 static const double END_WAITS = 3;   // mu may rise so many times as much before they let go
 static const double STEPS = 0.002;   // of mu: what tolerances of steps and reduction leave
@@ -134,11 +135,20 @@ bool levels_resolved(const Levels *levels)
     return resolution_of(&levels->list[levels->count - 1]) == 1;
 }
 
+// Slip of one contact turns fast on a part of it that is so many times shorter than in the cases
+// from which SCATTER and SLOPE come.
+static double shortness_of(const Level *level)
+{
+    if (level->pads > 1 || isnan(level->slip_cells)) return 1;
+    return fmax(SHORTEST * level->contact_nodes / fmax(level->slip_cells, 1), 1);
+}
+
 // Of a level's value, over `origin`; one that its last nodes hold up says little.
 static double scatter_of(const Level *level, double origin)
 {
     double per_node = level->pads > 1 ? SCATTER_PADS : SCATTER;
-    return hypot(per_node / level->contact_nodes / resolution_of(level), level->end_wait / origin);
+    double wider = fmax(1 / resolution_of(level), shortness_of(level));
+    return hypot(per_node / level->contact_nodes * wider, level->end_wait / origin);
 }
 
 // What the levels say together: value = a + b / n on n contact nodes, each level off by a scatter
@@ -160,7 +170,7 @@ static Limit limit_of(const Levels *levels, AnswerKind kind, double spread)
 {
     const Level *last = &levels->list[levels->count - 1];
     double origin = value_of(last, kind);   // all in parts of it
-    double slope = last->pads > 1 ? SLOPE_PADS : SLOPE;
+    double slope = (last->pads > 1 ? SLOPE_PADS : SLOPE) * shortness_of(last);
     double S = 0, Sx = 0, Sxx = 1 / (slope * slope), Sv = 0, Sxv = 0, Svv = 0, of_runs = 0;
     double weight[LEVELS_MAX] = {0};
     for (int32_t l = 0; l < levels->count; l++) {

@@ -204,7 +204,7 @@ NOT_A_CHOICE = {
     "record/answers.h": {"ERROR_BAR": "95 % of normal deviates"},
     "record/error_bars.c": {
         "SCATTER": "of error bars: priors.md", "SCATTER_PADS": "the same", "SLOPE": "the same", "SLOPE_PADS": "the same",
-        "by_freedoms": "Student's, 95 %", "SCATTER_LEVELS": "the same", "END_WAITS": "of error bars: set B at P = 1e-5",
+        "by_freedoms": "Student's, 95 %", "SCATTER_LEVELS": "the same", "SHORTEST": "least slip of the cases of priors.md", "END_WAITS": "of error bars: set B at P = 1e-5",
         "BRANCH_WIDTH": "of branches: the next is twice as far",
         "STEPS": "of error bars: what this table's tolerances move"},
     "record/error_bars.h": {"LEVELS_MAX": SIZE, "LEVEL_RUNS_MAX": SIZE, "LEVELS_LEAST": "two agree by chance"},

@@ -65,6 +65,16 @@ static void test_two_levels(void **state)
     assert_true(levels_resolved(&levels));
     levels.list[1].slip_cells = 7;
     assert_false(levels_resolved(&levels));
+    // Ten times the nodes: 8 cells are 0.02 of the contact, 7.5 times less than in any case.
+    levels.list[0].contact_nodes = 200;
+    levels.list[1].contact_nodes = 400;
+    levels.list[0].slip_cells = 4;
+    levels.list[1].slip_cells = 8;
+    levels_estimate(&levels);
+    assert_near("short", levels_answer(&levels, ANSWER_MU_HOLD)->parts.mesh,
+                7.5 * 0.00015060515751257574, 1e-15);
+    levels.list[0].contact_nodes = 20;
+    levels.list[1].contact_nodes = 40;
     levels.list[0].slip_cells = levels.list[1].slip_cells = NAN;
     assert_true(levels_resolved(&levels));
     levels.list[0].pads = levels.list[1].pads = 2;   // slip waits at their edges
