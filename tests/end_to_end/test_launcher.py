@@ -239,7 +239,7 @@ class FirstTime(Project):
         done = self.run_launcher("demo", "--quiet", cwd=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn(f"[run][{self.root}/validation/paper/fig1.yaml][-o]"
-                      f"[{self.root}/results/fig1][--overwrite][--quiet]", done.stdout)
+                      f"[{self.root}/results/fig1][--overwrite][--set][mesh.set.nz=40][--quiet]", done.stdout)
         self.assertIn(f"[report][{self.root}/results/fig1]", done.stdout.splitlines()[-1])
         self.assertEqual(self.calls("apt-get") + self.calls("sudo"), [])
         self.assertEqual(self.calls("cmake"), [
@@ -250,6 +250,7 @@ class FirstTime(Project):
         self.assertEqual(self.calls(), ["cmake --build ./build --target amontons"])
         self.assertEqual(done.stderr, "")
         self.assertNotIn("[report]", self.run_launcher("demo", "-o", "elsewhere").stdout)
+        self.assertIn("[report]", self.run_launcher("demo", "--overwrite").stdout)
         self.assertNotIn("[report]", self.run_launcher("demo", PROGRAM_STATUS="1").stdout)
 
     def test_other_words_build_first(self):
