@@ -101,10 +101,10 @@ static double difference(const Levels *levels, int32_t level, AnswerKind kind)
 // Of a normal variable's mean, 95 %, by degrees of freedom from SCATTER_LEVELS on.
 static double student(int32_t freedoms)
 {
-    static const double by_freedoms[] = {12.71, 4.30, 3.18, 2.78, 2.57, 2.45, 2.36,
-                                         2.31,  2.26, 2.23, 2.20, 2.18, 2.16};
-    int32_t last = (int32_t)(sizeof by_freedoms / sizeof *by_freedoms);
-    return by_freedoms[(freedoms < last ? freedoms : last) - 1];
+    static const double by_freedoms[] = {2.31, 2.26, 2.23, 2.20, 2.18, 2.16};
+    int32_t last = (int32_t)(sizeof by_freedoms / sizeof *by_freedoms) - 1;
+    int32_t more = freedoms - SCATTER_LEVELS;
+    return by_freedoms[more < last ? more : last];
 }
 
 // Contact nodes of the coarsest level that has such an answer; 0: none has.
@@ -151,19 +151,27 @@ static double scatter_of(const Level *level, double origin)
     return hypot(per_node / level->contact_nodes * wider, level->end_wait / origin);
 }
 
+// Of a level's mean, from its spread over branches.
+static double variance_of_runs(const Level *level, double spread)
+{
+    return isnan(spread) ? 0 : spread * spread / level->run_count;
+}
+
 // What the levels say together: value = a + b / n on n contact nodes, each level off by a scatter
 // that falls like 1 / n, and by what its few runs leave of their spread over branches; b is about
 // 0, as far as SLOPE, before anything is known.
 typedef struct Limit {
     double value;   // a: on cells of no size
     double mesh;   // of a, 95 %, from scatter and b; NaN: one level
-    double weight[LEVELS_MAX];   // of each level's value in a; their sum is 1
+    double runs, drops;   // of a: variance by branches; error by drops
 } Limit;
 
-// Of a level's mean, from its spread over branches.
-static double variance_of_runs(const Level *level, double spread)
+// Parts that go along with each level's weight in a.
+static void add_level(const Level *level, AnswerKind kind, double weight, double spread,
+                      Limit *limit)
 {
-    return isnan(spread) ? 0 : spread * spread / level->run_count;
+    limit->runs += weight * weight * variance_of_runs(level, spread);
+    limit->drops = hypot(limit->drops, weight * drops_part(level, kind));
 }
 
 static Limit limit_of(const Levels *levels, AnswerKind kind, double spread)
@@ -171,7 +179,7 @@ static Limit limit_of(const Levels *levels, AnswerKind kind, double spread)
     const Level *last = &levels->list[levels->count - 1];
     double origin = value_of(last, kind);   // all in parts of it
     double slope = (last->pads > 1 ? SLOPE_PADS : SLOPE) * shortness_of(last);
-    double S = 0, Sx = 0, Sxx = 1 / (slope * slope), Sv = 0, Sxv = 0, Svv = 0, of_runs = 0;
+    double S = 0, Sx = 0, Sxx = 1 / (slope * slope), Sv = 0, Sxv = 0, Svv = 0;
     double weight[LEVELS_MAX] = {0};
     for (int32_t l = 0; l < levels->count; l++) {
         const Level *level = &levels->list[l];
@@ -189,20 +197,19 @@ static Limit limit_of(const Levels *levels, AnswerKind kind, double spread)
     for (int32_t l = 0; l < levels->count; l++) {
         const Level *level = &levels->list[l];
         double c = weight[l] * (Sxx - Sx / level->contact_nodes) / determinant;
-        of_runs += c * c * variance_of_runs(level, spread);
-        limit.weight[l] = c;
+        if (weight[l] > 0) add_level(level, kind, c, spread, &limit);
     }
     int32_t free = levels_known(levels, kind) - 1;
     int32_t freedoms = (free > 0 ? free : 0) + SCATTER_LEVELS;
-    double variance = origin * origin * Sxx / determinant - of_runs;
+    double variance = origin * origin * Sxx / determinant - limit.runs;
     limit.mesh = student(freedoms) * sqrt((square + SCATTER_LEVELS) / freedoms * variance);
     return limit;
 }
 
-static Limit one_level(const Levels *levels, AnswerKind kind)
+static Limit one_level(const Level *level, AnswerKind kind, double spread)
 {
-    Limit limit = {.value = value_of(&levels->list[levels->count - 1], kind), .mesh = NAN};
-    limit.weight[levels->count - 1] = 1;
+    Limit limit = {.value = value_of(level, kind), .mesh = NAN};
+    add_level(level, kind, 1, spread, &limit);
     return limit;
 }
 
@@ -214,19 +221,15 @@ static double known(double part)
 static ErrorBar bar_of(const Levels *levels, AnswerKind kind)
 {
     const Level *last = &levels->list[levels->count - 1];
-    double spread = spread_of_runs(levels, kind), of_runs = 0;
+    double spread = spread_of_runs(levels, kind);
     if (isnan(value_of(last, kind))) return (ErrorBar){NAN, NAN, {NAN, NAN, NAN}};
     bool alone = is_alone(levels, kind);
-    Limit limit = alone ? one_level(levels, kind) : limit_of(levels, kind, spread);
+    Limit limit = alone ? one_level(last, kind, spread) : limit_of(levels, kind, spread);
     double mesh = fmax(hypot(limit.mesh, END_WAITS * last->end_wait), STEPS * limit.value);
-    ErrorBar bar = {.value = limit.value, .parts.mesh = alone ? NAN : mesh};
-    for (int32_t l = 0; l < levels->count; l++) {
-        double weight = limit.weight[l];
-        if (weight == 0) continue;
-        of_runs += weight * weight * variance_of_runs(&levels->list[l], spread);
-        bar.parts.drops = hypot(bar.parts.drops, weight * drops_part(&levels->list[l], kind));
-    }
-    bar.parts.branches = isnan(spread) ? NAN : ERROR_BAR * sqrt(of_runs);
+    ErrorBar bar = {.value = limit.value,
+                    .parts = {.mesh = alone ? NAN : mesh,
+                              .branches = isnan(spread) ? NAN : ERROR_BAR * sqrt(limit.runs),
+                              .drops = limit.drops}};
     bar.bar = hypot(hypot(bar.parts.mesh, known(bar.parts.branches)), bar.parts.drops);
     return bar;
 }
