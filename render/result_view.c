@@ -90,29 +90,13 @@ cleanup:
     return error_is_clean(err);
 }
 
-// `count` rows of the tables [table_count]: all must be equally long.
-static bool tables_read(ResultView *view, const ResultTable *tables, double **columns,
-                        int32_t *count, int32_t table_count, Error *err)
-{
-    for (int32_t k = 0; k < table_count; ++k) {
-        int32_t length = 0;
-        TRY(result_file_read_table(view->file, tables[k], &columns[k], &length, err));
-        if (k == 0) *count = length;
-        if (length != *count)
-            FAIL(err, ERROR_FILE, "%s has %d rows, %s %d", result_table_name(tables[0]), *count,
-                 result_table_name(tables[k]), length);
-    }
-cleanup:
-    return error_is_clean(err);
-}
-
 // Three columns of the file into a list of peaks.
 static bool peaks_read(ResultView *view, Error *err)
 {
     static const ResultTable tables[3] = {PEAKS_U, PEAKS_MU, PEAKS_COUNTS};
     double *column[3] = {0};
     int32_t count = 0;
-    TRY(tables_read(view, tables, column, &count, 3, err));
+    TRY(result_file_read_tables(view->file, tables, 3, column, &count, err));
     TRY(view->peaks = NEW_ARRAY(ViewPeak, count, err));
     for (int32_t k = 0; k < count; ++k)
         view->peaks[k] = (ViewPeak){column[0][k], column[1][k], column[2][k] > 0.5};
@@ -128,7 +112,7 @@ static bool events_read(ResultView *view, Error *err)
     static const ResultTable tables[3] = {EVENTS_KIND, EVENTS_U_START, EVENTS_U_STOP};
     double *column[3] = {0};
     int32_t count = 0;
-    TRY(tables_read(view, tables, column, &count, 3, err));
+    TRY(result_file_read_tables(view->file, tables, 3, column, &count, err));
     TRY(view->events = NEW_ARRAY(ViewEvent, count, err));
     for (int32_t k = 0; k < count; ++k) {
         double kind = column[0][k];

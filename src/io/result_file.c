@@ -239,6 +239,21 @@ bool result_file_read_table(ArrayFile *file, ResultTable table, double **values,
     return *values != NULL;
 }
 
+bool result_file_read_tables(ArrayFile *file, const ResultTable *tables, int32_t table_count,
+                             double **columns, int32_t *count, Error *err)
+{
+    for (int32_t k = 0; k < table_count; k++) {
+        int32_t rows = 0;
+        TRY(result_file_read_table(file, tables[k], &columns[k], &rows, err));
+        if (k == 0) *count = rows;
+        if (rows != *count)
+            FAIL(err, ERROR_FILE, "%s has %d rows, %s %d", table_rows[tables[0]].name, *count,
+                 table_rows[tables[k]].name, rows);
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
 // NaN: the file does not have it, as an older one may not.
 double result_file_number(ArrayFile *file, ResultNumber number)
 {

@@ -44,6 +44,10 @@ bool result_file_read_nodes(ArrayFile *file, ResultNodes nodes, double **values,
                             Error *err);
 bool result_file_read_table(ArrayFile *file, ResultTable table, double **values, int32_t *count,
                             Error *err);
+// Columns [table_count] of one table, owned by the caller also after a failure; count: rows of all.
+// ERROR_FILE: they are not equally many, as in a damaged file.
+bool result_file_read_tables(ArrayFile *file, const ResultTable *tables, int32_t table_count,
+                             double **columns, int32_t *count, Error *err);
 double result_file_number(ArrayFile *file, ResultNumber number);
 bool result_file_text(ArrayFile *file, const char *name, char *value, int32_t size, Error *err);
 

@@ -103,16 +103,7 @@ static bool read_events(ArrayFile *file, EventTable *table, Error *err)
     static const ResultTable names[COLUMNS] = {EVENTS_KIND,      EVENTS_U_START,    EVENTS_U_STOP,
                                                EVENTS_T_START,   EVENTS_T_STOP,     EVENTS_REACH,
                                                EVENTS_PEAK_RATE, EVENTS_FRONT_SPEED};
-    for (int32_t k = 0; k < COLUMNS; ++k) {
-        int32_t rows = 0;
-        TRY(result_file_read_table(file, names[k], &table->column[k], &rows, err));
-        if (k > 0 && rows != table->count)
-            FAIL(err, ERROR_FILE, "the events of the history have columns of %d and %d rows",
-                 table->count, rows);
-        table->count = rows;
-    }
-cleanup:
-    return error_is_clean(err);
+    return result_file_read_tables(file, names, COLUMNS, table->column, &table->count, err);
 }
 
 // The first frame within the event, else the nearest one. *within: the former.

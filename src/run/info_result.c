@@ -88,54 +88,32 @@ cleanup:
     return error_is_clean(err);
 }
 
-typedef struct EventTable {
-    double *kind, *start, *stop, *reach, *rate;   // [count]; owned
-    int32_t count;
-} EventTable;
+enum { KIND, U_START, U_STOP, REACH, PEAK_RATE, EVENT_COLUMNS };
 
-// All columns of a table must have as many rows: a damaged file is told, not read beyond its end.
-static bool read_events(ArrayFile *file, EventTable *table, Error *err)
-{
-    double **const columns[] = {&table->kind, &table->start, &table->stop, &table->reach,
-                                &table->rate};
-    static const ResultTable names[] = {EVENTS_KIND, EVENTS_U_START, EVENTS_U_STOP, EVENTS_REACH,
-                                        EVENTS_PEAK_RATE};
-    for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
-        int32_t rows = 0;
-        TRY(result_file_read_table(file, names[k], columns[k], &rows, err));
-        if (k > 0 && rows != table->count)
-            FAIL(err, ERROR_FILE, "the events of the history have columns of %d and %d rows",
-                 table->count, rows);
-        table->count = rows;
-    }
-cleanup:
-    return error_is_clean(err);
-}
-
-static void write_events(const EventTable *table, FILE *out)
+static void write_events(double *const column[EVENT_COLUMNS], int32_t count, FILE *out)
 {
     static const char *const kinds[] = {"quasi-static", "bounded rapid", "leading rapid"};
-    if (table->count == 0) return;
+    if (count == 0) return;
     fprintf(out, "\n  %-14s %12s %12s %12s %14s\n", "event", "U start", "U stop", "reach",
             "peak slip rate");
-    for (int32_t i = 0; i < table->count && i < EVENTS_SHOWN_MAX; i++) {
-        double kind = table->kind[i];
+    for (int32_t i = 0; i < count && i < EVENTS_SHOWN_MAX; i++) {
+        double kind = column[KIND][i];
         bool known = kind >= 0 && kind < 3;
         fprintf(out, "  %-14s %12.6g %12.6g %12.6g %14.4g\n", known ? kinds[(int)kind] : "unknown",
-                table->start[i], table->stop[i], table->reach[i], table->rate[i]);
+                column[U_START][i], column[U_STOP][i], column[REACH][i], column[PEAK_RATE][i]);
     }
-    if (table->count > EVENTS_SHOWN_MAX)
-        fprintf(out, "  ... and %d more\n", table->count - EVENTS_SHOWN_MAX);
+    if (count > EVENTS_SHOWN_MAX) fprintf(out, "  ... and %d more\n", count - EVENTS_SHOWN_MAX);
 }
 
 // Of history.h5, or of history.h5.part where the run was killed: io/result_file opens whichever is
 // there.
 static bool write_history(const char *folder, FILE *out, Error *err)
 {
-    double *rod = NULL, *mu = NULL;
-    EventTable events = {0};
+    static const ResultTable tables[EVENT_COLUMNS] = {EVENTS_KIND, EVENTS_U_START, EVENTS_U_STOP,
+                                                      EVENTS_REACH, EVENTS_PEAK_RATE};
+    double *rod = NULL, *mu = NULL, *column[EVENT_COLUMNS] = {0};
     int64_t rows = 0, mu_rows = 0;
-    int32_t width = 0, nodes = 0;
+    int32_t width = 0, nodes = 0, events = 0;
     double *x = NULL;
     char title[600] = "";
     ArrayFile *file = result_file_open(folder, err);
@@ -144,7 +122,7 @@ static bool write_history(const char *folder, FILE *out, Error *err)
     TRY(result_file_read_series(file, SERIES_ROD, &rod, &rows, &width, err));
     TRY(result_file_read_series(file, SERIES_MU, &mu, &mu_rows, &width, err));
     TRY(result_file_read_nodes(file, NODES_X, &x, &nodes, err));
-    TRY(read_events(file, &events, err));
+    TRY(result_file_read_tables(file, tables, EVENT_COLUMNS, column, &events, err));
     double mu_max = -INFINITY;
     for (int64_t i = 0; i < mu_rows; i++) mu_max = fmax(mu_max, mu[i]);
     fprintf(out, "  %-18s %s\n  %-18s %lld states at %d contact nodes", "title", title, "history",
@@ -152,12 +130,12 @@ static bool write_history(const char *folder, FILE *out, Error *err)
     if (rows > 0) fprintf(out, ", U from %.6g to %.6g", rod[0], rod[rows - 1]);
     if (mu_rows > 0) fprintf(out, ", largest mu %.6g", mu_max);
     fprintf(out, "\n");
-    write_events(&events, out);
+    write_events(column, events, out);
 cleanup:
     if (file) array_file_close(file, err);
-    double *const owned[] = {rod,         mu,           x,          events.kind, events.start,
-                             events.stop, events.reach, events.rate};
+    double *const owned[] = {rod, mu, x};
     for (size_t k = 0; k < sizeof owned / sizeof owned[0]; k++) memory_free(owned[k]);
+    for (int32_t k = 0; k < EVENT_COLUMNS; k++) memory_free(column[k]);
     return error_is_clean(err);
 }
 
