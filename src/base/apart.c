@@ -163,6 +163,15 @@ cleanup:
     return error_is_clean(err);
 }
 
+bool apart_do(const ApartWork *work, Error *err)
+{
+    ApartReply reply = {0};
+    bool done = apart_is_wanted() ? apart_read(work, &reply, err)
+                                  : work->read(work->context, NULL, err);
+    apart_destroy(&reply);
+    return done;
+}
+
 void *apart_take(ApartReply *reply, int64_t count, size_t size, Error *err)
 {
     void *array = NULL;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A file of unknown content is read in a process of its own, with limits of time and memory: gmsh
 // and HDF5 crash or hang on some damaged files, and who called them must still say which file it
-// was. Called by io/mesh_read, run/info_result and run/pictures.
+// was. Called by io/mesh_read, run/info_result, and whatever draws: run/pictures, page/report,
+// study/sweep/render_sweep.
 //
 // Only where the variable AMONTONS_APART is set, as the program does: a library does not fork in a
 // process that it does not know.
@@ -41,6 +42,10 @@ void apart_allow(int32_t seconds);
 // ERROR_INPUT where the process crashed or went beyond its limits: the file is damaged, or asks for
 // too much. Memory: three quarters of what the machine has.
 bool apart_read(const ApartWork *work, ApartReply *reply, Error *err);
+
+// The same of work that replies nothing, as it writes files; where apart is not wanted `read` is
+// called here, its `reply` NULL.
+bool apart_do(const ApartWork *work, Error *err);
 
 // The next `count` items of the reply, `size` bytes each, in a new array (memory_free).
 // NULL: the reply is too short (ERROR_FILE), or memory is.

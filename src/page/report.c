@@ -74,7 +74,6 @@ static void drop_part(const char *file)
 bool amontons_report(const char *const *results, int32_t count, const char *file, Error *err)
 {
     ReportRequest request = {results, count, file};
-    ApartReply reply = {0};
     ApartWork work = {.path = count > 0 ? results[0] : "",
                       .reader = "HDF5",
                       .seconds = SECONDS_MAX,
@@ -82,9 +81,8 @@ bool amontons_report(const char *const *results, int32_t count, const char *file
                       .read = write_file,
                       .context = &request};
     if (count < 1) FAIL(err, ERROR_INPUT, "a report needs a result folder");
-    TRY(apart_is_wanted() ? apart_read(&work, &reply, err) : write_file(&request, NULL, err));
+    TRY(apart_do(&work, err));
 cleanup:
     if (!error_is_clean(err)) drop_part(file);
-    apart_destroy(&reply);
     return error_is_clean(err);
 }

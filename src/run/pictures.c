@@ -46,7 +46,6 @@ static bool draw_apart(void *context, FILE *reply, Error *err)
 bool amontons_render_result(const char *folder, const PictureRequest *request, Error *err)
 {
     static const PictureRequest all = {0};
-    ApartReply reply = {0};
     DrawRequest draw = {folder, request ? request : &all};
     ApartWork work = {.path = folder,
                       .reader = "HDF5",
@@ -54,11 +53,7 @@ bool amontons_render_result(const char *folder, const PictureRequest *request, E
                       .advice = "its history is damaged",
                       .read = draw_apart,
                       .context = &draw};
-    TRY(check_folder(folder, err));
-    TRY(apart_is_wanted() ? apart_read(&work, &reply, err) : draw_apart(&draw, NULL, err));
-cleanup:
-    apart_destroy(&reply);
-    return error_is_clean(err);
+    return check_folder(folder, err) && apart_do(&work, err);
 }
 
 typedef struct FilmWork {
@@ -77,7 +72,6 @@ static bool film_apart(void *context, FILE *reply, Error *err)
 
 bool amontons_film(const char *folder, const FilmRequest *request, Error *err)
 {
-    ApartReply reply = {0};
     FilmWork film = {folder, request};
     ApartWork work = {.path = folder,
                       .reader = "HDF5",
@@ -86,11 +80,7 @@ bool amontons_film(const char *folder, const FilmRequest *request, Error *err)
                       .stop = request->stop,
                       .read = film_apart,
                       .context = &film};
-    TRY(check_folder(folder, err));
-    TRY(apart_is_wanted() ? apart_read(&work, &reply, err) : film_apart(&film, NULL, err));
-cleanup:
-    apart_destroy(&reply);
-    return error_is_clean(err);
+    return check_folder(folder, err) && apart_do(&work, err);
 }
 
 bool amontons_render_plot_file(const char *plot, const char *picture, const PictureStyle *style,

@@ -67,7 +67,6 @@ static bool draw_apart(void *context, FILE *reply, Error *err)
 bool amontons_render_sweep(const char *folder, const char *plot, const PictureStyle *style,
                            Error *err)
 {
-    ApartReply reply = {0};
     DrawSweep draw = {folder, plot, style};
     ApartWork work = {.path = folder,
                       .reader = "HDF5",
@@ -75,8 +74,5 @@ bool amontons_render_sweep(const char *folder, const char *plot, const PictureSt
                       .advice = "its table is damaged",
                       .read = draw_apart,
                       .context = &draw};
-    TRY(apart_is_wanted() ? apart_read(&work, &reply, err) : draw_apart(&draw, NULL, err));
-cleanup:
-    apart_destroy(&reply);
-    return error_is_clean(err);
+    return apart_do(&work, err);
 }
