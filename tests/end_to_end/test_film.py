@@ -99,13 +99,19 @@ def long_lines(picture, axis, share):
     return [(a + b) / 2 for a, b in runs(np.array(longest) > share * dark.shape[1 - axis])]
 
 
-class Films(unittest.TestCase):
+class OfHistory(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = Path(tempfile.mkdtemp(prefix="amontons_film_"))
         cls.addClassCleanup(shutil.rmtree, cls.folder)
         cls.result = cls.folder / "result"
         make_history(cls.result)
+
+
+class Films(OfHistory):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
         film(cls.result, cls.folder / "frames" / "run-%03d.png")
         names = sorted(path.name for path in (cls.folder / "frames").iterdir())
         assert names == [f"run-{k:03d}.png" for k in range(1, RATE * SECONDS + 1)], names
@@ -184,14 +190,7 @@ class Films(unittest.TestCase):
             self.assertLessEqual(np.abs(middle - wanted).max(), 6, f"t = {t}")
 
 
-class Ends(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = Path(tempfile.mkdtemp(prefix="amontons_film_"))
-        cls.addClassCleanup(shutil.rmtree, cls.folder)
-        cls.result = cls.folder / "result"
-        make_history(cls.result)
-
+class Ends(OfHistory):
     def start(self, path):
         running = subprocess.Popen([PROGRAM, "film", self.result, "-o", path, "--size", "640x360", "--fps", "30", "--seconds",
                                     "60"], stderr=subprocess.PIPE, text=True, start_new_session=True)

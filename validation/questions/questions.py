@@ -287,6 +287,16 @@ def percent(changes):
     return [Number(100 * c.value, 100 * c.error if c.error is not None else None) for c in changes]
 
 
+def edges_of_set_b(study, name, points, kind_of, plain, heads):
+    """What either edge changes in set B, against `plain`, at two pressures; kind_of: point -> which edge, and more."""
+    lines = []
+    for P in (2.5e-5, 5.75e-5):
+        here = {kind_of(p)[0]: p.hold for p in points if same(p["load.pressure"], P)}
+        lines.append([f"{P:g}", here[plain], here["trailing"].over(here[plain]), here["leading"].over(here[plain])])
+        study.measured.update({f"{name} B {P:g} trailing": lines[-1][2], f"{name} B {P:g} leading": lines[-1][3]})
+    study.measured[f"{name} b table"] = table(["P, set B", *heads], lines)
+
+
 # --- 2: a lubricated edge -------------------------------------------------------------------------
 
 def film(point):
@@ -328,7 +338,7 @@ def question_film(study):
                series=series + [{"label": "as the area goes", "x": [0, 0.42], "y": [1, 1 - 0.7 * 0.42], "color": 0, "marker": "none",
                                  "line": "dashed"}])
     film_mechanism(study)
-    film_b(study)
+    edges_of_set_b(study, "film", study.sweep("lubricated-b"), film, "none", ["no film", "trailing 0.2", "leading 0.2"])
 
 
 def film_mechanism(study):
@@ -357,16 +367,6 @@ def film_mechanism(study):
                                           "part of it"], lines)
     study.plot("lubricated-stress", title="Shear when the block lets go, and the threshold (dashed)", height=0.7, legend="upper-left",
                x={"label": "~{x} / ~{L}"}, y={"label": "shear / ~{P}", "range": [0, 0.9]}, series=series)
-
-
-def film_b(study):
-    lines = []
-    points = study.sweep("lubricated-b")
-    for P in (2.5e-5, 5.75e-5):
-        here = {film(p)[0]: p.hold for p in points if same(p["load.pressure"], P)}
-        lines.append([f"{P:g}", here["none"], here["trailing"].over(here["none"]), here["leading"].over(here["none"])])
-        study.measured.update({f"film B {P:g} trailing": lines[-1][2], f"film B {P:g} leading": lines[-1][3]})
-    study.measured["film b table"] = table(["P, set B", "no film", "trailing 0.2", "leading 0.2"], lines)
 
 
 # --- 3: rounded pads ------------------------------------------------------------------------------
@@ -410,13 +410,7 @@ def question_round(study):
         study.sweep("rounded-depends"), lambda p: edges(p)[0], designs)])
     study.measured.update(zip(("round sharp", "round mesh", "round gap"), (p.row["mu_hold"][:6] for p in study.sweep("rounded-mesh"))))
     round_mechanism(study)
-    lines = []
-    set_b = study.sweep("rounded-b")
-    for P in (2.5e-5, 5.75e-5):
-        here = {edges(p)[0]: p.hold for p in set_b if same(p["load.pressure"], P)}
-        lines.append([f"{P:g}", here["sharp"], here["trailing"].over(here["sharp"]), here["leading"].over(here["sharp"])])
-        study.measured.update({f"round B {P:g} trailing": lines[-1][2], f"round B {P:g} leading": lines[-1][3]})
-    study.measured["round b table"] = table(["P, set B", "sharp", "trailing", "leading"], lines)
+    edges_of_set_b(study, "round", study.sweep("rounded-b"), edges, "sharp", ["sharp", "trailing", "leading"])
 
 
 def round_mechanism(study):
