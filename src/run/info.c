@@ -60,13 +60,30 @@ cleanup:
     return error_is_clean(err);
 }
 
+// A file of a result stands for the folder that it lies in.
+static bool is_of_result(const char *path, char folder[AMONTONS_PATH_SIZE])
+{
+    static const char *const names[] = {"run.json", "history.h5", "history.h5.part"};
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    int length = slash ? (int)(slash - path) : 0;
+    if (length >= AMONTONS_PATH_SIZE) return false;
+    snprintf(folder, AMONTONS_PATH_SIZE, "%.*s", length, path);
+    if (length == 0) snprintf(folder, AMONTONS_PATH_SIZE, slash ? "/" : ".");
+    for (size_t k = 0; k < sizeof names / sizeof names[0]; k++)
+        if (strcmp(name, names[k]) == 0) return true;
+    return false;
+}
+
 // Problems with the output (a full disk, a closed pipe) are errors too.
 bool amontons_info(const char *path, const InfoOptions *options, FILE *out, Error *err)
 {
     struct stat status;
     InfoOptions none = {0};
+    char folder[AMONTONS_PATH_SIZE];
     if (!options) options = &none;
     if (stat(path, &status) != 0) FAIL(err, ERROR_INPUT, "%s: %s", path, strerror(errno));
+    if (!S_ISDIR(status.st_mode) && is_of_result(path, folder))
+        return amontons_info(folder, options, out, err);
     if (S_ISDIR(status.st_mode)) {
         if (options->picture || options->override_count > 0)
             FAIL(err, ERROR_INPUT,
@@ -80,8 +97,8 @@ bool amontons_info(const char *path, const InfoOptions *options, FILE *out, Erro
         TRY(info_scene(path, options, out, err));
     else
         FAIL(err, ERROR_INPUT,
-             "%s: not known what this is; allowed: a mesh (.msh, .geo), a scene (.yaml, .yml) or "
-             "a result folder",
+             "%s: not known what this is; allowed: a mesh (.msh, .geo), a scene (.yaml, .yml), a "
+             "result folder, or its run.json or history.h5",
              path);
     if (fflush(out) != 0 || ferror(out)) FAIL(err, ERROR_FILE, "cannot write: %s", strerror(errno));
 cleanup:

@@ -107,6 +107,12 @@ static void test_result(void **state)
                            "\"mu_hold\": 0.2345678, \"mu_hold_error\": null, "
                            "\"mu_max\": 0.375}, \"steps\": {\"accepted\": 12345678}}");
     assert_info_holds(folder, whole);
+    static const char *const files[] = {"run.json", "history.h5"};
+    for (int k = 0; k < 2; k++) {
+        char path[200];
+        snprintf(path, sizeof path, "%s/%s", folder, files[k]);
+        assert_info_holds(path, whole);   // its folder
+    }
     assert_faults_are_clean(folder);
 }
 
