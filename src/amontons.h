@@ -166,6 +166,8 @@ const char *amontons_version(void);   // "0.2.0"; static storage, like the next 
 // Of git, "3c94c86f0d", with ", changed" behind it where that was not committed; "": of an archive.
 const char *amontons_revision(void);
 const char *amontons_libraries(void);   // what it was built with: "gmsh 4.8.0, HDF5 1.10.8, ..."
+// For a signal handler that ends the process: no lock file stays in a result folder or the cache.
+void amontons_let_go(void);
 // The folder of the meshes and example scenes that come with the library; false: not found.
 bool amontons_data_folder(char folder[AMONTONS_PATH_SIZE]);
 

@@ -47,6 +47,7 @@ int command_static(int argc, char **argv)
     int status = scene_words_read(&text, none, argc, argv, &words);
     if (status == 0) status = scene_words_open(&words, &scene);
     if (status != 0) return status;
+    stop_on_signals();
     bool done = amontons_static(scene, words.folder, words.overwrite, &summary, &err);
     if (done && !words.quiet) {
         print_summary(amontons_scene_title(scene), &summary);

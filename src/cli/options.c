@@ -193,6 +193,7 @@ static void want_stop(int signal_number)
     static const char words[] = "amontons: stopped before the first step; nothing was computed\n";
     stop_wanted = 1;
     if (work_begun) return;
+    amontons_let_go();
     ssize_t written = write(STDERR_FILENO, words, sizeof words - 1);
     (void)written;
     raise(signal_number);   // by its default, once this handler returns

@@ -7,6 +7,8 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdatomic.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -14,6 +16,19 @@
 #include <unistd.h>
 
 static const struct timespec PAUSE = {.tv_nsec = 10000000};   // between two tries: 10 ms
+
+// What a signal handler can reach. A lock that finds no place is one whose file stays.
+enum { HELD_MAX = 8 };
+static _Atomic(FileLock *) held_locks[HELD_MAX];
+
+// From the one to the other, in the first place that fits; NULL: no lock.
+static void exchange_held(FileLock *from, FileLock *to)
+{
+    for (int32_t k = 0; k < HELD_MAX; k++) {
+        FileLock *found = from;
+        if (atomic_compare_exchange_strong(&held_locks[k], &found, to)) return;
+    }
+}
 
 bool file_is_named(const char *name, int descriptor)
 {
@@ -35,6 +50,8 @@ bool file_lock_take(FileLock *lock, const char *path, double seconds)
         lock->held = cause == 0 && file_is_named(path, lock->descriptor);
         if (lock->held) {
             lock->busy = false;
+            lock->owner = getpid();
+            exchange_held(NULL, lock);
             return true;
         }
         close(lock->descriptor);
@@ -48,7 +65,16 @@ bool file_lock_take(FileLock *lock, const char *path, double seconds)
 void file_lock_release(FileLock *lock)
 {
     if (!lock->held) return;
+    exchange_held(lock, NULL);
     unlink(lock->path);
     close(lock->descriptor);
     lock->held = false;
+}
+
+void file_locks_let_go(void)
+{
+    for (int32_t k = 0; k < HELD_MAX; k++) {
+        const FileLock *lock = atomic_load(&held_locks[k]);
+        if (lock && lock->owner == getpid()) unlink(lock->path);
+    }
 }

@@ -11,11 +11,13 @@
 
 #include <limits.h>
 #include <stdbool.h>
+#include <sys/types.h>
 
 typedef struct FileLock {
     bool held;   // false: zeroed, given up or released
     bool busy;   // given up, as another process held it to the end
     int descriptor;   // valid while held
+    pid_t owner;   // the process that took it: one that it forked has a copy, not the lock
     char path[PATH_MAX + 64];
 } FileLock;
 
@@ -23,6 +25,10 @@ typedef struct FileLock {
 // ours. false is no error: the caller then works without a lock.
 bool file_lock_take(FileLock *lock, const char *path, double seconds);
 void file_lock_release(FileLock *lock);   // removes the file; fine when not held
+
+// Removes the files of all locks that this process holds: it is about to end. A signal handler may
+// call it. A lock is held where it was taken: a FileLock is not moved.
+void file_locks_let_go(void);
 
 // Whether `name` is still the name of the file behind `descriptor`: it may have been removed,
 // renamed or replaced between opening and locking.

@@ -243,6 +243,11 @@ bool result_folder_is_ours(const ResultFolder *folder)
     return folder->path[0] && !folder->has_earlier;
 }
 
+void amontons_let_go(void)
+{
+    file_locks_let_go();
+}
+
 void result_folder_release(ResultFolder *folder)
 {
     file_lock_release(&folder->lock);

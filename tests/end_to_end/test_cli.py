@@ -316,7 +316,7 @@ class Run(InFolder):
         run = subprocess.Popen([PROGRAM, "run", FIG1, *PLAIN, "--set", "mesh.set.nx=1500", "mesh.set.nz=1500", "-o", result,
                                 "--overwrite"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         caught = 0
-        while not caught >> (signal.SIGTERM - 1) & 1:   # the program has started
+        while not (caught >> (signal.SIGTERM - 1) & 1 and (result / "amontons.lock").exists()):   # the mesh is made
             status = Path(f"/proc/{run.pid}/status").read_text()
             caught = int(re.search(r"SigCgt:\s*(\w+)", status)[1], 16)
         run.send_signal(signal.SIGTERM)
@@ -324,6 +324,7 @@ class Run(InFolder):
         self.assertEqual(run.returncode, -signal.SIGTERM)
         self.assertIn("stopped before the first step; nothing was computed", shown)
         self.assertEqual((result / "run.json").read_bytes(), earlier)
+        self.assertFalse((result / "amontons.lock").exists())
 
     def test_limits_of_the_shell(self):
         """ulimit: a sentence, no signal and no hang. A sanitizer needs more room than there is."""

@@ -60,6 +60,26 @@ static void held_until_released(void **state)
     file_lock_release(&other);
 }
 
+// Before the process ends by a signal; not by one that it forked.
+static void let_go_by_who_holds_it(void **state)
+{
+    (void)state;
+    FileLock lock;
+    assert_true(file_lock_take(&lock, path, 0));
+    pid_t child = fork();
+    if (child == 0) {
+        file_locks_let_go();
+        _exit(0);
+    }
+    waitpid(child, NULL, 0);
+    assert_int_equal(access(path, F_OK), 0);
+    file_locks_let_go();
+    assert_int_not_equal(access(path, F_OK), 0);
+    file_lock_release(&lock);
+    assert_true(file_lock_take(&lock, path, 0));
+    file_lock_release(&lock);
+}
+
 static void given_up_after_the_limit(void **state)
 {
     (void)state;
@@ -178,9 +198,12 @@ static int remove_folder(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(held_until_released),       cmocka_unit_test(given_up_after_the_limit),
-        cmocka_unit_test(free_after_a_kill),         cmocka_unit_test(one_at_a_time),
-        cmocka_unit_test(a_name_may_lead_elsewhere), cmocka_unit_test(nowhere_to_lock)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(held_until_released),
+                                       cmocka_unit_test(let_go_by_who_holds_it),
+                                       cmocka_unit_test(given_up_after_the_limit),
+                                       cmocka_unit_test(free_after_a_kill),
+                                       cmocka_unit_test(one_at_a_time),
+                                       cmocka_unit_test(a_name_may_lead_elsewhere),
+                                       cmocka_unit_test(nowhere_to_lock)};
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
