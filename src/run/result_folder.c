@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Files of an earlier result go by their full names: those below, the numbered ones in fields/ and
-// the figures that exist, and only where one of the first proves that the folder holds a result of
-// ours; where none does, a file of such a name is somebody's, and a run that would write over it is
-// refused. A link in the place of fields/ or figures/ is not followed when files are removed.
-// run.json and the checkpoint go first, so that a run that is killed from here on leaves neither a
-// report of the one before nor half of it to go on with; the history goes last, as the proof.
+// Of an earlier result go the files that run/own_file knows to be ours: those that prove a result,
+// the numbered ones in fields/, and the figures. Where a file of such a name is somebody's, a run,
+// which would write over it, is refused. A link in the place of fields/ or figures/ is not followed
+// when files are removed. run.json and the checkpoint go first, so that a run that is killed from
+// here on leaves neither a report of the one before nor half of it to go on with; the history goes
+// last, as the proof.
 #include "run/result_folder.h"
 
 #include "io/folder.h"
-#include "render/render.h"
 
-#include <ctype.h>
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -26,17 +24,6 @@ enum { PATH_SIZE = PATH_MAX + 300 };
 // moment, with its lock; s.
 static const double LOCK_WAIT = 1;
 static const char LOCK_NAME[] = "amontons.lock", PART[] = ".part";
-
-// What proves a result, in the order in which it is removed; each also with the ends of own_path.
-static const char *const OWN_FILES[] = {
-    "run.json",   CHECKPOINT_FILE,  "history.h5",   "fields.pvd",   "static.json", "static.h5",
-    "static.vtu", "stability.json", "stability.h5", "model1d.json", "model1d.h5",  "report.html"};
-enum { OWN_FILE_COUNT = sizeof OWN_FILES / sizeof OWN_FILES[0] };
-
-#define FIGURE_FILE(id, name, words) name ".png", name ".pdf", name ".svg",
-#define FIELD_FILE(id, name, ...) FIGURE_FILE(id, "field-" name, )   // of a quantity
-static const char *const FIGURES[] = {
-    RENDER_FIGURES(FIGURE_FILE) BLOCK_QUANTITIES(FIELD_FILE) "accuracy.png", "accuracy.json"};
 
 // A file in its place or a folder that cannot be written to is told at once.
 static bool make_folder(const char *folder, Error *err)
@@ -60,71 +47,77 @@ static void strip_part(const char *name, char *bare)
     snprintf(bare, NAME_MAX + 1, "%.*s", (int)length, name);
 }
 
-static bool is_figure(const char *name)
-{
-    for (size_t k = 0; k < sizeof FIGURES / sizeof FIGURES[0]; k++)
-        if (strcmp(FIGURES[k], name) == 0) return true;
-    return false;
-}
-
-// bulk_000012.vtu, interface_000012.vtp (record/fields).
-static bool is_field(const char *name)
-{
-    static const char *const starts[] = {"bulk_", "interface_"}, *const ends[] = {".vtu", ".vtp"};
-    for (int kind = 0; kind < 2; kind++) {
-        size_t length = strlen(starts[kind]), digits = 0;
-        if (strncmp(name, starts[kind], length) != 0) continue;
-        while (isdigit((unsigned char)name[length + digits])) digits++;
-        if (digits >= 6 && strcmp(name + length + digits, ends[kind]) == 0) return true;
-    }
-    return false;
-}
-
 // The own files of folder/name, told by `is_own`. A folder that is not there, or a link, is left.
 static bool empty_folder(const char *folder, const char *name, bool (*is_own)(const char *),
                          Error *err)
 {
-    char path[PATH_SIZE], bare[NAME_MAX + 1];
+    char path[PATH_SIZE], file[PATH_SIZE + NAME_MAX + 1], bare[NAME_MAX + 1];
     snprintf(path, sizeof path, "%s/%s", folder, name);
     int opened = open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
     DIR *directory = opened < 0 ? NULL : fdopendir(opened);
     if (!directory) return true;
     for (struct dirent *entry = readdir(directory); entry; entry = readdir(directory)) {
         strip_part(entry->d_name, bare);
-        if (is_own(bare) && unlinkat(opened, entry->d_name, 0) != 0 && errno != ENOENT)
-            FAIL(err, ERROR_FILE, "cannot remove the earlier result %s/%s: %s", path, entry->d_name,
-                 strerror(errno));
+        snprintf(file, sizeof file, "%s/%s", path, entry->d_name);
+        bool part = strcmp(bare, entry->d_name) != 0;
+        if (is_own(bare) && (part || own_file_is_ours(file)) &&
+            unlinkat(opened, entry->d_name, 0) != 0 && errno != ENOENT)
+            FAIL(err, ERROR_FILE, "cannot remove the earlier result %s: %s", file, strerror(errno));
     }
 cleanup:
     closedir(directory);
     return error_is_clean(err);
 }
 
-// Nobody's run has written into the folder: what has the name of a field or a figure is somebody's.
-// (accuracy.json is what a stopped search for an error bar leaves, alone.)
+// Where a run would write over somebody's file. The search for an error bar, stopped, leaves
+// accuracy.json and .png alone, and begins anew.
 static bool refuse_taken(const char *folder, const char *name, bool (*is_own)(const char *),
-                         Error *err)
+                         bool ours_may_go, Error *err)
 {
-    char path[PATH_SIZE];
+    char path[PATH_SIZE], file[PATH_SIZE + NAME_MAX + 1];
     snprintf(path, sizeof path, "%s/%s", folder, name);
     DIR *directory = opendir(path);
     if (!directory) return true;
-    for (struct dirent *entry = readdir(directory); entry; entry = readdir(directory))
-        if (is_own(entry->d_name) && strncmp(entry->d_name, "accuracy.", 9) != 0)
+    for (struct dirent *entry = readdir(directory); entry; entry = readdir(directory)) {
+        bool may_go = ours_may_go || strncmp(entry->d_name, "accuracy.", 9) == 0;
+        snprintf(file, sizeof file, "%s/%s", path, entry->d_name);
+        if (is_own(entry->d_name) && !(may_go && own_file_is_ours(file)))
             FAIL(err, ERROR_INPUT,
-                 "%s/%s is there, and no result beside it says that a run wrote it: choose another "
-                 "folder (-o), or move it away",
-                 path, entry->d_name);
+                 "%s is there, and nothing says that a run wrote it: choose another folder (-o), "
+                 "or move it away",
+                 file);
+    }
 cleanup:
     closedir(directory);
     return error_is_clean(err);
 }
 
-// folder/OWN_FILES[k / 3], the unfinished file, and its journal (io/array_journal).
-static void own_path(const char *folder, int k, char path[PATH_SIZE])
+// The own file number k / 3, the unfinished one, and its journal; false: no more.
+static bool own_path(const char *folder, int32_t k, char path[PATH_SIZE])
 {
     static const char *const ends[] = {"", ".part", ".journal"};
-    snprintf(path, PATH_SIZE, "%s/%s%s", folder, OWN_FILES[k / 3], ends[k % 3]);
+    const char *name = own_file_name(k / 3);
+    if (name) snprintf(path, PATH_SIZE, "%s/%s%s", folder, name, ends[k % 3]);
+    return name;
+}
+
+// The first file of an earlier result, in `found`. One with such a name that is none is refused;
+// unfinished ones are ours by their names.
+static bool find_earlier(ResultFolder *folder, char found[PATH_SIZE], Error *err)
+{
+    char path[PATH_SIZE];
+    for (int32_t k = 0; own_path(folder->path, k, path); k++) {
+        if (access(path, F_OK) != 0) continue;
+        if (k % 3 == 0 && !own_file_is_ours(path))
+            FAIL(err, ERROR_INPUT,
+                 "%s is there, and is none that a run wrote: choose another folder (-o), or move "
+                 "it away",
+                 path);
+        if (!folder->has_earlier) memcpy(found, path, PATH_SIZE);
+        folder->has_earlier = true;
+    }
+cleanup:
+    return error_is_clean(err);
 }
 
 // Who holds the lock has written so into its file.
@@ -158,7 +151,7 @@ static bool may_go_on(const char *folder)
     char path[PATH_SIZE], start[128] = "";
     snprintf(path, sizeof path, "%s/%s", folder, CHECKPOINT_FILE);
     if (access(path, F_OK) != 0) return false;
-    snprintf(path, sizeof path, "%s/%s", folder, OWN_FILES[0]);
+    snprintf(path, sizeof path, "%s/run.json", folder);
     FILE *report = fopen(path, "r");
     if (!report) return true;
     start[fread(start, 1, sizeof start - 1, report)] = 0;
@@ -169,7 +162,6 @@ static bool may_go_on(const char *folder)
 bool result_folder_claim(const char *path, bool overwrite, ResultFolder *folder, Error *err)
 {
     char found[PATH_SIZE];
-    bool begun = false;   // by a run that was killed before it kept anything
     *folder = (ResultFolder){0};
     if (!path) return true;
     TRY(make_folder(path, err));
@@ -177,12 +169,9 @@ bool result_folder_claim(const char *path, bool overwrite, ResultFolder *folder,
         FAIL(err, ERROR_INPUT, "the path of the result folder is too long");
     memcpy(folder->path, path, strlen(path) + 1);
     snprintf(found, sizeof found, "%s/%s", path, LOCK_NAME);
-    begun = access(found, F_OK) == 0;
+    folder->ours_may_go = overwrite || access(found, F_OK) == 0;
     TRY(take_lock(folder, err));
-    for (int k = 0; k < 3 * OWN_FILE_COUNT && !folder->has_earlier; k++) {
-        own_path(path, k, found);
-        folder->has_earlier = access(found, F_OK) == 0;
-    }
+    TRY(find_earlier(folder, found, err));
     if (folder->has_earlier && !overwrite && may_go_on(path))
         FAIL(err, ERROR_INPUT,
              "%s holds a result that was cut off: go on with it (--resume), choose another folder "
@@ -192,36 +181,33 @@ bool result_folder_claim(const char *path, bool overwrite, ResultFolder *folder,
         FAIL(err, ERROR_INPUT,
              "%s holds an earlier result (%s): choose another folder (-o) or say --overwrite", path,
              strrchr(found, '/') + 1);
-    if (!folder->has_earlier && !begun) {
-        TRY(refuse_taken(path, "fields", is_field, err));
-        TRY(refuse_taken(path, "figures", is_figure, err));
-    }
+    TRY(refuse_taken(path, "fields", own_file_is_field, folder->ours_may_go, err));
+    TRY(refuse_taken(path, "figures", own_file_is_figure, folder->ours_may_go, err));
 cleanup:
     if (!error_is_clean(err)) result_folder_release(folder);
     return error_is_clean(err);
 }
 
-// OWN_FILES from one up to another.
-static bool remove_files(const char *folder, int from, int end, Error *err)
+// The own files from number `from` up to number `end`.
+static bool remove_files(const char *folder, int32_t from, int32_t end, Error *err)
 {
     char path[PATH_SIZE];
-    for (int k = 3 * from; k < 3 * end; k++) {
-        own_path(folder, k, path);
+    for (int32_t k = 3 * from; k < 3 * end && own_path(folder, k, path); k++)
         if (unlink(path) != 0 && errno != ENOENT)
             FAIL(err, ERROR_FILE, "cannot remove the earlier result %s: %s", path, strerror(errno));
-    }
 cleanup:
     return error_is_clean(err);
 }
 
+// Also without an earlier result: figures and fields of ours may lie there alone.
 bool result_folder_clear(ResultFolder *folder, Error *err)
 {
-    enum { STATUS_FILES = 2 };   // report and checkpoint
-    if (!folder->has_earlier) return true;
+    enum { STATUS_FILES = 2, FILES_MAX = 1000 };   // report and checkpoint
+    if (!folder->ours_may_go) return true;
     TRY(remove_files(folder->path, 0, STATUS_FILES, err));
-    TRY(empty_folder(folder->path, "fields", is_field, err));
-    TRY(empty_folder(folder->path, "figures", is_figure, err));
-    TRY(remove_files(folder->path, STATUS_FILES, OWN_FILE_COUNT, err));
+    TRY(empty_folder(folder->path, "fields", own_file_is_field, err));
+    TRY(empty_folder(folder->path, "figures", own_file_is_figure, err));
+    TRY(remove_files(folder->path, STATUS_FILES, FILES_MAX, err));
     folder->has_earlier = false;
 cleanup:
     return error_is_clean(err);
@@ -230,7 +216,7 @@ cleanup:
 bool result_folder_take_up(ResultFolder *folder, Error *err)
 {
     char path[PATH_SIZE];
-    snprintf(path, sizeof path, "%s/%s", folder->path, OWN_FILES[0]);
+    snprintf(path, sizeof path, "%s/run.json", folder->path);
     if (unlink(path) != 0 && errno != ENOENT)
         FAIL(err, ERROR_FILE, "cannot remove the earlier report %s: %s", path, strerror(errno));
     folder->has_earlier = false;

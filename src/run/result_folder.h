@@ -9,11 +9,11 @@
 
 #include "amontons.h"
 #include "io/file_lock.h"
-
-#define CHECKPOINT_FILE "checkpoint.bin"   // of a run (run/checkpoint)
+#include "run/own_file.h"
 
 typedef struct ResultFolder {
     char path[AMONTONS_PATH_SIZE];   // empty: nothing is written at all
+    bool ours_may_go;   // what lies there of ours: asked for, or left by a run that was killed
     bool has_earlier;   // an earlier result lies there and has not been cleared: not to be touched
     FileLock lock;   // held from claim to release
 } ResultFolder;

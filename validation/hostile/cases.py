@@ -304,10 +304,12 @@ def own_files(stock):
         linked = {"else/mine.png": "mine"}
         yield Try("own files", f"{name}, figures linked", words, linked, keeps=tuple(linked),
                   shell='mkdir -p out; ln -s ../else out/figures; exec "$@"')
-    for name in ("figures/force.png", "fields/bulk_000000.vtu"):
+    for name in ("figures/force.png", "fields/bulk_000000.vtu", "figures/accuracy.json", "report.html", "static.json",
+                 "checkpoint.bin", "fields.pvd", "history.h5"):
         named = {f"out/{name}": "mine"}
-        yield Try("own files", f"named as ours: {name}", RUN + ["--overwrite"], named, may=(REFUSED,), says=name,
-                  keeps=tuple(named))
+        for where, beside in (("", {}), (" beside a result", {"out/run.json": stock.result / "run.json"})):
+            yield Try("own files", f"named as ours: {name}{where}", RUN + ["--overwrite"], named | beside,
+                      may=(REFUSED,), says=name, keeps=tuple(named))
 
 
 def signals(stock):

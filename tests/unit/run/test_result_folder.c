@@ -2,6 +2,8 @@
 // Which folders a run may have, and what it takes away from an earlier one.
 #include "run/result_folder.h"
 
+#include "base/text.h"
+
 #include "result_place.h"
 
 static char place[PLACE_SIZE];
@@ -38,11 +40,32 @@ static void expect_error(const char *folder, bool overwrite, ErrorCode code, con
     if (!strstr(err.message, words)) fail_msg("'%s' is not in: %s", words, err.message);
 }
 
-static void write_all(const char *const *names, size_t count)
+// What files of ours hold, by the end of their names: enough to be known.
+static const char *ours(const char *name)
+{
+    static const char *const held[][2] = {{".json", "{\n  \"status\": \"done\",\n"},
+                                          {"checkpoint.bin", "amontons-state 1\n"},
+                                          {".h5", "\x89HDF\r\n nodes series contact"},
+                                          {".pvd", "<DataSet file=\"fields/b.vtu\"/>"},
+                                          {".vtu", "<DataArray Name=\"stress_elastic\"/>"},
+                                          {".vtp", "<DataArray Name=\"slip_rate\"/>"}};
+    if (strcmp(name, "figures/accuracy.json") == 0) return "{\"x\": {\"label\": \"contact nodes\"";
+    for (size_t k = 0; k < sizeof held / sizeof *held; k++)
+        if (text_ends_with(name, held[k][0])) return held[k][1];
+    return "Software amontons 0.2.0";
+}
+
+static void write_ours(const char *const *names, size_t count)
 {
     mkdir(place_path(place, "fields"), 0777);
     mkdir(place_path(place, "figures"), 0777);
-    for (size_t k = 0; k < count; k++) place_write(place, names[k], "x");
+    for (size_t k = 0; k < count; k++) place_write(place, names[k], ours(names[k]));
+}
+
+static void write_theirs(const char *const *names, size_t count)
+{
+    write_ours(names, count);
+    for (size_t k = 0; k < count; k++) place_write(place, names[k], "mine");
 }
 
 static void expect_all(const char *const *names, size_t count, bool there)
@@ -72,7 +95,7 @@ static void test_refuses_an_earlier_result(void **state)
     (void)state;
     const char *const files[] = {"run.json", "history.h5", "history.h5.part", "fields.pvd"};
     for (size_t k = 0; k < sizeof files / sizeof *files; k++) {
-        place_write(place, files[k], "kept");
+        place_write(place, files[k], ours(files[k]));
         expect_error(place, false, ERROR_INPUT, files[k]);
         expect_error(place, false, ERROR_INPUT, "--overwrite");
         assert_true(place_has(place, files[k]));
@@ -108,8 +131,8 @@ static void test_overwrites_only_its_own(void **state)
 {
     (void)state;
     Error err = {0};
-    write_all(OWN, OWN_COUNT);
-    write_all(OTHERS, OTHER_COUNT);
+    write_ours(OWN, OWN_COUNT);
+    write_theirs(OTHERS, OTHER_COUNT);
     expect_error(place, false, ERROR_INPUT, "holds an earlier result");
     expect_all(OWN, OWN_COUNT, true);
     assert_true(prepare(place, true, &err));
@@ -117,29 +140,64 @@ static void test_overwrites_only_its_own(void **state)
     expect_all(OTHERS, OTHER_COUNT, true);
 }
 
-// A picture or a field in a folder that never held a result is somebody's: a run that would write
-// over it, also through a link, is refused. Where a killed run has left its lock it is that run's.
+// A picture or a field that no run has written is somebody's: a run that would write over it, also
+// through a link, is refused, whatever else lies in the folder.
 static void test_what_is_somebodys_is_not_written_over(void **state)
 {
     (void)state;
-    Error err = {0};
     const char *const theirs[] = {"figures/force.png", "fields/bulk_000000.vtu"};
     for (int k = 0; k < 2; k++) {
-        write_all(&theirs[k], 1);
+        write_theirs(&theirs[k], 1);
         for (int overwrite = 0; overwrite < 2; overwrite++)
             expect_error(place, overwrite, ERROR_INPUT, theirs[k]);
+        place_write(place, "run.json", ours("run.json"));   // which says nothing of a picture
+        expect_error(place, true, ERROR_INPUT, theirs[k]);
+        assert_true(place_has(place, "run.json"));
+        unlink(place_path(place, "run.json"));
         expect_all(&theirs[k], 1, true);
         unlink(place_path(place, theirs[k]));
     }
     char elsewhere[PLACE_SIZE];
     place_make(elsewhere);
-    place_write(elsewhere, "force.png", "x");
+    place_write(elsewhere, "force.png", "mine");
     assert_int_equal(rmdir(place_path(place, "figures")), 0);
     assert_int_equal(symlink(elsewhere, place_path(place, "figures")), 0);
     expect_error(place, true, ERROR_INPUT, "figures/force.png");
-    place_write(place, "amontons.lock", "");
-    assert_true(prepare(place, false, &err));
     place_remove(elsewhere);
+}
+
+// A user's own file may have the name of one of ours: it is not taken for an earlier result.
+static void test_proofs_of_somebody(void **state)
+{
+    (void)state;
+    Error err = {0};
+    const char *const theirs[] = {"run.json",    "history.h5", "report.html",
+                                  "static.json", "fields.pvd", "checkpoint.bin"};
+    for (size_t k = 0; k < sizeof theirs / sizeof *theirs; k++) {
+        write_theirs(&theirs[k], 1);
+        for (int overwrite = 0; overwrite < 2; overwrite++)
+            expect_error(place, overwrite, ERROR_INPUT, theirs[k]);
+        assert_true(place_has(place, theirs[k]));
+        write_ours(&theirs[k], 1);
+        assert_true(prepare(place, true, &err));
+        assert_false(place_has(place, theirs[k]));
+    }
+}
+
+// Pictures of ours that lie there alone: replaced where the user said so, or where a run that was
+// killed has left its lock; a picture that the new run does not draw does not stay.
+static void test_pictures_of_ours_alone(void **state)
+{
+    (void)state;
+    Error err = {0};
+    const char *const drawn[] = {"figures/force.png", "figures/slip-map.pdf"};
+    for (int killed = 0; killed < 2; killed++) {
+        write_ours(drawn, 2);
+        expect_error(place, false, ERROR_INPUT, "figures/");
+        if (killed) place_write(place, "amontons.lock", "");
+        assert_true(prepare(place, !killed, &err));
+        expect_all(drawn, 2, false);
+    }
 }
 
 // An error bar that was stopped keeps what it has; the same command begins anew.
@@ -148,8 +206,11 @@ static void test_a_stopped_search_may_begin_anew(void **state)
     (void)state;
     Error err = {0};
     const char *const kept[] = {"figures/accuracy.json"};
-    write_all(kept, 1);
+    write_ours(kept, 1);
     assert_true(prepare(place, false, &err));
+    expect_all(kept, 1, true);
+    write_theirs(kept, 1);
+    expect_error(place, true, ERROR_INPUT, "figures/accuracy.json");
     expect_all(kept, 1, true);
 }
 
@@ -161,8 +222,8 @@ static void test_cleared_late_and_not_through_links(void **state)
     ResultFolder folder;
     char elsewhere[PLACE_SIZE];
     place_make(elsewhere);
-    place_write(elsewhere, "force.png", "x");
-    place_write(place, "run.json", "x");
+    place_write(elsewhere, "force.png", ours("force.png"));
+    place_write(place, "run.json", ours("run.json"));
     assert_int_equal(symlink(elsewhere, place_path(place, "figures")), 0);
     assert_true(result_folder_claim(place, true, &folder, &err));
     assert_false(result_folder_is_ours(&folder));
@@ -220,6 +281,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_overwrites_only_its_own, setup, teardown),
         cmocka_unit_test_setup_teardown(test_what_is_somebodys_is_not_written_over, setup,
                                         teardown),
+        cmocka_unit_test_setup_teardown(test_proofs_of_somebody, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_pictures_of_ours_alone, setup, teardown),
         cmocka_unit_test_setup_teardown(test_a_stopped_search_may_begin_anew, setup, teardown),
         cmocka_unit_test_setup_teardown(test_cleared_late_and_not_through_links, setup, teardown),
         cmocka_unit_test_setup_teardown(test_one_computation_at_a_time, setup, teardown),
