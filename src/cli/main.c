@@ -127,7 +127,8 @@ static void occupy_standard_streams(void)
 }
 
 // A file that reaches the limit of sizes (ulimit -f) is an error with a sentence, not a signal.
-// With less room than the libraries take (ulimit -v) OpenBLAS's threads never end, nor does exit().
+// With less room than the libraries take (ulimit -v) OpenBLAS ends the program with words of its own
+// before main, or its threads never end, nor does exit(): this runs before any library begins.
 static void meet_limits(void)
 {
     struct rlimit room;
@@ -144,12 +145,13 @@ static void meet_limits(void)
     _exit(1);
 }
 
+__attribute__((section(".preinit_array"), used)) static void (*const first)(void) = meet_limits;
+
 // A full disk or a closed pipe may show only when the last output is written: a command whose
 // answer is lost has failed.
 int main(int argc, char **argv)
 {
     occupy_standard_streams();
-    meet_limits();
     setenv("AMONTONS_APART", "yes", 0);   // base/apart; empty: in this process, for a debugger
     int status = run_command(argc, argv);
     bool written = fflush(stdout) == 0 && !ferror(stdout);
