@@ -8,6 +8,7 @@
 
 // A list has room for twice its items at most, but for its first room (base/memory).
 enum { FIRST_ROOM_MAX = 1024 };
+static const int64_t COUNT_MAX = (int64_t)1 << 53;   // beyond any run; the sum of some is none too
 
 Archive archive_measure(void)
 {
@@ -69,6 +70,7 @@ void archive_integer(Archive *archive, int32_t *integer)
 void archive_count(Archive *archive, int64_t *count)
 {
     pass(archive, count, 1, sizeof *count);
+    if (archive_reads(archive) && (*count < 0 || *count > COUNT_MAX)) archive->failed = true;
 }
 
 void archive_flag(Archive *archive, bool *flag)

@@ -41,7 +41,7 @@ void archive_section(Archive *archive, const char *name);   // shorter than ARCH
 
 void archive_number(Archive *archive, double *number);
 void archive_integer(Archive *archive, int32_t *integer);
-void archive_count(Archive *archive, int64_t *count);
+void archive_count(Archive *archive, int64_t *count);   // from 0 to 2^53: others are a fault
 void archive_flag(Archive *archive, bool *flag);
 void archive_numbers(Archive *archive, double *numbers, int64_t count);
 // Integers from `low` to below `high`: others are a fault, as what they count might not be there.

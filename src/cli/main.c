@@ -127,7 +127,7 @@ static void occupy_standard_streams(void)
 }
 
 // A file that reaches the limit of sizes (ulimit -f) is an error with a sentence, not a signal.
-// With less room than the libraries take (ulimit -v) OpenBLAS ends the program with words of its own
+// With less room than the libraries take (ulimit -v) OpenBLAS ends the program with its own words
 // before main, or its threads never end, nor does exit(): this runs before any library begins.
 static void meet_limits(void)
 {

@@ -443,8 +443,8 @@ void scene_key_allowed(const SceneKey *key, char *words, int32_t size)
         [KEY_FIELDS] = "none, or a map of every_U, every_t, every_step, at_events",
     };
     const char *text = key->type == KEY_NUMBER ? ranges[key->range].words : by_type[key->type];
-    bool names = key->type == KEY_NAMES && key->choices;
-    snprintf(words, (size_t)size, "%s%s", names ? "a list of: " : text,
+    bool names = key->type == KEY_NAMES && key->choices, none = scene_key_may_be_none(key);
+    snprintf(words, (size_t)size, "%s%s%s", none ? "none, or " : "", names ? "a list of: " : text,
              key->type == KEY_NUMBERS ? ranges[key->range].words : "");
     if (key->choices) join_choices(key->choices, words, size);
 }

@@ -55,6 +55,12 @@ typedef struct SceneKey {
     bool given_in_si;   // the default suits normalised scenes: with SI it must be given
 } SceneKey;
 
+// A number that need not be given: so a study varies whether it is there.
+static inline bool scene_key_may_be_none(const SceneKey *key)
+{
+    return key->type == KEY_NUMBER && key->may_lack;
+}
+
 const SceneKey *scene_keys(int32_t *count);
 int32_t scene_key_index(const char *name);   // -1: no such key
 bool scene_key_is_group(const char *name);   // "material", "time.until"

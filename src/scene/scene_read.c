@@ -164,7 +164,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Gives every key below `group` ("": all) its default; a key without one becomes zero.
+// Gives `group` and every key below it ("": all) its default; a key without one becomes zero.
 static bool store_defaults(Reader *reader, const char *group, Scene *scene, Error *err)
 {
     size_t length = strlen(group);
@@ -173,8 +173,9 @@ static bool store_defaults(Reader *reader, const char *group, Scene *scene, Erro
         const SceneKey *key = &reader->keys[k];
         SceneValue value = {.document = reader->defaults, .node = node};
         node = yaml_next(reader->defaults, node);
-        if (length && (strncmp(key->name, group, length) != 0 || key->name[length] != '.'))
-            continue;
+        bool is_in = strncmp(key->name, group, length) == 0 &&
+                     (key->name[length] == '.' || key->name[length] == 0);
+        if (length && !is_in) continue;
         scene->given[k] = false;
         scene->line[k] = 0;
         reader->sources[k] = (SceneValue){0};
@@ -187,6 +188,12 @@ cleanup:
     return error_is_clean(err);
 }
 
+static bool is_none(const SceneKey *key, const SceneValue *value)
+{
+    return scene_key_may_be_none(key) && yaml_kind(value->document, value->node) == YAML_SCALAR &&
+           strcmp(yaml_text(value->document, value->node), "none") == 0;
+}
+
 static bool store_setting(Reader *reader, const Setting *setting, Scene *scene, Error *err)
 {
     static const char fields[] = "output.fields";
@@ -194,6 +201,7 @@ static bool store_setting(Reader *reader, const Setting *setting, Scene *scene, 
     const SceneKey *key = &reader->keys[setting->key];
     SceneValue value = setting->value;
     if (value.part) value.part = setting->group;
+    if (is_none(key, &value)) return store_defaults(reader, key->name, scene, err);
     if (key->type == KEY_FIELDS) TRY(store_defaults(reader, fields, scene, err));
     if (key->type == KEY_MATERIALS)
         TRY(scene_materials_set(&value, scene, err));

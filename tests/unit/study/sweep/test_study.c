@@ -260,6 +260,13 @@ static void test_columns_of_maps(void **state)
     assert_true(value_at(study, 0, "rod.stiffness") == 0.5);
     assert_true(isnan(value_at(study, 1, "rod.stiffness")));
     drop(study);
+    study = read_body("set: {rod.stiffness: 2}\ncases:\n  - {rod.stiffness: none}\n  - {}\n");
+    assert_true(isnan(value_at(study, 0, "rod.stiffness")));   // also one that was given before
+    drop(study);
+    study = read_body("vary:\n  rod.stiffness: [none, 0.5]\n");
+    assert_true(isnan(value_at(study, 0, "rod.stiffness")));
+    assert_true(value_at(study, 1, "rod.stiffness") == 0.5);
+    drop(study);
 }
 
 // Lines count from the study's first, which names the scene.
