@@ -39,7 +39,7 @@ typedef struct Certificate {
     InterfaceOperator *damping;   // holds S_C; NULL: C is singular; owned
     ContactMatrix damping_contact;   // S_C, open nodes condensed out; empty without; owned
     MovingSet moving;   // F and W of the state asked about; owned, like all that follows
-    double *matrix;   // [count^2] work
+    double *matrix, *symmetric;   // [count^2] work
     double *vector;   // [count] work
     int32_t *pivots;   // [count] work
     int64_t checks;   // counted, factorisations

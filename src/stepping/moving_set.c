@@ -8,13 +8,20 @@
 bool moving_set_create(const Block *block, MovingSet *set, Error *err)
 {
     *set = (MovingSet){.interface = block->interface, .law = block->law, .rod = block->rod};
-    set->list = NEW_ARRAY(MovingUnknown, block->interface->count, err);
+    int64_t count = block->interface->count;
+    set->list = NEW_ARRAY(MovingUnknown, count, err);
+    set->unknown = NEW_ARRAY(int32_t, count, err);
+    set->normal = NEW_ARRAY(int32_t, count, err);
+    set->friction = NEW_ARRAY(double, count, err);
     return error_is_clean(err);
 }
 
 void moving_set_destroy(MovingSet *set)
 {
     memory_free(set->list);
+    memory_free(set->unknown);
+    memory_free(set->normal);
+    memory_free(set->friction);
     *set = (MovingSet){0};
 }
 
@@ -58,32 +65,36 @@ void moving_set_find(MovingSet *set, const State *state, bool with_open)
         moving->spring = 1 / softness;
         moving->damper = set->rod->lag / softness;
     }
+    for (int32_t a = 0; a < set->count; a++) {
+        const MovingUnknown *moving = &set->list[a];
+        set->unknown[a] = moving->unknown;
+        set->normal[a] = moving->normal >= 0 ? moving->normal : moving->unknown;
+        set->friction[a] = moving->friction;
+    }
 }
 
 void moving_set_gather(const MovingSet *set, const double *schur, double factor, double keep,
                        double *matrix)
 {
-    int64_t size = set->interface->count;
-    for (int32_t b = 0; b < set->count; b++) {
-        const double *column = schur + size * set->list[b].unknown;
-        double *out = matrix + (int64_t)set->count * b;
-        for (int32_t a = 0; a < set->count; a++) {
-            double kept = keep == 0 ? 0 : keep * out[a];
-            out[a] = kept + factor * column[set->list[a].unknown];
-        }
+    int64_t size = set->interface->count, count = set->count;
+    const int32_t *row = set->unknown;
+    for (int64_t b = 0; b < count; b++) {
+        const double *column = schur + size * row[b];
+        double *out = matrix + count * b;
+        if (keep == 0)
+            for (int64_t a = 0; a < count; a++) out[a] = factor * column[row[a]];
+        else
+            for (int64_t a = 0; a < count; a++) out[a] = keep * out[a] + factor * column[row[a]];
     }
 }
 
 void moving_set_couple(const MovingSet *set, const double *schur, double *matrix)
 {
-    int64_t size = set->interface->count;
-    for (int32_t b = 0; b < set->count; b++) {
-        const double *column = schur + size * set->list[b].unknown;
-        double *out = matrix + (int64_t)set->count * b;
-        for (int32_t a = 0; a < set->count; a++) {
-            const MovingUnknown *row = &set->list[a];
-            if (row->normal >= 0) out[a] += row->friction * column[row->normal];
-        }
+    int64_t size = set->interface->count, count = set->count;
+    for (int64_t b = 0; b < count; b++) {
+        const double *column = schur + size * set->unknown[b];
+        double *out = matrix + count * b;
+        for (int64_t a = 0; a < count; a++) out[a] += set->friction[a] * column[set->normal[a]];
     }
 }
 

@@ -32,6 +32,10 @@ typedef struct MovingSet {
     const FrictionLaw *law;
     const Rod *rod;
     MovingUnknown *list;   // [interface->count]; owned
+    // Of the list once more, close together for what goes through S. Where there is no friction:
+    // the unknown itself and 0.
+    int32_t *unknown, *normal;   // [interface->count]; owned
+    double *friction;   // likewise
     int32_t count;   // |F|
     bool weakens;   // some weakening is above 0
 } MovingSet;
