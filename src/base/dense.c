@@ -224,6 +224,21 @@ void dense_apply(DenseView a, const double *x, double factor, double keep, doubl
                 keep, y, 1);
 }
 
+// A run ends at a 0; one of every second column also before it would leave out what is none.
+void dense_add_nonzero(DenseView a, const double *x, double factor, double *y)
+{
+    int64_t rows = a.rows;
+    for (int32_t first = 0, end; first < a.columns && rows > 0; first++) {
+        if (x[first] == 0) continue;
+        int32_t stride = first + 1 < a.columns && x[first + 1] != 0 ? 1 : 2;
+        for (end = first + stride; end < a.columns && x[end] != 0; end += stride)
+            if (stride == 2 && x[end - 1] != 0) break;
+        cblas_dgemv(CblasColMajor, CblasNoTrans, a.rows, (end - first) / stride, factor,
+                    a.values + first * rows, stride * a.rows, x + first, stride, 1, y, 1);
+        first = end - stride;
+    }
+}
+
 // A few rows at a time, which stay in the processor's cache for the second vector.
 void dense_apply_both(DenseView a, const double *const x[2], double *const y[2])
 {

@@ -75,6 +75,9 @@ void dense_multiply(DenseView a, DenseView b, double factor, double keep, double
 // y = factor a x + keep y, y = factor a' x + keep y
 void dense_apply(DenseView a, const double *x, double factor, double keep, double *y);
 void dense_apply_transposed(DenseView a, const double *x, double factor, double keep, double *y);
+// y += factor a x where much of x is 0: columns that meet a 0 are not read. Runs of columns and of
+// every second one, as where unknowns of two directions take turns, go through BLAS together.
+void dense_add_nonzero(DenseView a, const double *x, double factor, double *y);
 // y = a x for two vectors, the same bits as one by one: `a` comes from memory once.
 void dense_apply_both(DenseView a, const double *const x[2], double *const y[2]);
 

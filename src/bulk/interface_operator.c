@@ -85,7 +85,9 @@ static void apply_reduced(const ReducedBulk *reduced, BulkTerm term, const doubl
     const BulkScales *scales = &reduced->scales;
     double factor = scales->stiffness;
     if (term == BULK_STIFFNESS) {
-        dense_symmetric_apply(reduced->stiffness, reduced->interface_count, x, y);
+        int32_t m = reduced->interface_count;
+        memset(y, 0, (size_t)m * sizeof(double));
+        dense_add_nonzero((DenseView){reduced->stiffness, m, m}, x, 1, y);
         memcpy(y + reduced->interface_count, x + reduced->interface_count,
                (size_t)reduced->interior_count * sizeof(double));
     } else {
@@ -293,8 +295,9 @@ bool interface_operator_condense(InterfaceOperator *condensed, const double *rhs
     } else {
         int32_t m = reduced->interface_count, r = reduced->interior_count;
         memcpy(g, rhs, (size_t)m * sizeof(double));
-        dense_apply_transposed((DenseView){condensed->map, r, m}, rhs + m, -1, 1, g);
         dense_symmetric_apply(condensed->inverse, r, rhs + m, condensed->half);
+        // B last: the expand reads it next.
+        dense_apply_transposed((DenseView){condensed->map, r, m}, rhs + m, -1, 1, g);
     }
     if (condensed->machine.column) machine_refer(&condensed->machine, g);
 cleanup:
@@ -320,7 +323,7 @@ bool interface_operator_expand(InterfaceOperator *condensed, const double *inter
     int32_t m = reduced->interface_count, r = reduced->interior_count;
     memcpy(v, interface, (size_t)m * sizeof(double));
     memcpy(v + m, condensed->half, (size_t)r * sizeof(double));
-    dense_apply((DenseView){condensed->map, r, m}, interface, -1, 1, v + m);
+    dense_add_nonzero((DenseView){condensed->map, r, m}, interface, -1, v + m);
     return true;
 }
 

@@ -19,12 +19,10 @@ typedef struct Row {
 ContactScales contact_scales(const ContactProblem *problem, const double *reaction)
 {
     int32_t count = problem->interface->count;
-    double diagonal = 0, force = dense_max_abs(problem->g, count);
-    for (int32_t k = 0; k < count; k++)
-        diagonal = fmax(diagonal, problem->matrix->schur[(int64_t)k * count + k]);
+    double force = dense_max_abs(problem->g, count);
     if (reaction) force = fmax(force, dense_max_abs(reaction, count));
     if (force == 0) force = 1;
-    return (ContactScales){.force = force, .velocity = force / diagonal};
+    return (ContactScales){.force = force, .velocity = force / problem->matrix->diagonal};
 }
 
 int32_t contact_slipping_node(const ContactEquations *equations, int32_t unknown)
@@ -55,8 +53,9 @@ void contact_react(const ContactEquations *equations)
     const ContactProblem *problem = equations->problem;
     int32_t count = problem->interface->count;
     double *reaction = equations->at->reaction;
-    dense_symmetric_apply(problem->matrix->schur, count, equations->at->velocity, reaction);
-    for (int32_t k = 0; k < count; k++) reaction[k] -= problem->g[k];
+    DenseView schur = {problem->matrix->schur, count, count};
+    for (int32_t k = 0; k < count; k++) reaction[k] = -problem->g[k];
+    dense_add_nonzero(schur, equations->at->velocity, 1, reaction);   // what sticks adds nothing
 }
 
 static Row row_of(const ContactEquations *equations, int32_t unknown)
@@ -91,14 +90,6 @@ double contact_equation(const ContactEquations *equations, int32_t unknown)
            row.stiffness * (equations->at->velocity[unknown] - equations->problem->bound[unknown]);
 }
 
-double contact_defect(const ContactEquations *equations, int32_t unknown, const double *x)
-{
-    double defect = -contact_equation(equations, unknown);
-    if (!x) return defect;
-    Row row = row_of(equations, unknown);
-    return defect + x[unknown] + row.mu * x[row.normal];
-}
-
 double contact_combine(const ContactEquations *equations, int32_t unknown, const double *x)
 {
     Row row = row_of(equations, unknown);
@@ -120,4 +111,45 @@ void contact_jacobian(const ContactEquations *equations, const double *matrix, i
                                        row.mu * normal[equations->free[b]];
         out[(int64_t)a * stride] += row.slope * equations->at->reaction[row.normal] + row.stiffness;
     }
+}
+
+uint8_t contact_judge_node(const ContactEquations *equations, ContactScales scales, int32_t i,
+                           double *violation)
+{
+    const ContactProblem *problem = equations->problem;
+    const ContactSolution *at = equations->at;
+    int32_t n = interface_normal(i), t = interface_tangent(i);
+    uint8_t status = at->status[i];
+    double pressing = at->reaction[n], shear = at->reaction[t];
+    if (status == CONTACT_OPEN) {
+        // It closes with the tangential velocity it has: held at once it may want to open again.
+        *violation = (problem->bound[n] - at->velocity[n]) / scales.velocity;
+        if (at->velocity[t] == 0) return CONTACT_STICK;
+        return at->velocity[t] > 0 ? CONTACT_SLIP_FORWARD : CONTACT_SLIP_BACKWARD;
+    }
+    *violation = -pressing / scales.force;
+    if (*violation > 0) return CONTACT_OPEN;
+    if (status == CONTACT_STICK) {
+        *violation = (fabs(shear) - friction_at(problem->law, i)->mu_static * pressing) /
+                     scales.force;
+        return shear < 0 ? CONTACT_SLIP_FORWARD : CONTACT_SLIP_BACKWARD;
+    }
+    *violation = -at->velocity[t] * status_direction(status) / scales.velocity;
+    return CONTACT_STICK;
+}
+
+// Only a pushing rod can lose contact.
+uint8_t contact_judge_rod(const ContactEquations *equations, ContactScales scales, int32_t j,
+                          double *violation)
+{
+    const ContactProblem *problem = equations->problem;
+    const ContactSolution *at = equations->at;
+    int32_t x = interface_rod(problem->interface, j);
+    *violation = 0;
+    if (problem->rod_kind != ROD_PUSHES) return at->rod_touches[j];
+    if (at->rod_touches[j])
+        *violation = -at->reaction[x] / scales.force;
+    else
+        *violation = (problem->bound[x] - at->velocity[x]) / scales.velocity;
+    return !at->rod_touches[j];
 }

@@ -48,9 +48,6 @@ void contact_react(const ContactEquations *equations);
 // E of a free unknown, force/width.
 double contact_equation(const ContactEquations *equations, int32_t unknown);
 
-// -E of `unknown` with `x` [count] taken off all reactions; NULL: with nothing.
-double contact_defect(const ContactEquations *equations, int32_t unknown, const double *x);
-
 // x_k + s mu x_n: how the equation of `unknown` takes what is added to the reactions.
 double contact_combine(const ContactEquations *equations, int32_t unknown, const double *x);
 
@@ -58,5 +55,12 @@ double contact_combine(const ContactEquations *equations, int32_t unknown, const
 // each. matrix: S, or S with open nodes condensed out, [count^2].
 void contact_jacobian(const ContactEquations *equations, const double *matrix, int32_t stride,
                       double *jacobian);
+
+// The status that contact node i, or 1 where rod node j touches, should have by its own conditions,
+// and by how much it violates them now, in units of the scales.
+uint8_t contact_judge_node(const ContactEquations *equations, ContactScales scales, int32_t i,
+                           double *violation);
+uint8_t contact_judge_rod(const ContactEquations *equations, ContactScales scales, int32_t j,
+                          double *violation);
 
 #endif

@@ -8,6 +8,7 @@
 #include "contact/contact_status.h"
 #include "contact/interface.h"
 
+#include <math.h>
 #include <string.h>
 
 // Of both unknowns of every node: sweeps after which the copy is made anew.
@@ -22,6 +23,8 @@ bool contact_matrix_create(const double *schur, int32_t count, ContactMatrix *ma
 {
     int64_t bytes = 8 * (int64_t)count * count;
     *matrix = (ContactMatrix){.schur = schur, .count = count, .swept = -1};
+    for (int64_t k = 0; k < count; k++)
+        matrix->diagonal = fmax(matrix->diagonal, schur[k * count + k]);
     matrix->closed = memory_bytes(bytes, err);
     matrix->out = NEW_ARRAY(uint8_t, count, err);
     matrix->work = NEW_ARRAY(double, count, err);

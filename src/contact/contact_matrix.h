@@ -20,6 +20,7 @@
 typedef struct ContactMatrix {
     const double *schur;   // S [count^2], symmetric; not owned, stands as long as this
     int32_t count;   // interface unknowns
+    double diagonal;   // the largest entry on the diagonal of S
     double *closed;   // [count^2] S swept on `out`, both triangles; owned, like all that follows
     uint8_t *out;   // [count] 1: the unknown is swept
     double *work;   // [count]

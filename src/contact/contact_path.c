@@ -313,7 +313,7 @@ static bool place_point(Trace *trace, double tau_kept, double distance)
         double largest = 0;
         find_reaction(trace);
         for (int32_t a = 0; a < free_count; a++) {
-            step[a] = contact_defect(&trace->system, path->free[a], NULL);
+            step[a] = -contact_equation(&trace->system, path->free[a]);
             largest = fmax(largest, fabs(step[a]));
         }
         step[free_count] = 0;
@@ -400,7 +400,7 @@ static bool start_pressed(Trace *trace)
         if (!find_tangent(trace)) return false;
         find_reaction(trace);
         for (int32_t a = 0; a < trace->system.free_count; a++)
-            path->row[a] = contact_defect(&trace->system, path->free[a], NULL);
+            path->row[a] = -contact_equation(&trace->system, path->free[a]);
         path->row[trace->system.free_count] = 0;
         dense_lu_solve(path->matrix, trace->system.free_count + 1, path->pivots, path->row);
         for (int32_t a = 0; a < trace->system.free_count; a++)

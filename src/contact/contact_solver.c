@@ -57,6 +57,9 @@ typedef struct Solve {
     ContactScales scales;
     int32_t iterations, limit;
     bool change_all;   // every violated status is changed, not only the worst
+    const double *closed;   // S': S with open nodes condensed out
+    bool listed;   // what is free, open and closed is that of the statuses, and solver->step has
+        // the residuals of what is free
     bool reused;   // the last step was one with the factors of an earlier matrix
     int32_t changes, anchored;   // status sets met; the one that solver->anchor holds
     double least;   // residual so far with these statuses, over the scale of force
@@ -77,6 +80,7 @@ static const Interface *interface_of(const Solve *solve)
 static void settle(Solve *solve)
 {
     const ContactSolution *at = solve->equations.at;
+    solve->listed = false;
     contact_hold(&solve->equations);
     for (int32_t i = 0; i < interface_of(solve)->contact_count; i++) {
         double *slip_rate = &at->velocity[interface_tangent(i)];
@@ -86,11 +90,15 @@ static void settle(Solve *solve)
     contact_react(&solve->equations);
 }
 
-static void list_free(Solve *solve)
+// For the statuses as they are. false: nothing holds the open nodes.
+static bool list_free(Solve *solve)
 {
     const ContactProblem *problem = solve->equations.problem;
     const ContactSolution *at = solve->equations.at;
     int32_t *free = solve->equations.free, count = 0;
+    solve->closed =
+        contact_matrix_close(problem->matrix, at->status, problem->interface->contact_count);
+    if (!solve->closed) return false;
     solve->open_count = 0;
     for (int32_t i = 0; i < problem->interface->contact_count; i++) {
         if (status_slips(at->status[i])) free[count++] = interface_tangent(i);
@@ -103,6 +111,10 @@ static void list_free(Solve *solve)
             free[count++] = interface_rod(problem->interface, j);
     }
     solve->equations.free_count = count;
+    for (int32_t a = 0; a < count; a++)
+        solve->solver->step[a] = contact_equation(&solve->equations, free[a]);
+    solve->listed = true;
+    return true;
 }
 
 // Statuses of nodes and of the rod as one list [contact_count + rod_count], to compare with later.
@@ -132,12 +144,12 @@ static bool factors_fit(const Solve *solve)
            has_statuses(solve, kept->status);
 }
 
-// closed: S with open nodes condensed out. false: the derivative is singular.
-static bool factor(Solve *solve, const double *closed)
+// false: the derivative is singular.
+static bool factor(Solve *solve)
 {
     ContactMatrix *kept = solve->equations.problem->matrix;
     int32_t free_count = solve->equations.free_count;
-    contact_jacobian(&solve->equations, closed, free_count, kept->factors);
+    contact_jacobian(&solve->equations, solve->closed, free_count, kept->factors);
     solve->solver->factorisations++;
     kept->rows = free_count;
     bool regular = dense_lu(kept->factors, free_count, kept->pivots);
@@ -146,10 +158,10 @@ static bool factor(Solve *solve, const double *closed)
     return regular;
 }
 
-// pull = closed r_O: what the forces at open nodes, which shall have none, do to all others when
-// they are taken away and, on O, -S_OO^-1 r_O: how these nodes would move if nothing else did.
-// Rounding is left as it is.
-static void find_pull(Solve *solve, const double *closed)
+// pull = S' r_O: what the forces at open nodes, which shall have none, do to all others when they
+// are taken away and, on O, -S_OO^-1 r_O: how these nodes would move if nothing else did. Rounding
+// is left as it is.
+static void find_pull(Solve *solve)
 {
     ContactSolver *solver = solve->solver;
     const ContactProblem *problem = solve->equations.problem;
@@ -160,14 +172,14 @@ static void find_pull(Solve *solve, const double *closed)
         int32_t k = solver->open[a];
         double force = solve->equations.at->reaction[k];
         if (fabs(force) > rounding)
-            dense_add_scaled(force, closed + (int64_t)k * count, count, solver->pull);
+            dense_add_scaled(force, solve->closed + (int64_t)k * count, count, solver->pull);
     }
 }
 
 // One Newton step on the free unknowns and the open nodes. false: the derivative is singular. With
 // factors of an earlier one it is a step of a chord method: linear in convergence, and far cheaper
 // than factoring.
-static bool newton_step(Solve *solve, const double *closed)
+static bool newton_step(Solve *solve)
 {
     ContactSolver *solver = solve->solver;
     const ContactEquations *equations = &solve->equations;
@@ -176,67 +188,30 @@ static bool newton_step(Solve *solve, const double *closed)
     int32_t count = matrix->count, free_count = equations->free_count;
     solver->iterations++;
     solve->reused = factors_fit(solve);
-    if (!solve->reused && !factor(solve, closed)) return false;
+    if (!solve->reused && !factor(solve)) return false;
     bool opens = solve->open_count > 0;
-    if (opens) find_pull(solve, closed);
-    for (int32_t a = 0; a < free_count; a++)
-        solver->step[a] = contact_defect(equations, solver->free[a], opens ? solver->pull : NULL);
+    if (opens) find_pull(solve);
+    for (int32_t a = 0; a < free_count; a++) {
+        double more = opens ? contact_combine(equations, solver->free[a], solver->pull) : 0;
+        solver->step[a] = more - solver->step[a];
+    }
     dense_lu_solve(matrix->factors, free_count, matrix->pivots, solver->step);
     for (int32_t a = 0; a < free_count; a++) {
         int32_t unknown = solver->free[a];
         velocity[unknown] += solver->step[a];
-        if (opens)
-            dense_add_scaled(-solver->step[a], closed + (int64_t)unknown * count, count,
-                             solver->pull);
     }
-    for (int32_t a = 0; a < solve->open_count; a++)
-        velocity[solver->open[a]] += solver->pull[solver->open[a]];
+    for (int32_t b = 0; b < solve->open_count; b++) {
+        int32_t unknown = solver->open[b];
+        const double *row = solve->closed + (int64_t)unknown * count;   // symmetric
+        double moved = solver->pull[unknown];
+        for (int32_t a = 0; a < free_count; a++) moved -= row[solver->free[a]] * solver->step[a];
+        velocity[unknown] += moved;
+    }
     contact_react(equations);
     return true;
 }
 
 // --- statuses -----------------------------------------------------------------------------------
-
-// The status that contact node i should have by its own conditions, and by how much it violates
-// them now, in units of the scales.
-static uint8_t judge_contact(const Solve *solve, int32_t i, double *violation)
-{
-    const ContactProblem *problem = solve->equations.problem;
-    const ContactSolution *at = solve->equations.at;
-    int32_t n = interface_normal(i), t = interface_tangent(i);
-    uint8_t status = at->status[i];
-    double pressing = at->reaction[n], shear = at->reaction[t];
-    if (status == CONTACT_OPEN) {
-        // It closes with the tangential velocity it has: held at once it may want to open again.
-        *violation = (problem->bound[n] - at->velocity[n]) / solve->scales.velocity;
-        if (at->velocity[t] == 0) return CONTACT_STICK;
-        return at->velocity[t] > 0 ? CONTACT_SLIP_FORWARD : CONTACT_SLIP_BACKWARD;
-    }
-    *violation = -pressing / solve->scales.force;
-    if (*violation > 0) return CONTACT_OPEN;
-    if (status == CONTACT_STICK) {
-        *violation = (fabs(shear) - friction_at(problem->law, i)->mu_static * pressing) /
-                     solve->scales.force;
-        return shear < 0 ? CONTACT_SLIP_FORWARD : CONTACT_SLIP_BACKWARD;
-    }
-    *violation = -at->velocity[t] * status_direction(status) / solve->scales.velocity;
-    return CONTACT_STICK;
-}
-
-// 1 where it should touch. Only a pushing rod can lose contact: 0 violation for the others.
-static uint8_t judge_rod(const Solve *solve, int32_t j, double *violation)
-{
-    const ContactProblem *problem = solve->equations.problem;
-    const ContactSolution *at = solve->equations.at;
-    int32_t x = interface_rod(problem->interface, j);
-    *violation = 0;
-    if (problem->rod_kind != ROD_PUSHES) return at->rod_touches[j];
-    if (at->rod_touches[j])
-        *violation = -at->reaction[x] / solve->scales.force;
-    else
-        *violation = (problem->bound[x] - at->velocity[x]) / solve->scales.velocity;
-    return !at->rod_touches[j];
-}
 
 // Checks all statuses, and changes all that violate their conditions by more than the tolerance, or
 // only the worst; where that one stuck and now slips it is remembered (starts_fast). Velocities
@@ -251,8 +226,9 @@ static bool update_statuses(Solve *solve)
         double violation;
         bool rod = k >= contacts;
         uint8_t *status = rod ? &at->rod_touches[k - contacts] : &at->status[k];
-        uint8_t better = rod ? judge_rod(solve, k - contacts, &violation)
-                             : judge_contact(solve, k, &violation);
+        uint8_t better =
+            rod ? contact_judge_rod(&solve->equations, solve->scales, k - contacts, &violation)
+                : contact_judge_node(&solve->equations, solve->scales, k, &violation);
         if (!(violation > solve->solver->def.tolerance)) continue;
         if (violation > largest) {
             largest = violation;
@@ -266,18 +242,21 @@ static bool update_statuses(Solve *solve)
     return worst;
 }
 
-// Of the free unknowns' equations and the forces at open nodes, force/width; infinite where a
-// number is not finite.
+// Of the free unknowns' equations, which it leaves in solver->step, and the forces at open nodes,
+// force/width; infinite where a number is not finite.
 static double largest_residual(const Solve *solve)
 {
     const ContactEquations *equations = &solve->equations;
-    double largest = 0;
-    for (int32_t a = 0; a < equations->free_count + solve->open_count; a++) {
-        int32_t open = a - equations->free_count;
-        double left = open < 0 ? contact_equation(equations, equations->free[a])
-                               : equations->at->reaction[solve->solver->open[open]];
-        if (!isfinite(left)) return INFINITY;
-        largest = fmax(largest, fabs(left));
+    double largest = 0, *left = solve->solver->step;
+    for (int32_t a = 0; a < equations->free_count; a++) {
+        left[a] = contact_equation(equations, equations->free[a]);
+        if (!isfinite(left[a])) return INFINITY;
+        if (fabs(left[a]) > largest) largest = fabs(left[a]);
+    }
+    for (int32_t a = 0; a < solve->open_count; a++) {
+        double force = equations->at->reaction[solve->solver->open[a]];
+        if (!isfinite(force)) return INFINITY;
+        largest = fmax(largest, fabs(force));
     }
     return largest;
 }
@@ -371,6 +350,7 @@ static bool starts_fast(Solve *solve)
     problem->matrix->factored = 0;
     solve->least = INFINITY;
     solve->stalled = 0;
+    solve->listed = false;
     contact_react(&solve->equations);
     return true;
 }
@@ -416,11 +396,8 @@ static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
     note_statuses(&solve);
     settle(&solve);
     while (may_go_on(&solve)) {
-        const double *closed = contact_matrix_close(problem->matrix, solution->status,
-                                                    problem->interface->contact_count);
-        if (!closed) return false;
-        list_free(&solve);
-        if (!newton_step(&solve, closed)) return false;
+        if (!solve.listed && !list_free(&solve)) return false;
+        if (!newton_step(&solve)) return false;
         if (starts_fast(&solve)) continue;
         Progress progress = judge_step(&solve);
         if (progress == GIVEN_UP) return false;

@@ -194,6 +194,32 @@ static void test_two_vectors_at_once(void **state)
     }
 }
 
+// Every pattern of zeros in up to seven entries; what meets a 0 would spoil the sum.
+static void test_add_nonzero(void **state)
+{
+    (void)state;
+    enum { ROWS = 5, COLUMNS = 7 };
+    Random random = {.state = 21};
+    for (int32_t columns = 0; columns <= COLUMNS; columns++) {
+        for (uint32_t pattern = 0; pattern < 1U << columns; pattern++) {
+            double a[ROWS * COLUMNS], x[COLUMNS], y[ROWS], wanted[ROWS];
+            for (int32_t i = 0; i < ROWS; i++) wanted[i] = y[i] = random_between(&random, -1, 1);
+            for (int32_t j = 0; j < columns; j++) {
+                bool is_zero = (pattern >> j & 1) == 0;
+                x[j] = is_zero ? 0 : random_between(&random, 1, 2);
+                for (int32_t i = 0; i < ROWS; i++) {
+                    double entry = random_between(&random, -1, 1);
+                    a[j * ROWS + i] = is_zero ? NAN : entry;
+                    if (!is_zero) wanted[i] -= 0.5 * entry * x[j];
+                }
+            }
+            dense_add_nonzero((DenseView){a, ROWS, columns}, x, -0.5, y);
+            assert_all_near("y - a x/2", y, wanted, ROWS, 1e-15);
+        }
+    }
+    dense_add_nonzero((DenseView){NULL, 0, COLUMNS}, (double[COLUMNS]){1}, 1, NULL);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -204,6 +230,7 @@ int main(void)
         cmocka_unit_test(test_vectors),
         cmocka_unit_test(test_one_thread),
         cmocka_unit_test(test_sweep),
+        cmocka_unit_test(test_add_nonzero),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
