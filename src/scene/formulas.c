@@ -53,5 +53,5 @@ bool scene_work_out(const Scene *scene, const SceneSetting *formula, const char 
         return false;
     }
     snprintf(number, sizeof number, "%.15g", result);
-    return yaml_parse(name, number, 0, value, err);
+    return yaml_scalar(name, number, value, err);
 }

@@ -130,14 +130,20 @@ bool scene_read(const char *path, const char *const *overrides, int32_t override
 // it.
 bool scene_blame(const Scene *scene, const char *key, bool done, Error *err);
 
-// The same with settings that stand in other documents (a study's, study/sweep/study): `key` as
-// after --set, the value a node. Errors show the place in those documents.
+// `key` as after --set, the value a node of another document (a study's), which errors show.
 typedef struct SceneSetting {
     const char *key;
     const YamlDocument *document;   // not owned
     YamlNode node;
 } SceneSetting;
-bool scene_read_settings(const char *path, const SceneSetting *settings, int32_t setting_count,
-                         Scene *scene, Error *err);
+
+// A scene file that is read once, for many scenes that differ in their settings.
+typedef struct SceneSource SceneSource;
+bool scene_source_open(const char *path, SceneSource **source, Error *err);
+void scene_source_close(SceneSource *source);   // also of one half opened
+bool scene_source_begin(SceneSource *source, const SceneSetting *settings, int32_t count,
+                        Scene *scene, Error *err);
+// The scene made last, with one setting more: the value of a formula over it, perhaps.
+bool scene_source_add(SceneSource *source, const SceneSetting *setting, Scene *scene, Error *err);
 
 #endif

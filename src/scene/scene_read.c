@@ -8,9 +8,7 @@
 // stands, for errors that only the checks can find.
 #include "scene/scene.h"
 
-#include "amontons.h"
 #include "base/memory.h"
-#include "base/text.h"
 #include "scene/check.h"
 #include "scene/contact_laws.h"
 #include "scene/formulas.h"
@@ -20,7 +18,6 @@
 #include "scene/profile.h"
 #include "scene/value.h"
 
-#include <locale.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -236,6 +233,15 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Settings from number `first` on.
+static bool store_from(Reader *reader, int32_t first, Scene *scene, Error *err)
+{
+    for (int32_t i = first; i < reader->setting_count; i++)
+        TRY(store_setting(reader, &reader->settings[i], scene, err));
+cleanup:
+    return error_is_clean(err);
+}
+
 // --- reading ------------------------------------------------------------------------------------
 
 // A file named by `key`, relative to the folder of the scene `path`, becomes relative to the
@@ -307,8 +313,7 @@ static bool work_out_all(Reader *reader, const char *const *overrides, int32_t c
         reader->override_count++;
         TRY(gather_outside(reader, name, &(SceneValue){.document = *value, .node = YAML_ROOT},
                            err));
-        for (int32_t k = first; k < reader->setting_count; k++)
-            TRY(store_setting(reader, &reader->settings[k], scene, err));
+        TRY(store_from(reader, first, scene, err));
     }
 cleanup:
     return error_is_clean(err);
@@ -363,21 +368,76 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool scene_read_settings(const char *path, const SceneSetting *settings, int32_t setting_count,
-                         Scene *scene, Error *err)
+// --- many scenes of one file ---------------------------------------------------------------------
+
+struct SceneSource {
+    Reader reader;   // its settings: first those of the file, then those of the scene at hand
+    int32_t file_count;   // of the file
+    SceneValue file_sources[SCENE_KEYS_MAX];
+    Scene file, made;   // what the file alone gives; the scene at hand, not finished
+};
+
+bool scene_source_open(const char *path, SceneSource **source, Error *err)
 {
-    Reader reader = {0};
-    TRY(begin_reading(&reader, path, scene, err));
-    for (int32_t i = 0; i < setting_count; i++) {
-        SceneValue value = {.document = settings[i].document, .node = settings[i].node};
-        TRY(gather_outside(&reader, settings[i].key, &value, err));
-    }
-    TRY(store_settings(&reader, scene, err));
-    TRY(finish_reading(&reader, path, scene, err));
+    SceneSource *made = *source = NEW_ARRAY(SceneSource, 1, err);
+    TRY(made);
+    TRY(begin_reading(&made->reader, path, &made->file, err));
+    made->file_count = made->reader.setting_count;
+    TRY(store_settings(&made->reader, &made->file, err));
+    memcpy(made->file_sources, made->reader.sources, sizeof made->file_sources);
 cleanup:
-    destroy_reader(&reader);
     return error_is_clean(err);
 }
+
+void scene_source_close(SceneSource *source)
+{
+    if (source) destroy_reader(&source->reader);
+    memory_free(source);
+}
+
+static bool finish_copy(SceneSource *source, Scene *scene, Error *err)
+{
+    memcpy(scene, &source->made, sizeof *scene);
+    return finish_reading(&source->reader, source->made.path, scene, err);
+}
+
+// Other units than the file's change what its numbers mean: all is stored anew.
+bool scene_source_begin(SceneSource *source, const SceneSetting *settings, int32_t count,
+                        Scene *scene, Error *err)
+{
+    Reader *reader = &source->reader;
+    int32_t units = scene_key_index("units");
+    bool other_units = false;
+    reader->setting_count = source->file_count;
+    for (int32_t i = 0; i < count; i++) {
+        SceneValue value = {.document = settings[i].document, .node = settings[i].node};
+        TRY(gather_outside(reader, settings[i].key, &value, err));
+    }
+    for (int32_t i = source->file_count; i < reader->setting_count; i++)
+        other_units = other_units || reader->settings[i].key == units;
+    memcpy(&source->made, &source->file, sizeof source->made);
+    memcpy(reader->sources, source->file_sources, sizeof reader->sources);
+    if (other_units)
+        TRY(store_settings(reader, &source->made, err));
+    else
+        TRY(store_from(reader, source->file_count, &source->made, err));
+    TRY(finish_copy(source, scene, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+bool scene_source_add(SceneSource *source, const SceneSetting *setting, Scene *scene, Error *err)
+{
+    int32_t first = source->reader.setting_count;
+    SceneValue value = {.document = setting->document, .node = setting->node};
+    TRY(gather_outside(&source->reader, setting->key, &value, err));
+    TRY(store_from(&source->reader, first, &source->made, err));
+    TRY(finish_copy(source, scene, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// --- errors of those who use what was read ------------------------------------------------------
 
 bool scene_blame(const Scene *scene, const char *key, bool done, Error *err)
 {
@@ -388,51 +448,4 @@ bool scene_blame(const Scene *scene, const char *key, bool done, Error *err)
     else
         error_context(err, "%s: %s%s", scene->path, key, scene->given[index] ? ", as set" : "");
     return false;
-}
-
-// --- the public face ----------------------------------------------------------------------------
-
-bool amontons_scene_read(const char *path, const char *const *overrides, int32_t override_count,
-                         Scene **scene, Error *err)
-{
-    *scene = NULL;
-    Scene *made = NEW_ARRAY(Scene, 1, err);
-    TRY(made);
-    // Numbers of scenes and results are written with a point; the locale is the caller's to change.
-    const char *point = localeconv()->decimal_point;
-    if (strcmp(point, ".") != 0)
-        FAIL(
-            err, ERROR_INPUT,
-            "this process writes numbers with `%s` for a point: LC_NUMERIC of its locale must be C "
-            "(uselocale sets it for one thread)",
-            point);
-    TRY(scene_read(path, overrides, override_count, made, err));
-    *scene = made;
-    made = NULL;
-cleanup:
-    memory_free(made);
-    return error_is_clean(err);
-}
-
-void amontons_scene_destroy(Scene *scene)
-{
-    memory_free(scene);
-}
-
-const char *amontons_scene_title(const Scene *scene)
-{
-    return scene->title;
-}
-
-bool amontons_scene_reference(FILE *out, Error *err)
-{
-    scene_write_reference(out);
-    if (fflush(out) != 0 || ferror(out)) FAIL(err, ERROR_FILE, "cannot write the key reference");
-cleanup:
-    return error_is_clean(err);
-}
-
-int32_t amontons_nearest_name(const char *word, const char *const *names, int32_t count)
-{
-    return text_nearest(word, names, count);
 }

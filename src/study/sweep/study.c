@@ -61,5 +61,6 @@ void study_destroy(Study *study)
 {
     for (int32_t k = 0; k < study->made_count; k++) yaml_destroy(study->made[k]);
     yaml_destroy(study->file);
+    scene_source_close(study->source);
     *study = (Study){.set = YAML_NO_NODE, .cases = YAML_NO_NODE, .rank.baseline = YAML_NO_NODE};
 }

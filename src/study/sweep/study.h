@@ -70,6 +70,7 @@ typedef struct StudyRank {
 typedef struct Study {
     char path[SCENE_TEXT_SIZE], title[SCENE_TEXT_SIZE];
     char scene[SCENE_TEXT_SIZE];   // path of the base scene
+    SceneSource *source;   // it; owned
     YamlDocument *file;   // owned, like the next
     YamlDocument *made[STUDY_SETTINGS_MAX];   // of ranges, --set and STUDY_STANDARD
     int32_t made_count;

@@ -120,8 +120,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The value of formula `k` over `scene`, as one more setting.
-static bool work_out(const Study *study, PointSettings *settings, int32_t k, const Scene *scene,
+// Formula `k` over `scene`, which gets its value.
+static bool work_out(const Study *study, PointSettings *settings, int32_t k, Scene *scene,
                      Error *err)
 {
     const SceneSetting *formula = &settings->formulas[k];
@@ -133,23 +133,21 @@ static bool work_out(const Study *study, PointSettings *settings, int32_t k, con
     TRY(scene_work_out(scene, formula, name, &settings->values[k], err));
     SceneSetting setting = {
         .key = formula->key, .document = settings->values[k], .node = YAML_ROOT};
-    TRY(add(settings, &setting, err));
+    TRY(scene_source_add(study->source, &setting, scene, err));
 cleanup:
     return error_is_clean(err);
 }
 
-// The scene is read again after each formula: the next one may use its value.
+// The scene is made anew after each formula: the next one may use its value.
 static bool make_scene(const Study *study, int32_t point, YamlNode changes, Scene *scene,
                        Error *err)
 {
     PointSettings *settings = NEW_ARRAY(PointSettings, 1, err);
     TRY(settings);
     TRY(gather(study, point, changes, settings, err));
-    TRY(scene_read_settings(study->scene, settings->list, settings->count, scene, err));
-    for (int32_t k = 0; k < settings->formula_count; k++) {
+    TRY(scene_source_begin(study->source, settings->list, settings->count, scene, err));
+    for (int32_t k = 0; k < settings->formula_count; k++)
         TRY(work_out(study, settings, k, scene, err));
-        TRY(scene_read_settings(study->scene, settings->list, settings->count, scene, err));
-    }
 cleanup:
     for (int32_t k = 0; settings && k < settings->formula_count; k++)
         yaml_destroy(settings->values[k]);

@@ -56,7 +56,6 @@ static bool read_text(const Study *study, const char *key, char text[SCENE_TEXT_
 }
 
 // Relative to the study's folder, whatever the working directory.
-// Whether the file is there shows when the first point's scene is read.
 static bool read_scene_path(Study *study, Error *err)
 {
     char given[SCENE_TEXT_SIZE] = "";
@@ -108,6 +107,7 @@ bool study_read(const char *path, const char *const *overrides, int32_t override
     TRY(study_read_vary(study, overrides, override_count, err));
     TRY(study_read_wanted(study, err));
     TRY(read_keep(study, err));
+    TRY(scene_source_open(study->scene, &study->source, err));
 cleanup:
     return error_is_clean(err);
 }

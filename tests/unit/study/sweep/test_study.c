@@ -154,6 +154,32 @@ static void test_order(void **state)
     drop(study);
 }
 
+// Points are made from one reading of the base scene: nothing of one is left in the next, in any
+// order, and units that a case sets are those of all its numbers.
+static void test_points_are_apart(void **state)
+{
+    (void)state;
+    Study *study = read_body("set: {rod.height: = 0.4 * mesh.set.height}\n"
+                             "cases:\n  - {load.pressure: 3 kPa, rod.stiffness: 7, units: si}\n"
+                             "  - {mesh.set: {height: 2}, time.until: {t: 5}, mesh.file: a.geo}\n"
+                             "  - {load.pressure: 0.004}\n");
+    static const int32_t orders[] = {0, 1, 2, 0, 2, 1, 0};
+    for (size_t i = 0; i < sizeof orders / sizeof orders[0]; i++) {
+        int32_t k = orders[i];
+        Scene *scene = scene_at(study, k);
+        assert_int_equal(scene->units, k == 0 ? UNITS_SI : UNITS_NORMALISED);
+        assert_true(scene->load.pressure == (k == 0 ? 3000 : k == 1 ? 0.003 : 0.004));
+        assert_true(scene->rod.stiffness == (k == 0 ? 7 : 0));
+        assert_true(scene->rod.height == (k == 1 ? 0.8 : 0.2));
+        assert_int_equal(scene->mesh.parameter_count, k == 1 ? 1 : 6);
+        assert_true(scene->time.until_U == (k == 1 ? 0 : 0.012));
+        assert_true(scene->time.until_t == (k == 1 ? 5 : 0));
+        assert_true(strstr(scene->mesh.file, k == 1 ? "paper/a.geo" : "block.geo") != NULL);
+        memory_free(scene);
+    }
+    drop(study);
+}
+
 static void test_records(void **state)
 {
     (void)state;
@@ -433,6 +459,7 @@ int main(void)
         cmocka_unit_test(test_records),         cmocka_unit_test(test_rank_and_plot),
         cmocka_unit_test(test_several_plots),   cmocka_unit_test(test_columns_of_maps),
         cmocka_unit_test(test_faults),          cmocka_unit_test(test_faults_of_overrides),
-        cmocka_unit_test(test_faults_of_plots), cmocka_unit_test(test_memory)};
+        cmocka_unit_test(test_faults_of_plots), cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_points_are_apart)};
     return cmocka_run_group_tests(tests, make_file, remove_file);
 }

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What callers of the library do with scenes; scene_read reads them.
+#include "scene/scene.h"
+
+#include "amontons.h"
+#include "base/memory.h"
+#include "base/text.h"
+#include "scene/keys.h"
+
+#include <locale.h>
+#include <string.h>
+
+bool amontons_scene_read(const char *path, const char *const *overrides, int32_t override_count,
+                         Scene **scene, Error *err)
+{
+    *scene = NULL;
+    Scene *made = NEW_ARRAY(Scene, 1, err);
+    TRY(made);
+    // Numbers of scenes and results are written with a point; the locale is the caller's to change.
+    const char *point = localeconv()->decimal_point;
+    if (strcmp(point, ".") != 0)
+        FAIL(
+            err, ERROR_INPUT,
+            "this process writes numbers with `%s` for a point: LC_NUMERIC of its locale must be C "
+            "(uselocale sets it for one thread)",
+            point);
+    TRY(scene_read(path, overrides, override_count, made, err));
+    *scene = made;
+    made = NULL;
+cleanup:
+    memory_free(made);
+    return error_is_clean(err);
+}
+
+void amontons_scene_destroy(Scene *scene)
+{
+    memory_free(scene);
+}
+
+const char *amontons_scene_title(const Scene *scene)
+{
+    return scene->title;
+}
+
+bool amontons_scene_reference(FILE *out, Error *err)
+{
+    scene_write_reference(out);
+    if (fflush(out) != 0 || ferror(out)) FAIL(err, ERROR_FILE, "cannot write the key reference");
+cleanup:
+    return error_is_clean(err);
+}
+
+int32_t amontons_nearest_name(const char *word, const char *const *names, int32_t count)
+{
+    return text_nearest(word, names, count);
+}
