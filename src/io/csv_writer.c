@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Cells go straight to `path`.part; csv_finish gives it its name and reports the first failure, so
-// that a caller who writes a thousand cells asks once.
+// Cells go to `path`.part, many at once; csv_finish gives it its name and reports the first
+// failure, so that a caller who writes a thousand cells asks once.
 #include "io/csv_writer.h"
 
 #include "base/memory.h"
@@ -15,6 +15,8 @@ struct CsvWriter {
     PartFile file;
     Error first;   // the first failure
     bool in_row;   // a cell stands on the line already
+    size_t waiting;   // bytes of `bytes` that are not written yet
+    char bytes[1 << 16];
 };
 
 CsvWriter *csv_create(const char *path, Error *err)
@@ -27,10 +29,24 @@ CsvWriter *csv_create(const char *path, Error *err)
 }
 
 // After the first failure nothing is written.
-static void put(CsvWriter *csv, const char *bytes, size_t count)
+static void flush(CsvWriter *csv)
 {
     if (error_is_clean(&csv->first))
-        part_file_write(&csv->file, bytes, (int64_t)count, &csv->first);
+        part_file_write(&csv->file, csv->bytes, (int64_t)csv->waiting, &csv->first);
+    csv->waiting = 0;
+}
+
+static void put(CsvWriter *csv, const char *bytes, size_t count)
+{
+    while (count > 0) {
+        size_t fits = sizeof csv->bytes - csv->waiting;
+        if (fits > count) fits = count;
+        memcpy(csv->bytes + csv->waiting, bytes, fits);
+        csv->waiting += fits;
+        bytes += fits;
+        count -= fits;
+        if (csv->waiting == sizeof csv->bytes) flush(csv);
+    }
 }
 
 static void begin_cell(CsvWriter *csv)
@@ -75,6 +91,7 @@ void csv_end_row(CsvWriter *csv)
 
 bool csv_finish(CsvWriter *csv, Error *err)
 {
+    flush(csv);
     bool good = error_is_clean(&csv->first);
     if (!good) *err = csv->first;
     good = good && part_file_commit(&csv->file, err);

@@ -2,6 +2,7 @@
 // What the files that read a study share.
 #include "study/sweep/study.h"
 
+#include "base/memory.h"
 #include "base/text.h"
 
 #include <math.h>
@@ -56,10 +57,23 @@ bool study_is_chosen(const Study *study, const char *key)
     return false;
 }
 
+bool study_list(const YamlDocument *document, YamlNode list, YamlNode **values, Error *err)
+{
+    int32_t count = 0;
+    TRY((*values = NEW_ARRAY(YamlNode, yaml_count(document, list), err)));
+    for (YamlNode value = yaml_first(document, list); value != YAML_NO_NODE;
+         value = yaml_next(document, value))
+        (*values)[count++] = value;
+cleanup:
+    return error_is_clean(err);
+}
+
 // Also of one half read.
 void study_destroy(Study *study)
 {
     for (int32_t k = 0; k < study->made_count; k++) yaml_destroy(study->made[k]);
+    for (int32_t k = 0; k < STUDY_AXES_MAX; k++) memory_free(study->axes[k].values);
+    memory_free(study->case_list);
     yaml_destroy(study->file);
     scene_source_close(study->source);
     *study = (Study){.set = YAML_NO_NODE, .cases = YAML_NO_NODE, .rank.baseline = YAML_NO_NODE};

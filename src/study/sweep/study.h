@@ -53,6 +53,7 @@ typedef struct StudyAxis {
     const YamlDocument *document;   // not owned: the study's, or a range's in `made`
     YamlNode list;
     int32_t count;
+    YamlNode *values;   // [count] of the list; owned
 } StudyAxis;
 
 typedef enum RankAgainst { AGAINST_FIRST, AGAINST_BEST, AGAINST_KEYS } RankAgainst;
@@ -80,6 +81,7 @@ typedef struct Study {
     int32_t override_count;
     YamlNode set, cases;   // YAML_NO_NODE: none
     int32_t case_count;   // at least 1
+    YamlNode *case_list;   // [case_count] of `cases`; NULL: none; owned
     int32_t axis_count;
     StudyAxis axes[STUDY_AXES_MAX];
     int32_t column_count;   // scene keys that vary, in the order of the file
@@ -102,6 +104,8 @@ bool study_add_column(Study *study, const char *key, Error *err);
 int32_t study_column(const Study *study, const char *name);
 // Whether `vary` or `cases` sets the key, alone or in a map; a formula of `set` does not count.
 bool study_is_chosen(const Study *study, const char *key);
+// *values: the children of a list, to be found by number at once (memory_free).
+bool study_list(const YamlDocument *document, YamlNode list, YamlNode **values, Error *err);
 bool study_plain_number(const Study *study, YamlNode node, double *value);   // false: is none
 
 #endif

@@ -70,13 +70,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-static YamlNode child_at(const YamlDocument *document, YamlNode list, int32_t index)
-{
-    YamlNode node = yaml_first(document, list);
-    for (int32_t k = 0; k < index; k++) node = yaml_next(document, node);
-    return node;
-}
-
 // A formula of `set` that --set replaces is not worked out.
 static void drop_replaced(const Study *study, PointSettings *settings)
 {
@@ -106,13 +99,11 @@ static bool gather(const Study *study, int32_t point, YamlNode changes, PointSet
     drop_replaced(study, settings);
     for (int32_t k = 0; k < study->override_count; k++)
         TRY(add(settings, &study->overrides[k], err));
-    if (study->cases != YAML_NO_NODE)
-        TRY(add_map(settings, study->file, child_at(study->file, study->cases, point), err));
+    if (study->case_list) TRY(add_map(settings, study->file, study->case_list[point], err));
     for (int32_t k = 0; k < study->axis_count; k++) {
         const StudyAxis *axis = &study->axes[k];
-        SceneSetting setting = {.key = axis->key,
-                                .document = axis->document,
-                                .node = child_at(axis->document, axis->list, index[k])};
+        SceneSetting setting = {
+            .key = axis->key, .document = axis->document, .node = axis->values[index[k]]};
         TRY(add(settings, &setting, err));
     }
     TRY(add_map(settings, study->file, changes, err));

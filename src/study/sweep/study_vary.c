@@ -80,6 +80,7 @@ static bool read_cases(Study *study, Error *err)
     if (yaml_kind(study->file, study->cases) != YAML_LIST || study->case_count == 0)
         return yaml_refuse(study->file, study->cases, "cases", "a list of maps of the scene's keys",
                            err);
+    TRY(study_list(study->file, study->cases, &study->case_list, err));
     for (YamlNode one = yaml_first(study->file, study->cases); one != YAML_NO_NODE;
          one = yaml_next(study->file, one)) {
         if (yaml_kind(study->file, one) != YAML_MAP)
@@ -189,6 +190,7 @@ static bool read_axis(Study *study, YamlNode item, Error *err)
     axis->count = yaml_count(axis->document, axis->list);
     if ((kind != YAML_MAP && kind != YAML_LIST) || axis->count == 0)
         return yaml_refuse(study->file, item, axis->key, AXIS_ALLOWED, err);
+    TRY(study_list(axis->document, axis->list, &axis->values, err));
     study->axis_count++;
     for (YamlNode value = yaml_first(axis->document, axis->list); value != YAML_NO_NODE;
          value = yaml_next(axis->document, value))

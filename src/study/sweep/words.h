@@ -10,6 +10,7 @@
 typedef struct WordList {
     int32_t count, capacity;
     char **words;   // [capacity]; owned, and so is each
+    int32_t *slots;   // [2 capacity], by hash: 1 + the index of a word, 0: free; owned
 } WordList;
 
 // *index: of `word`, which is added where the list lacks it.

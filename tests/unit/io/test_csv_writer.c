@@ -61,6 +61,31 @@ static void numbers_keep_their_bits(void **state)
     assert_string_equal(at, "");
 }
 
+// Far more than is kept back before it is written.
+static void long_files_are_whole(void **state)
+{
+    (void)state;
+    Error err = {0};
+    enum { ROWS = 30000 };
+    static char text[20 * ROWS];
+    CsvWriter *csv = csv_create(path, &err);
+    for (int32_t k = 0; k < ROWS; k++) {
+        csv_number(csv, k);
+        csv_text(csv, "a cell");
+        csv_end_row(csv);
+    }
+    assert_true(csv_finish(csv, &err));
+    read_back(text, sizeof text);
+    const char *at = text;
+    for (int32_t k = 0; k < ROWS; k++) {
+        char row[30];
+        int length = snprintf(row, sizeof row, "%d,a cell\n", k);
+        if (strncmp(at, row, (size_t)length) != 0) fail_msg("row %d is `%.20s`", k, at);
+        at += length;
+    }
+    assert_string_equal(at, "");
+}
+
 static void nothing_is_left_of_an_abandoned_one(void **state)
 {
     (void)state;
@@ -81,6 +106,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(cells_are_quoted_where_they_must_be),
                                        cmocka_unit_test(numbers_keep_their_bits),
+                                       cmocka_unit_test(long_files_are_whole),
                                        cmocka_unit_test(nothing_is_left_of_an_abandoned_one)};
     int file = mkstemp(path);
     if (file < 0) return 1;
