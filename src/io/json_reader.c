@@ -14,9 +14,22 @@
 
 enum { DEPTH_MAX = 64 };
 
+// Reports of thousands of points are gone through byte by byte: no calls of strspn and strcspn.
+static bool is_space(char byte)
+{
+    return byte == ' ' || byte == '\t' || byte == '\r' || byte == '\n';
+}
+
 static const char *skip_space(const char *at)
 {
-    return at + strspn(at, " \t\r\n");
+    while (is_space(*at)) at++;
+    return at;
+}
+
+static bool ends_scalar(char byte)
+{
+    return !byte || byte == ',' || byte == ':' || byte == ']' || byte == '}' || byte == '"' ||
+           byte == '[' || byte == '{' || is_space(byte);
 }
 
 // Behind the string that begins at `at`; NULL: there is none. A backslash escapes one character.
@@ -59,9 +72,8 @@ static const char *skip_value(const char *at)
         } else if ((*at == ',' || *at == ':') && depth > 0) {
             at++;
         } else {
-            size_t length = strcspn(at, ",:]} \t\r\n\"[{");
-            if (length == 0) return NULL;
-            at += length;
+            if (ends_scalar(*at)) return NULL;
+            while (!ends_scalar(*at)) at++;
         }
     } while (depth > 0);
     return at;

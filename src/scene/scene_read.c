@@ -437,8 +437,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// --- errors of those who use what was read ------------------------------------------------------
-
 bool scene_blame(const Scene *scene, const char *key, bool done, Error *err)
 {
     int32_t index = scene_key_index(key);
