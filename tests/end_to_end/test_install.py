@@ -73,6 +73,8 @@ class Installed(unittest.TestCase):
         self.assertIn("SONAME               libamontons.so.0.2\n", run("objdump", "-p", library).stdout)
 
     def test_library_is_a_guest(self):
+        if b"__gcov_" in (self.prefix / "lib/libamontons.so").read_bytes():
+            self.skipTest("gcov's own code, which is linked in, writes and exits")
         for library in [self.prefix / "lib/libamontons.so", self.prefix / "lib/amontons/amontons_hdf5.so",
                         self.prefix / "lib/amontons/amontons_render.so", self.prefix / "lib/amontons/amontons_libav.so"]:
             listing = run("nm", "-D", "--undefined-only", library).stdout

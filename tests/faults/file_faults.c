@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Preloaded into the program (LD_PRELOAD), lets one call to the system fail: the variable
-// FILE_FAULT=write:12 the twelfth write of the process and its children, with ENOSPC (sync: EIO);
-// write:12+ that one and every later one, as on a full disk. FILE_FAULT=count:PATH: none fails, and
+// Preloaded into the program (LD_PRELOAD), or linked into a test, lets one call to the system fail:
+// the variable FILE_FAULT=write:12 the twelfth write of the process and its children, with ENOSPC
+// (sync: EIO); write:12+ that one and every later one, as on a full disk. An interrupt is a read,
+// write or wait that a signal ended before it began (EINTR). FILE_FAULT=count:PATH: none fails, and
 // the file has a line for each call when the first process ends: its kind, its number, and a number
 // that stands for who called it (the return addresses up to main, and those of the parents).
 //
@@ -10,6 +11,8 @@
 // What is said on standard error never fails. What a program and its libraries call is seen, not
 // what the C library calls within itself: a stream's buffer is written out by fwrite, fflush or
 // fclose.
+#include "faults/file_faults.h"
+
 #include <dlfcn.h>
 #include <errno.h>
 #include <execinfo.h>
@@ -22,7 +25,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #define KINDS(X)                                                                                   \
@@ -31,7 +36,9 @@
     X(SYNC, "sync")                                                                                \
     X(RENAME, "rename")                                                                            \
     X(FOLDER, "mkdir")                                                                             \
-    X(LENGTH, "truncate") X(CLOSE, "close") X(PROCESS, "process") X(MEMORY, "memory")
+    X(LENGTH, "truncate")                                                                          \
+    X(CLOSE, "close")                                                                              \
+    X(PROCESS, "process") X(MEMORY, "memory") X(READ, "read") X(INTERRUPT, "interrupt")
 
 enum {
 #define X(symbol, name) symbol,
@@ -53,6 +60,7 @@ typedef struct Calls {
 } Calls;
 
 static Calls *calls;   // shared with children
+static const char *wanted;   // NULL: no fault
 static bool listing;
 
 // FNV-1a over the return addresses; 1: this library's own frames.
@@ -68,7 +76,6 @@ static uint64_t hash_callers(void)
 // Whether this call shall fail.
 static bool is_due(int kind)
 {
-    const char *wanted = getenv("FILE_FAULT");
     size_t length = strlen(names[kind]);
     if (!calls || !wanted) return false;
     int count = atomic_fetch_add(&calls->count[kind], 1) + 1;
@@ -76,28 +83,55 @@ static bool is_due(int kind)
     if (strncmp(wanted, names[kind], length) != 0 || wanted[length] != ':') return false;
     int first = atoi(wanted + length + 1);
     bool due = count == first || (count > first && wanted[strlen(wanted) - 1] == '+');
-    static const int causes[KIND_COUNT] = {[SYNC] = EIO, [PROCESS] = EAGAIN, [MEMORY] = ENOMEM};
+    static const int causes[KIND_COUNT] = {
+        [SYNC] = EIO, [READ] = EIO, [PROCESS] = EAGAIN, [MEMORY] = ENOMEM, [INTERRUPT] = EINTR};
     if (due) errno = causes[kind] ? causes[kind] : ENOSPC;
     return due;
 }
 
 #define REAL(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
 
+void file_faults_start(const char *fault)
+{
+    void *first[1];
+    wanted = NULL;
+    memset(calls, 0, sizeof *calls);
+    listing = fault && strncmp(fault, "count:", 6) == 0;
+    if (listing) backtrace(first, 1);   // loads what it needs
+    wanted = fault;
+}
+
 __attribute__((constructor)) static void begin(void)
 {
-    const char *wanted = getenv("FILE_FAULT");
-    void *first[1];
     void *shared =
         mmap(NULL, sizeof(Calls), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    listing = wanted && strncmp(wanted, "count:", 6) == 0;
-    if (listing) backtrace(first, 1);   // loads what it needs
-    if (shared != MAP_FAILED) calls = shared;
+    if (shared == MAP_FAILED) return;
+    calls = shared;
+    file_faults_start(getenv("FILE_FAULT"));
+}
+
+// Whether no earlier call of its kind came from the same callers.
+static bool is_first(int kind, int k)
+{
+    for (int before = 0; before < k; before++)
+        if (calls->callers[kind][before] == calls->callers[kind][k]) return false;
+    return true;
+}
+
+int file_faults_list(char (*faults)[FILE_FAULT_SIZE], int room)
+{
+    int count = 0;
+    for (int kind = 0; kind < KIND_COUNT; kind++)
+        for (int k = 0; k < calls->count[kind] && k < CALLS_MAX && count < room; k++)
+            if (is_first(kind, k))
+                snprintf(faults[count++], FILE_FAULT_SIZE, "%s:%d", names[kind], k + 1);
+    return count;
 }
 
 __attribute__((destructor)) static void end(void)
 {
     if (!calls || !listing) return;
-    FILE *file = REAL(fopen)(getenv("FILE_FAULT") + 6, "w");
+    FILE *file = REAL(fopen)(wanted + 6, "w");
     for (int kind = 0; file && kind < KIND_COUNT; kind++)
         for (int k = 0; k < calls->count[kind] && k < CALLS_MAX; k++)
             fprintf(file, "%s %d %llx\n", names[kind], k + 1,
@@ -160,17 +194,17 @@ enum { STREAM_FAILED = 0x20 };   // what ferror() looks at in glibc
 
 ssize_t write(int file, const void *bytes, size_t size)
 {
-    return is_due(WRITE) ? -1 : REAL(write)(file, bytes, size);
+    return is_due(WRITE) || is_due(INTERRUPT) ? -1 : REAL(write)(file, bytes, size);
 }
 
 ssize_t pwrite(int file, const void *bytes, size_t size, off_t at)
 {
-    return is_due(WRITE) ? -1 : REAL(pwrite)(file, bytes, size, at);
+    return is_due(WRITE) || is_due(INTERRUPT) ? -1 : REAL(pwrite)(file, bytes, size, at);
 }
 
 ssize_t pwrite64(int file, const void *bytes, size_t size, off64_t at)
 {
-    return is_due(WRITE) ? -1 : REAL(pwrite64)(file, bytes, size, at);
+    return is_due(WRITE) || is_due(INTERRUPT) ? -1 : REAL(pwrite64)(file, bytes, size, at);
 }
 
 size_t fwrite(const void *bytes, size_t size, size_t count, FILE *file)
@@ -185,6 +219,30 @@ int fflush(FILE *file)
     if (!is_due(WRITE)) return REAL(fflush)(file);
     if (file) file->_flags |= STREAM_FAILED;
     return EOF;
+}
+
+// --- read ---------------------------------------------------------------------------------------
+
+ssize_t read(int file, void *bytes, size_t size)
+{
+    return is_due(READ) || is_due(INTERRUPT) ? -1 : REAL(read)(file, bytes, size);
+}
+
+ssize_t pread(int file, void *bytes, size_t size, off_t at)
+{
+    return is_due(READ) || is_due(INTERRUPT) ? -1 : REAL(pread)(file, bytes, size, at);
+}
+
+ssize_t pread64(int file, void *bytes, size_t size, off64_t at)
+{
+    return is_due(READ) || is_due(INTERRUPT) ? -1 : REAL(pread64)(file, bytes, size, at);
+}
+
+size_t fread(void *bytes, size_t size, size_t count, FILE *file)
+{
+    if (!is_due(READ)) return REAL(fread)(bytes, size, count, file);
+    file->_flags |= STREAM_FAILED;
+    return 0;
 }
 
 // --- the rest -----------------------------------------------------------------------------------
@@ -244,6 +302,16 @@ pid_t fork(void)
 int pipe(int ends[2])
 {
     return is_due(PROCESS) ? -1 : REAL(pipe)(ends);
+}
+
+pid_t waitpid(pid_t process, int *ending, int options)
+{
+    return is_due(INTERRUPT) ? -1 : REAL(waitpid)(process, ending, options);
+}
+
+pid_t wait4(pid_t process, int *ending, int options, struct rusage *used)
+{
+    return is_due(INTERRUPT) ? -1 : REAL(wait4)(process, ending, options, used);
 }
 
 void *aligned_alloc(size_t alignment, size_t size)

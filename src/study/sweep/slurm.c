@@ -137,13 +137,13 @@ static bool take_lost(SlurmRun *run, int32_t k, Error *err)
     int number = slurm_signal(&run->jobs, job);
     bool waited = strcmp(element->state, "PENDING") == 0;
     bool cancelled = waited || strcmp(element->state, "CANCELLED") == 0;
+    const char *last = *element->state ? element->state : "unknown";
     if (number > 0)
-        snprintf(state, sizeof state, "%s by signal %d (%s)", element->state, number,
-                 strsignal(number));
+        snprintf(state, sizeof state, "%s by signal %d (%s)", last, number, strsignal(number));
     else if (has_reason)
-        snprintf(state, sizeof state, "%s (%s)", element->state, element->reason);
+        snprintf(state, sizeof state, "%s (%s)", last, element->reason);
     else
-        snprintf(state, sizeof state, "%s", *element->state ? element->state : "unknown");
+        snprintf(state, sizeof state, "%s", last);
     last_words(run, job, words, sizeof words);
     if (element->ended)
         snprintf(message, sizeof message, "the Slurm job ended as %s%s", state, words);

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Calls to the system, and allocations, that fail once, one for each chain of callers, in what the
+// library does besides a run in memory: a run with results, one that is gone on with, statics,
+// stability, the 1D model, a sweep, pictures, looking at results. Each ends with a sentence or is
+// done, gives all its memory back, and leaves no half of a text file under its final name.
+//
+// AMONTONS_FAULTS_EVERY: one fault of so many is tried (standard: some of each work).
+#include "amontons_cache.h"
+#include "amontons_model1d.h"
+#include "amontons_pictures.h"
+#include "amontons_stability.h"
+
+#include "base/memory.h"
+#include "fake_slurm.h"
+#include "faults/file_faults.h"
+#include "result_place.h"
+#include "small_scene.h"
+
+#include <dirent.h>
+
+enum { FAULTS_MAX = 6000 };
+
+static char place[PLACE_SIZE], result[PLACE_SIZE + 20];
+static Scene *scene;
+static FILE *nowhere;
+
+// --- what is done -------------------------------------------------------------------------------
+
+static bool run(Error *err)
+{
+    RunSummary summary;
+    RunOptions options = {.folder = result, .overwrite = true, .checkpoint_every = 1e-9};
+    return amontons_run(scene, &options, &summary, err);
+}
+
+// Stops after some steps, as Ctrl-C does, and goes on.
+static volatile sig_atomic_t stop;
+
+static void stop_later(const StepView *view, void *context)
+{
+    (void)context;
+    stop = view->t > 0.5;
+}
+
+static bool resume(Error *err)
+{
+    RunSummary summary;
+    RunOptions options = {
+        .folder = result, .overwrite = true, .on_step = stop_later, .stop = &stop};
+    stop = 0;
+    if (amontons_run(scene, &options, &summary, err) || err->code != ERROR_INTERRUPT) return false;
+    *err = (Error){0};
+    return amontons_run(scene, &(RunOptions){.folder = result, .resume = true}, &summary, err);
+}
+
+static bool equilibrium(Error *err)
+{
+    StaticSummary summary;
+    return amontons_static(scene, result, true, &summary, err);
+}
+
+static bool stability(Error *err)
+{
+    StabilitySummary summary;
+    StabilityOptions options = {.folder = result, .overwrite = true};
+    return amontons_stability(scene, &options, &summary, err);
+}
+
+static bool line(Error *err)
+{
+    Model1dSummary summary;
+    Model1dOptions options = amontons_model1d_options();
+    options.nodes = 5;
+    options.folder = result;
+    options.overwrite = true;
+    return amontons_model1d(scene, &options, &summary, err);
+}
+
+static bool sweep(Error *err)
+{
+    char study[PLACE_SIZE + 20];
+    SweepSummary summary;
+    SweepOptions options = {.folder = result, .jobs = 1, .fresh = true, .out = nowhere};
+    snprintf(study, sizeof study, "%s/study.yaml", place);
+    return amontons_sweep(study, &options, &summary, err) && summary.failed + summary.pending == 0;
+}
+
+// Its jobs are said to have failed, so that the lists of their elements stay for `element`.
+static bool sweep_by_slurm(Error *err)
+{
+    char study[PLACE_SIZE + 20];
+    SweepSummary summary;
+    SweepOptions options = {.folder = result, .slurm = "", .fresh = true};
+    snprintf(study, sizeof study, "%s/study.yaml", place);
+    unlink(place_path(place, "arrays"));
+    return amontons_sweep(study, &options, &summary, err);
+}
+
+static bool element(Error *err)
+{
+    char list[PLACE_SIZE + 60];
+    snprintf(list, sizeof list, "%s/slurm/array-0.json", result);
+    return amontons_sweep_element(list, 0, err);
+}
+
+static bool look(Error *err)
+{
+    CacheSummary summary;
+    return amontons_info(result, NULL, nowhere, err) &&
+           amontons_cache_list(NULL, NULL, &summary, err);
+}
+
+static bool draw(Error *err)
+{
+    const char *figures[] = {"force"};
+    PictureRequest request = {.figures = figures, .figure_count = 1};
+    return amontons_render_result(result, &request, err);
+}
+
+static bool report(Error *err)
+{
+    char page[PLACE_SIZE + 20];
+    snprintf(page, sizeof page, "%s/page.html", place);
+    return amontons_report((const char *const[]){result}, 1, page, err);
+}
+
+static bool draw_sweep(Error *err)
+{
+    return amontons_render_sweep(result, NULL, NULL, err);
+}
+
+// --- and how it may end -------------------------------------------------------------------------
+
+static bool is_whole(const char *name)
+{
+    static char text[1 << 18];
+    size_t length = strlen(name);
+    if (length < 6 || strcmp(name + length - 5, ".json") != 0) return true;
+    place_read(result, name, text, sizeof text);
+    for (length = strlen(text); length > 0 && text[length - 1] == '\n';) length--;
+    return length > 0 && text[length - 1] == '}';
+}
+
+static void check_files(const char *fault)
+{
+    DIR *listing = opendir(result);
+    for (struct dirent *entry; listing && (entry = readdir(listing));)
+        if (!is_whole(entry->d_name)) fail_msg("%s: half of %s is left", fault, entry->d_name);
+    if (listing) closedir(listing);
+}
+
+static void try_one(bool (*work)(Error *), const char *fault)
+{
+    Error err = {0};
+    int64_t live = memory_counters().live;
+    file_faults_start(fault);
+    bool done = work(&err);
+    clearerr(nowhere);
+    file_faults_start(NULL);
+    if (!done && work != sweep && (err.code == ERROR_NONE || !*err.message))
+        fail_msg("%s: failed without a word", fault);
+    if (!done && strncmp(fault, "interrupt", 9) == 0) fail_msg("%s: %s", fault, err.message);
+    if (done && err.code != ERROR_NONE) fail_msg("%s: done, but: %s", fault, err.message);
+    if (memory_counters().live != live)
+        fail_msg("%s: %d arrays are not freed", fault, (int)(memory_counters().live - live));
+    check_files(fault);
+}
+
+// standard: one of so many, where nobody says otherwise.
+static void try_all(bool (*work)(Error *), int32_t standard)
+{
+    static char faults[FAULTS_MAX][FILE_FAULT_SIZE];
+    const char *given = getenv("AMONTONS_FAULTS_EVERY");
+    int32_t every = given && *given ? atoi(given) : standard, tried = 0;
+    Error err = {0};
+    file_faults_start(NULL);
+    if (!work(&err)) fail_msg("%s", err.message);   // modules opened
+    file_faults_start("count:/dev/null");
+    if (!work(&err)) fail_msg("%s", err.message);
+    int32_t count = file_faults_list(faults, FAULTS_MAX);
+    file_faults_start(NULL);
+    assert_in_range(count, 10, FAULTS_MAX - 1);
+    for (int32_t k = 0; k < count; k += every, tried++) try_one(work, faults[k]);
+    print_message("%d of %d faults\n", tried, count);
+    if (!work(&err)) fail_msg("and then: %s", err.message);
+}
+
+static void open_scene(const char *const *more)
+{
+    const char *settings[16] = {"mesh.set.nx=4", "mesh.set.nz=2", "rod.width=0.3"};
+    int32_t count = 3;
+    while (*more) settings[count++] = *more++;
+    scene = small_scene(settings);
+}
+
+static void close_scene(void)
+{
+    amontons_scene_destroy(scene);
+    scene = NULL;
+}
+
+static void test_run(void **state)
+{
+    (void)state;
+    open_scene((const char *const[]){"time.until={t: 1}", "time.step_max=0.5",
+                                     "output.fields={every_t: 0.5}", "output.figures=[force]",
+                                     "reduction.use=always", "reduction.cache=true", NULL});
+    try_all(run, 67);
+    try_all(look, 13);
+    try_all(draw, 41);
+    try_all(report, 101);
+    close_scene();
+}
+
+static void test_resume(void **state)
+{
+    (void)state;
+    open_scene((const char *const[]){"time.until={t: 1}", "time.step_max=0.25",
+                                     "output.fields={every_t: 0.5}", "reduction.use=never", NULL});
+    try_all(resume, 101);
+    close_scene();
+    open_scene((const char *const[]){"time.until={t: 1}", "accuracy.mu=0.1", "reduction.use=never",
+                                     "output.figures=[force]", NULL});
+    try_all(run, 101);
+    close_scene();
+}
+
+static void test_studies(void **state)
+{
+    (void)state;
+    open_scene((const char *const[]){"time.until={t: 1}", "reduction.use=never", NULL});
+    try_all(equilibrium, 31);
+    try_all(stability, 53);
+    close_scene();
+    open_scene((const char *const[]){"load.pressure=0.03", "time.until={U: 1e-4}", "mesh.set.nx=10",
+                                     "mesh.set.nz=10", "rod.width=0.05", NULL});
+    try_all(line, 53);
+    close_scene();
+}
+
+static void write_study(void)
+{
+    char text[2000];
+    snprintf(text, sizeof text,
+             "scene: %s/validation/paper/fig1.yaml\n"
+             "set: {mesh.set.nx: 4, mesh.set.nz: 2, rod.height: 0, rod.width: 0, "
+             "time.until.t: 1, reduction.use: never}\n"
+             "vary: {load.pressure: [0.003, 0.006]}\n"
+             "rank: {by: mu_max}\nplot: {x: load.pressure, y: mu_max}\n",
+             getenv("AMONTONS_SOURCE"));
+    place_write(place, "study.yaml", text);
+}
+
+static void test_sweep(void **state)
+{
+    (void)state;
+    write_study();
+    try_all(sweep, 139);
+    try_all(draw_sweep, 29);
+    try_all(report, 101);
+}
+
+static void test_slurm(void **state)
+{
+    (void)state;
+    fake_slurm_make(place);
+    place_write(place, "queue", "1 0 TIMEOUT None\n1 1 FAILED None\n");
+    write_study();
+    try_all(sweep_by_slurm, 101);
+    try_all(element, 101);
+}
+
+static int begin(void **state)
+{
+    (void)state;
+    if (access("/dev/shm", W_OK) == 0) setenv("TMPDIR", "/dev/shm", 1);   // many fsyncs
+    setenv("AMONTONS_APART", "1", 1);   // as the program has it
+    place_make(place);
+    snprintf(result, sizeof result, "%s/result", place);
+    setenv("AMONTONS_CACHE", place_path(place, "cache"), 1);
+    nowhere = fopen("/dev/null", "w");
+    return nowhere ? 0 : -1;
+}
+
+static int anew(void **state)
+{
+    (void)state;
+    place_remove(result);
+    return 0;
+}
+
+static int end(void **state)
+{
+    (void)state;
+    fclose(nowhere);
+    place_remove(place);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(test_run, anew),     cmocka_unit_test_teardown(test_resume, anew),
+        cmocka_unit_test_teardown(test_studies, anew), cmocka_unit_test_teardown(test_sweep, anew),
+        cmocka_unit_test_teardown(test_slurm, anew),
+    };
+    return cmocka_run_group_tests(tests, begin, end);
+}
