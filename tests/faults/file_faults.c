@@ -101,6 +101,11 @@ void file_faults_start(const char *fault)
     wanted = fault;
 }
 
+void file_faults_end(void)
+{
+    wanted = listing ? wanted : NULL;
+}
+
 __attribute__((constructor)) static void begin(void)
 {
     void *shared =

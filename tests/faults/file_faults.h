@@ -9,6 +9,9 @@ enum { FILE_FAULT_SIZE = 24 };
 // NULL: none fails.
 void file_faults_start(const char *fault);
 
+// No call fails from here on, in this process.
+void file_faults_end(void);
+
 // After "count:", one fault for each chain of callers, the first of their calls. Returns how many.
 int file_faults_list(char (*faults)[FILE_FAULT_SIZE], int room);
 
