@@ -180,6 +180,19 @@ static void test_scenes_round_trip(void **state)
                     "         figures: [force, slip-map]}\n",
                     text);
     assert_round_trip(text);
+    scene_text_with(5,
+                    "friction: {mu_static: 0.5, mu_kinetic: 0.2, critical_velocity: 1e-3,\n"
+                    "  contacts: [{group: a, mu_static: 0.7, critical_velocity: 2e-3},\n"
+                    "    {group: b, law: formula, formula: '0.3 + 0.1*exp(-v)', along: '1 + x'},\n"
+                    "    {group: c, mu_kinetic: 0.1, along: '2'}]}\n"
+                    "materials: {pads: {young: 4}, c: {}}",
+                    text);
+    assert_round_trip(text);
+    scene_text_with(6,
+                    "load: {pressure: 0.1, supports: [{group: a, direction: x},\n"
+                    "  {group: b, direction: z}, {group: c, direction: both}]}\n",
+                    text);
+    assert_round_trip(text);
     scene_text_with(6,
                     "load: {pressure: 0.1, tractions: [{group: a, x: 1}, {group: b, z: -2}]}\n"
                     "output: {fields: {}}",
