@@ -166,6 +166,25 @@ static void test_units(void **state)
     for (int k = 0; k < 2; k++) amontons_scene_destroy(scenes[k]);
 }
 
+// Plane strain is plane stress of a material with nu/(1 - nu) and E/(1 - nu^2).
+static void test_plane_strain(void **state)
+{
+    (void)state;
+    Model1dOptions options = amontons_model1d_options();
+    options.theory_only = true;
+    char young[40], poisson[40];
+    snprintf(young, sizeof young, "material.young=%.17g", 1 / (1 - 0.3 * 0.3));
+    snprintf(poisson, sizeof poisson, "material.poisson=%.17g", 0.3 / 0.7);
+    const char *strain[] = {"load.pressure=0.03", "material.plane=strain", "material.poisson=0.3"};
+    const char *stress[] = {"load.pressure=0.03", young, poisson};
+    Scene *scenes[] = {read_scene(strain, 3), read_scene(stress, 3)};
+    Model1dSummary one = run_line(scenes[0], &options), other = run_line(scenes[1], &options);
+    assert_near("l_sc", other.l_sc / one.l_sc, 1, 1e-9);
+    assert_near("l_c", other.l_c / one.l_c, 1, 1e-9);
+    assert_near("kappa r", other.range / one.range, 1, 1e-9);
+    for (int k = 0; k < 2; k++) amontons_scene_destroy(scenes[k]);
+}
+
 static void test_refusals(void **state)
 {
     (void)state;
@@ -177,6 +196,17 @@ static void test_refusals(void **state)
         {"load={pressure: 0, tractions: [{group: top, x: 0, z: -1e-3}]}", "load.pressure"},
         {"load.tractions=[{group: top, x: 1e-4, z: 0}]", "load.tractions"},
         {"time.scheme=explicit", "time.scheme=sdirk2"},
+        {"rod.program={t: [0, 1], factor: [1, 2]}", "rod.program: the 1D model has one load"},
+        {"load.program={t: [0, 1], factor: [1, 2]}", "load.program: the 1D model has one load"},
+        {"time.until={U: 0.01, slidings: 2}", "not by slidings or mu_below"},
+        {"time.until={U: 0.01, mu_below: 0.2}", "not by slidings or mu_below"},
+        {"rod.stiffness=1", "rod.stiffness"},
+        {"friction.contacts=[{group: contact, along: '1 + x'}]", "one law along its line"},
+        {"friction.along='1 + x'", "one law along its line"},
+        {"contact.radius=3", "lies on a flat substrate"},
+        {"contact.gap='0.001*x'", "lies on a flat substrate"},
+        {"load.supports=[{group: leading, direction: x}]", "load.supports"},
+        {"mesh.set.crown=0.01", "that are not flat"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
         Error err = {0};
@@ -190,6 +220,19 @@ static void test_refusals(void **state)
         amontons_scene_destroy(scene);
     }
     Scene *scene = read_scene(NULL, 0);
+    double velocity = scene->rod.velocity, until = scene->time.until_U;
+    Model1dOptions plain = amontons_model1d_options();
+    Model1dSummary nothing;
+    Error refused = {0};
+    scene->rod.velocity = 0;   // of a static scene
+    assert_false(amontons_model1d(scene, &plain, &nothing, &refused));
+    assert_non_null(strstr(refused.message, "rod.velocity must be above 0"));
+    scene->rod.velocity = velocity;
+    scene->time.until_U = 0;
+    refused = (Error){0};
+    assert_false(amontons_model1d(scene, &plain, &nothing, &refused));
+    assert_non_null(strstr(refused.message, "says not when to stop"));
+    scene->time.until_U = until;
     scene->friction.kind = (FrictionKind)99;   // a law that the model knows nothing of, by its name
     Model1dOptions usual = amontons_model1d_options();
     Model1dSummary none;
@@ -249,8 +292,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_against_theory), cmocka_unit_test(test_tolerance),
         cmocka_unit_test(test_no_instability), cmocka_unit_test(test_callbacks),
-        cmocka_unit_test(test_units),          cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_plane_strain),   cmocka_unit_test(test_units),
+        cmocka_unit_test(test_refusals),       cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
