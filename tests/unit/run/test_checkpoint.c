@@ -3,6 +3,7 @@
 // can be put back; and what does not belong to a simulation is refused before anything is touched.
 #include "run/checkpoint.h"
 
+#include "base/hash.h"
 #include "base/memory.h"
 #include "io/result_file.h"
 #include "result_place.h"
@@ -270,6 +271,58 @@ static void test_refused(void **state)
     amontons_scene_destroy(finer);
 }
 
+// The checksum of what was changed on purpose.
+static void seal(SavedState *saved)
+{
+    char text[HASH_TEXT_SIZE];
+    Hash hash = hash_start();
+    int64_t size = saved->size - (HASH_TEXT_SIZE - 1);
+    hash_bytes(&hash, saved->bytes, (size_t)size);
+    hash_write(&hash, text);
+    memcpy((char *)saved->bytes + size, text, HASH_TEXT_SIZE - 1);
+}
+
+// What another version wrote, or half a state, under a checksum that holds.
+static void test_of_other_versions(void **state)
+{
+    (void)state;
+    Error err = {0};
+    SavedState saved = {0}, none;
+    Scene *scene = small_scene((const char *const[]){"mesh.set.nx=4", "mesh.set.nz=4", NULL});
+    Simulation *one = begin(scene, NULL, false), *twin = begin(scene, NULL, false);
+    step(one, 5);
+    step(twin, 5);
+    assert_true(amontons_simulation_save(one, &saved, &err));
+    char *version =
+        memmem(saved.bytes, (size_t)saved.size, AMONTONS_VERSION "\0", sizeof AMONTONS_VERSION);
+    assert_non_null(version);
+    *version ^= 8;
+    seal(&saved);
+    expect_refused(one, &saved, "it was saved by version ");
+    *version ^= 8;
+    char *format = (char *)saved.bytes + 8;   // behind its length
+    *format ^= 8;
+    seal(&saved);
+    expect_refused(one, &saved, "not a saved state as this version writes it");
+    *format ^= 8;
+    saved.size = 3 * (8 + 33) + 8 + 200;   // head, time and some more
+    seal(&saved);
+    assert_false(amontons_simulation_restore(twin, &saved, &err));
+    assert_non_null(strstr(err.message, "the state cannot be put back"));
+    saved.size = 80;
+    seal(&saved);
+    expect_refused(one, &saved, "not a saved state as this version writes it");
+    err = (Error){0};
+    assert_false(amontons_state_read("/dev/null", &none, &err));
+    assert_non_null(strstr(err.message, "/dev/null is no file"));
+    assert_false(amontons_state_read("/nowhere/at/all", &none, &err));
+    step(one, 5);
+    amontons_state_free(&saved);
+    amontons_simulation_destroy(one);
+    amontons_simulation_destroy(twin);
+    amontons_scene_destroy(scene);
+}
+
 // A history goes back with the state, and no farther than it has steps.
 static void test_history_is_cut(void **state)
 {
@@ -325,8 +378,9 @@ static int remove_cache(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_reduced),  cmocka_unit_test(test_open_nodes),
-        cmocka_unit_test(test_put_back), cmocka_unit_test(test_put_back_explicit),
-        cmocka_unit_test(test_refused),  cmocka_unit_test(test_history_is_cut)};
+        cmocka_unit_test(test_reduced),       cmocka_unit_test(test_open_nodes),
+        cmocka_unit_test(test_put_back),      cmocka_unit_test(test_put_back_explicit),
+        cmocka_unit_test(test_refused),       cmocka_unit_test(test_of_other_versions),
+        cmocka_unit_test(test_history_is_cut)};
     return cmocka_run_group_tests(tests, make_cache, remove_cache);
 }

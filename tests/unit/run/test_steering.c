@@ -182,6 +182,16 @@ static void test_what_is_refused(void **state)
                  {{"reduction.use=never", "load.tractions=[{group: top, z: -0.001}]", NULL},
                   NAN,
                   0.006,
+                  "only load"},
+                 {{"reduction.use=never", NULL}, NAN, INFINITY, "above 0"},
+                 {{"rod.program={t: [0, 1], factor: [1, 2]}", NULL}, 1e-5, NAN, "rod.program"},
+                 {{"load.program={t: [0, 1], factor: [1, 2]}", NULL}, NAN, 0.006, "load.program"},
+                 {{"reduction.use=never",
+                   "load={pressure: 0, supports: [{group: top, direction: "
+                   "z}]}",
+                   NULL},
+                  NAN,
+                  0.006,
                   "only load"}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         Error err = {0};
