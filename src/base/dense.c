@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-// Of dense_apply_both: half a megabyte; whole vectors, so that all rows are rounded alike.
+// Of dense_apply_each: half a megabyte; whole vectors, so that all rows are rounded alike.
 enum { ROWS_CACHED = 65536, ROWS_STEP = 16 };
 
 void dpotrf_(const char *uplo, const int *n, double *a, const int *lda, int *info,
@@ -239,13 +239,13 @@ void dense_add_nonzero(DenseView a, const double *x, double factor, double *y)
     }
 }
 
-// A few rows at a time, which stay in the processor's cache for the second vector.
-void dense_apply_both(DenseView a, const double *const x[2], double *const y[2])
+// A few rows at a time, which stay in the processor's cache for the next vector.
+void dense_apply_each(DenseView a, int32_t count, const double *const *x, double *const *y)
 {
     int32_t block = ROWS_CACHED / (a.columns + 1) / ROWS_STEP * ROWS_STEP + ROWS_STEP;
     for (int32_t row = 0; row < a.rows && a.columns > 0; row += block) {
         int32_t rows = a.rows - row < block ? a.rows - row : block;
-        for (int k = 0; k < 2; k++)
+        for (int32_t k = 0; k < count; k++)
             cblas_dgemv(CblasColMajor, CblasNoTrans, rows, a.columns, 1, a.values + row, a.rows,
                         x[k], 1, 0, y[k] + row, 1);
     }

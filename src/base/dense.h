@@ -78,8 +78,8 @@ void dense_apply_transposed(DenseView a, const double *x, double factor, double 
 // y += factor a x where much of x is 0: columns that meet a 0 are not read. Runs of columns and of
 // every second one, as where unknowns of two directions take turns, go through BLAS together.
 void dense_add_nonzero(DenseView a, const double *x, double factor, double *y);
-// y = a x for two vectors, the same bits as one by one: `a` comes from memory once.
-void dense_apply_both(DenseView a, const double *const x[2], double *const y[2]);
+// y = a x for `count` vectors, the same bits as one by one: `a` comes from memory once.
+void dense_apply_each(DenseView a, int32_t count, const double *const *x, double *const *y);
 
 double dense_dot(const double *x, const double *y, int32_t n);
 double dense_max_abs(const double *x, int32_t n);

@@ -24,11 +24,12 @@ struct Worker {
 // The lock is held but during the work.
 static void do_job(Worker *worker)
 {
-    bool works = error_is_clean(&worker->failure), last = worker->given == worker->done + 1;
+    bool works = error_is_clean(&worker->failure);
+    int32_t waiting = (int32_t)(worker->given - worker->done);
     int32_t slot = (int32_t)(worker->done % worker->def.slots);
     Error failure = {0};
     pthread_mutex_unlock(&worker->lock);
-    if (works) worker->def.work(worker->def.context, slot, last, &failure);
+    if (works) worker->def.work(worker->def.context, slot, waiting, &failure);
     pthread_mutex_lock(&worker->lock);
     if (works) worker->failure = failure;
     worker->done++;

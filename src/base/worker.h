@@ -16,8 +16,9 @@ typedef struct Worker Worker;
 
 typedef struct WorkerDef {
     int32_t slots;   // jobs that may be under way; whoever hands over more waits
-    // In the thread. `last`: no other job is waiting. After a failure no job is done any more.
-    bool (*work)(void *context, int32_t slot, bool last, Error *err);
+    // In the thread. `waiting`: jobs handed over and not done, in the slots from `slot` on; 1: this
+    // is the last. After a failure no job is done any more.
+    bool (*work)(void *context, int32_t slot, int32_t waiting, Error *err);
     void *context;   // not owned
 } WorkerDef;
 

@@ -130,13 +130,13 @@ void bulk_operator_recover(const BulkOperator *system, const double *x, double *
         reduced_bulk_recover(system->reduced, x, full);
 }
 
-void bulk_operator_recover_both(const BulkOperator *system, const double *const x[2],
-                                double *const full[2])
+void bulk_operator_recover_each(const BulkOperator *system, int32_t count, const double *const *x,
+                                double *const *full)
 {
     if (system->reduced)
-        reduced_bulk_recover_both(system->reduced, x, full);
+        reduced_bulk_recover_each(system->reduced, count, x, full);
     else
-        for (int k = 0; k < 2; k++) bulk_operator_recover(system, x[k], full[k]);
+        for (int32_t k = 0; k < count; k++) bulk_operator_recover(system, x[k], full[k]);
 }
 
 // The share of inertia in A, normalised as bulk/reduction has it.

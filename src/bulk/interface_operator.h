@@ -55,9 +55,9 @@ double bulk_operator_size(const BulkOperator *system, const double *x);
 
 // full: [2 * nodes] from the system's unknowns, a copy or modes * x.
 void bulk_operator_recover(const BulkOperator *system, const double *x, double *full);
-// Displacement and velocity, at less than the cost of two.
-void bulk_operator_recover_both(const BulkOperator *system, const double *const x[2],
-                                double *const full[2]);
+// Of `count` vectors, as displacement and velocity, at far less than the cost of as many.
+void bulk_operator_recover_each(const BulkOperator *system, int32_t count, const double *const *x,
+                                double *const *full);
 
 typedef struct OperatorTerms {
     double mass, damping, stiffness;   // factors of M, C, K in A

@@ -27,10 +27,11 @@ void reduced_bulk_recover(const ReducedBulk *reduced, const double *state, doubl
     dense_apply(modes, state, 1, 0, full);
 }
 
-void reduced_bulk_recover_both(const ReducedBulk *reduced, const double *const states[2],
-                               double *const full[2])
+void reduced_bulk_recover_each(const ReducedBulk *reduced, int32_t count,
+                               const double *const *states, double *const *full)
 {
-    dense_apply_both((DenseView){reduced->modes, reduced->full_dofs, reduced->count}, states, full);
+    DenseView modes = {reduced->modes, reduced->full_dofs, reduced->count};
+    dense_apply_each(modes, count, states, full);
 }
 
 // Between two levels the error is not measured; it stays below the larger of theirs (a test asks at

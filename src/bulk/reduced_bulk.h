@@ -57,7 +57,8 @@ double reduced_bulk_error(const ReducedBulk *reduced, double inertia);
 
 // full [full_dofs] = modes * state [count]. The modes must be at hand.
 void reduced_bulk_recover(const ReducedBulk *reduced, const double *state, double *full);
-void reduced_bulk_recover_both(const ReducedBulk *reduced, const double *const states[2],
-                               double *const full[2]);
+// Of several states, at far less than the cost of as many.
+void reduced_bulk_recover_each(const ReducedBulk *reduced, int32_t count,
+                               const double *const *states, double *const *full);
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The bulk is recovered, its stresses found and written as .vtu, the interface as .vtp. What does
+// Stresses of the bulk are found and written as .vtu, the interface as .vtp. What does
 // not change in a run (points, cells) is laid out once, in the 64-bit integers and three
 // coordinates that VTK wants; z of the model is VTK's y. VTK itself stays in its module:
 // io/field_file.
@@ -31,12 +31,10 @@ static int64_t node_of(const FieldFiles *files, int64_t point)
 static bool fill_bulk_grid(FieldFiles *files, Error *err)
 {
     const Mesh *mesh = files->mesh;
-    int64_t nodes = mesh->node_count, cells = mesh->element_count;
+    int64_t cells = mesh->element_count;
     int64_t corners = mesh->first_node[cells], points = files->stress.point_count;
     files->points = NEW_ARRAY(double, 3 * points, err);
     files->vectors = NEW_ARRAY(double, 6 * points, err);
-    files->displacement = NEW_ARRAY(double, 2 * nodes, err);
-    files->velocity = NEW_ARRAY(double, 2 * nodes, err);
     files->offsets = NEW_ARRAY(int64_t, cells + 1, err);
     files->connectivity = NEW_ARRAY(int64_t, corners, err);
     files->cell_types = NEW_ARRAY(uint8_t, cells, err);
@@ -86,8 +84,6 @@ void field_files_destroy(FieldFiles *files)
     nodal_stress_destroy(&files->stress);
     memory_free(files->points);
     memory_free(files->vectors);
-    memory_free(files->displacement);
-    memory_free(files->velocity);
     memory_free(files->offsets);
     memory_free(files->connectivity);
     memory_free(files->cell_types);
@@ -131,17 +127,6 @@ bool field_files_write_bulk(FieldFiles *files, const FieldState *state, const ch
                       .point_array_count = (int32_t)(sizeof arrays / sizeof arrays[0]),
                       .point_arrays = arrays};
     return field_file_write_vtu(path, &grid, err);
-}
-
-// x, v: the system's own unknowns, reduced or full.
-bool field_files_recover_bulk(FieldFiles *files, const FieldUnknowns *seen, const char *path,
-                              Error *err)
-{
-    bulk_operator_recover_both(seen->system, (const double *[]){seen->displacement, seen->velocity},
-                               (double *[]){files->displacement, files->velocity});
-    FieldState state = {
-        .displacement = files->displacement, .velocity = files->velocity, .time = seen->time};
-    return field_files_write_bulk(files, &state, path, err);
 }
 
 // line: [FIELD_LINE_ARRAYS][contact_count]; names and order are those of docs/results.md.

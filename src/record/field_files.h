@@ -4,7 +4,6 @@
 #ifndef AMONTONS_RECORD_FIELD_FILES_H
 #define AMONTONS_RECORD_FIELD_FILES_H
 
-#include "bulk/interface_operator.h"
 #include "bulk/recovery.h"
 #include "contact/interface.h"
 #include "io/field_file.h"
@@ -18,7 +17,6 @@ typedef struct FieldFiles {
     NodalStress stress;   // of the last .vtu; owned, like all that follows
     double *points;   // [stress.point_count * 3]
     double *vectors;   // [stress.point_count * 6] displacement, velocity
-    double *displacement, *velocity;   // [nodes * 2] of the whole mesh
     int64_t *offsets, *connectivity;
     uint8_t *cell_types;
     double *line_points;   // [line_point_count * 3]
@@ -33,21 +31,12 @@ typedef struct FieldState {
     double time;
 } FieldState;
 
-// Of the system that is stepped, reduced or not. Nothing is owned.
-typedef struct FieldUnknowns {
-    const BulkOperator *system;
-    const double *displacement, *velocity;   // [system->dof_count]
-    double time;
-} FieldUnknowns;
-
 bool field_files_create(const Mesh *mesh, const Interface *interface, FieldFiles *files,
                         Error *err);
 void field_files_destroy(FieldFiles *files);
 
 bool field_files_write_bulk(FieldFiles *files, const FieldState *state, const char *path,
                             Error *err);
-bool field_files_recover_bulk(FieldFiles *files, const FieldUnknowns *seen, const char *path,
-                              Error *err);
 // line: [FIELD_LINE_ARRAYS][line_point_count]: slip rate, u_x, gap, pressure, shear stress, contact
 // density.
 bool field_files_write_line(FieldFiles *files, const double *line, double time, const char *path,

@@ -47,22 +47,40 @@ static void add_time(Fields *fields, double time)
     add_entry(fields, time, "interface", line);
 }
 
+// The mesh in all times that wait: its modes, tens of megabytes, come from memory once for them.
+static void recover_waiting(Fields *fields, int32_t slot, int32_t waiting)
+{
+    const double *unknowns[2 * FIELD_SLOTS];
+    double *whole[2 * FIELD_SLOTS];
+    for (int32_t k = 0; k < 2 * waiting; k++) {
+        const FieldTimeCopy *copy = &fields->slots[(slot + k / 2) % FIELD_SLOTS];
+        unknowns[k] = copy->unknowns[k % 2];
+        whole[k] = copy->whole[k % 2];
+    }
+    bulk_operator_recover_each(fields->system, 2 * waiting, unknowns, whole);
+    fields->recovered = waiting;
+}
+
 // The list is written anew whenever no other time waits: a run that is cut off leaves one that
 // opens. For a Worker.
-static bool write_time(void *self, int32_t slot, bool last, Error *err)
+static bool write_time(void *self, int32_t slot, int32_t waiting, Error *err)
 {
     Fields *fields = self;
     const FieldTimeCopy *copy = &fields->slots[slot];
     char bulk[NAME_SIZE - 8], line[NAME_SIZE - 8], path[PATH_SIZE];
+    FieldState state = {
+        .displacement = copy->whole[0], .velocity = copy->whole[1], .time = copy->time};
     double started = clock_seconds();
+    if (fields->recovered == 0) recover_waiting(fields, slot, waiting);
+    fields->recovered--;
     name_files(fields->entry_count / 2, bulk, line);
     snprintf(path, sizeof path, "%s/fields/%s", fields->folder, bulk);
-    TRY(field_files_recover_bulk(&fields->files, &copy->block, path, err));
+    TRY(field_files_write_bulk(&fields->files, &state, path, err));
     snprintf(path, sizeof path, "%s/fields/%s", fields->folder, line);
-    TRY(field_files_write_line(&fields->files, copy->line, copy->block.time, path, err));
-    add_time(fields, copy->block.time);
+    TRY(field_files_write_line(&fields->files, copy->line, copy->time, path, err));
+    add_time(fields, copy->time);
     snprintf(path, sizeof path, "%s/fields.pvd", fields->folder);
-    if (last || fields->entry_count / 2 % LIST_EVERY == 0)
+    if (waiting == 1 || fields->entry_count / 2 % LIST_EVERY == 0)
         TRY(field_file_write_pvd(path, fields->entries, fields->entry_count, err));
 cleanup:
     fields->seconds_beside += clock_seconds() - started;
@@ -110,18 +128,19 @@ bool fields_flush(Fields *fields, Error *err)
 // At the first time that is written: until then nobody knows the system.
 static bool start_writer(Fields *fields, const Observation *seen, Error *err)
 {
-    int64_t dofs = seen->system->dof_count;
+    int64_t dofs = seen->system->dof_count, whole = 2 * (int64_t)fields->files.mesh->node_count;
     int64_t line = (int64_t)FIELD_LINE_ARRAYS * seen->interface->contact_count;
     WorkerDef def = {.slots = FIELD_SLOTS, .work = write_time, .context = fields};
     if (fields->writer) return true;
+    fields->system = seen->system;
     for (int32_t k = 0; k < FIELD_SLOTS; k++) {
         FieldTimeCopy *copy = &fields->slots[k];
-        if (!copy->storage) copy->storage = NEW_ARRAY(double, 2 * dofs + line, err);
+        if (!copy->storage) copy->storage = memory_bytes(8 * (2 * dofs + 2 * whole + line), err);
         TRY(copy->storage);
-        copy->block = (FieldUnknowns){.system = seen->system,
-                                      .displacement = copy->storage,
-                                      .velocity = copy->storage + dofs};
-        copy->line = copy->storage + 2 * dofs;
+        double *next = copy->storage;
+        for (int d = 0; d < 2; d++, next += dofs) copy->unknowns[d] = next;
+        for (int d = 0; d < 2; d++, next += whole) copy->whole[d] = next;
+        copy->line = next;
     }
     TRY(worker_create(&def, &fields->writer, err));
 cleanup:
@@ -179,9 +198,9 @@ static bool hand_over(Fields *fields, const Observation *seen, Error *err)
     int64_t dofs = seen->system->dof_count;
     TRY(worker_slot(fields->writer, &slot, err));
     FieldTimeCopy *copy = &fields->slots[slot];
-    copy->block.time = seen->t;
-    memcpy(copy->storage, seen->state->displacement, (size_t)dofs * sizeof(double));
-    memcpy(copy->storage + dofs, seen->state->velocity, (size_t)dofs * sizeof(double));
+    copy->time = seen->t;
+    memcpy(copy->unknowns[0], seen->state->displacement, (size_t)dofs * sizeof(double));
+    memcpy(copy->unknowns[1], seen->state->velocity, (size_t)dofs * sizeof(double));
     copy_line(fields, seen, copy->line);
     worker_submit(fields->writer);
 cleanup:

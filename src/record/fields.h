@@ -20,9 +20,11 @@ enum { FIELD_SLOTS = 8 };
 
 // What the writer needs of one time.
 typedef struct FieldTimeCopy {
-    double *storage;   // of the unknowns and of `line`; owned
-    FieldUnknowns block;
+    double *storage;   // of all that follows; owned
+    double *unknowns[2];   // [dof_count] displacement and velocity of the system that is stepped
+    double *whole[2];   // [2 * nodes] of the mesh: the writer's
     double *line;   // [FIELD_LINE_ARRAYS * contact_count]
+    double time;
 } FieldTimeCopy;
 
 typedef struct Fields {
@@ -33,6 +35,8 @@ typedef struct Fields {
     FieldFiles files;   // owned, like all that follows
     Worker *writer;   // NULL until the first time is written
     FieldTimeCopy slots[FIELD_SLOTS];
+    const BulkOperator *system;   // not owned; set with the writer
+    int32_t recovered;   // the writer's: slots from the next on whose mesh is recovered
     FieldSeriesEntry *entries;   // [entry_count]
     char (*names)[40];   // [entry_count] file names the entries point to
     int32_t entry_count;

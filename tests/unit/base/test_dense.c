@@ -182,7 +182,7 @@ static void test_two_vectors_at_once(void **state)
     for (int32_t k = 0; k < ROWS * COLUMNS; k++) a[k] = random_between(&random, -1, 1);
     for (int32_t k = 0; k < 2 * COLUMNS; k++) x[0][k] = random_between(&random, -1, 1);
     DenseView view = {a, ROWS, COLUMNS};
-    dense_apply_both(view, (const double *[]){x[0], x[1]}, (double *[]){y[0], y[1]});
+    dense_apply_each(view, 2, (const double *[]){x[0], x[1]}, (double *[]){y[0], y[1]});
     for (int k = 0; k < 2; k++) {
         dense_apply(view, x[k], 1, 0, one);
         assert_memory_equal(y[k], one, sizeof one);

@@ -22,19 +22,24 @@ typedef struct Rig {
     Worker *worker;
     int32_t job[SLOTS];
     int32_t done[JOBS], count, lasts;
+    int32_t together, wrong;   // jobs met in line behind one; those not where they should be
     bool last;
     int32_t fails_at;   // job; -1: none
     useconds_t takes;
 } Rig;
 
-static bool work(void *context, int32_t slot, bool last, Error *err)
+static bool work(void *context, int32_t slot, int32_t waiting, Error *err)
 {
     Rig *rig = context;
+    for (int32_t k = 0; k < waiting; k++)
+        rig->wrong += rig->job[(slot + k) % SLOTS] != rig->job[slot] + k;
+    rig->together += waiting - 1;
+    rig->wrong += waiting < 1 || waiting > SLOTS;
     usleep(rig->takes);
     if (rig->job[slot] == rig->fails_at) FAIL(err, ERROR_FILE, "job %d", rig->fails_at);
     rig->done[rig->count++] = rig->job[slot];
-    rig->last = last;
-    rig->lasts += last;
+    rig->last = waiting == 1;
+    rig->lasts += rig->last;
 cleanup:
     return error_is_clean(err);
 }
@@ -77,7 +82,8 @@ static void jobs_are_done_in_order(void **state)
         assert_true(worker_wait(rig.worker, &err));
         expect_all(&rig, JOBS);
         assert_true(rig.last);
-        if (takes > 0) assert_true(rig.lasts < JOBS);
+        if (takes > 0) assert_true(rig.lasts < JOBS && rig.together > JOBS / 2);
+        assert_int_equal(rig.wrong, 0);
         worker_destroy(rig.worker);
     }
     assert_int_equal(memory_counters().live, live);
@@ -112,9 +118,9 @@ static void after_a_failure_nothing_is_done(void **state)
     expect_all(&rig, 5);
 }
 
-static bool note_codes(void *context, int32_t slot, bool last, Error *err)
+static bool note_codes(void *context, int32_t slot, int32_t waiting, Error *err)
 {
-    (void)slot, (void)last, (void)err;
+    (void)slot, (void)waiting, (void)err;
     snprintf(context, 40, "%s", nl_langinfo(CODESET));
     return true;
 }
