@@ -37,6 +37,7 @@ namespace
 
 constexpr int mesh_level = 1;   // zlib's; level 9 takes 60 times as long and saves a tenth
 constexpr int stored_level = 0;
+constexpr int block_bytes = 1 << 20;   // of 32 kB, as VTK has them, zlib is set up 25 times a file
 constexpr int caller_keeps = 1;   // VTK must not free the array ("save")
 
 // VTK's array over the caller's values, which it reads and never changes.
@@ -94,11 +95,12 @@ vtkSmartPointer<vtkCellArray> make_cells(const FieldGrid &grid)
     return cells;
 }
 
-// Blocks of the last file of this thread, in their order, before and after compression.
+// Blocks of the last file of each format of this thread, in their order, before and after
+// compression: a run writes both kinds in turn.
 struct Block {
     std::vector<unsigned char> plain, packed;
 };
-thread_local std::vector<Block> last_blocks;
+thread_local std::vector<Block> last_blocks[2];
 
 // zlib's format, as every reader of VTK's files knows it. What a run writes again and again, the
 // mesh, is compressed once. Values at nodes are stored: level 1 takes 15 times as long as all else
@@ -108,9 +110,10 @@ class MeshCompressor : public vtkZLibDataCompressor
   public:
     static MeshCompressor *New();   // no vtkTypeMacro: files name the class that reads them
 
-    void begin(const FieldGrid *of)
+    void begin(const FieldGrid *of, FieldFormat format)
     {
         grid = of;
+        last = &last_blocks[format == FIELD_VTP];
     }
 
   protected:
@@ -118,8 +121,8 @@ class MeshCompressor : public vtkZLibDataCompressor
                           size_t room) override
     {
         if (is_value(plain)) return pack(plain, size, packed, room, stored_level);
-        if (next == last_blocks.size()) last_blocks.emplace_back();
-        Block &block = last_blocks[next++];
+        if (next == last->size()) last->emplace_back();
+        Block &block = (*last)[next++];
         if (!std::equal(plain, plain + size, block.plain.begin(), block.plain.end())) {
             size_t length = pack(plain, size, packed, room, mesh_level);
             block.plain.assign(plain, plain + size);
@@ -132,6 +135,7 @@ class MeshCompressor : public vtkZLibDataCompressor
 
   private:
     const FieldGrid *grid = nullptr;
+    std::vector<Block> *last = nullptr;
     size_t next = 0;
 
     size_t pack(const unsigned char *plain, size_t size, unsigned char *packed, size_t room,
@@ -170,13 +174,14 @@ bool write(vtkXMLWriter *writer, const FieldGrid &grid, const FieldOutput &outpu
     observer->SetCallback(keep_first);
     observer->SetClientData(&message);
     vtkNew<MeshCompressor> compressor;
-    compressor->begin(&grid);
+    compressor->begin(&grid, output.format);
     compressor->AddObserver("ErrorEvent", observer);
     writer->AddObserver("ErrorEvent", observer);
     writer->SetCompressor(compressor);
     writer->SetDataModeToAppended();
     writer->EncodeAppendedDataOff();
     writer->SetHeaderTypeToUInt64();
+    writer->SetBlockSize(block_bytes);
     writer->WriteToOutputStringOn();
     if (writer->Write() != 1 || !message.empty()) {
         error_set(err, ERROR_LIBRARY, __FILE__, __LINE__, "VTK cannot write the grid: %s",
