@@ -40,11 +40,6 @@ void error_clear(Error *err)
     *err = (Error){0};
 }
 
-bool error_is_clean(const Error *err)
-{
-    return err->code == ERROR_NONE;
-}
-
 // From the table of codes in the header; 1 for a number that is no code.
 int amontons_error_exit_status(ErrorCode code)
 {

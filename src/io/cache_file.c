@@ -71,7 +71,7 @@ bool cache_file_write(const char *path, const char *key, const CacheArray *array
     Hash hash = hash_start();
     char head[HEAD_SIZE], digest[HASH_TEXT_SIZE];
     fill_head(key, head);
-    if (!part_file_create(&part, path, err)) {
+    if (!part_file_try(&part, path, err)) {
         if (part.taken) error_clear(err);   // it writes the same: the key says so
         goto cleanup;
     }

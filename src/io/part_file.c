@@ -3,6 +3,7 @@
 // clean up. rename(2) is atomic within a file system, which a file and its .part share.
 #include "io/part_file.h"
 
+#include "base/clock.h"
 #include "io/file_lock.h"
 
 #include <errno.h>
@@ -10,7 +11,12 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/file.h>
+#include <time.h>
 #include <unistd.h>
+
+// A process that drew for one that was killed takes a moment to end, and its lock with it.
+static const double LOCK_WAIT = 1;   // s
+static const struct timespec PAUSE = {.tv_nsec = 10000000};   // between two tries: 10 ms
 
 bool part_file_name(const char *path, char *part)
 {
@@ -23,8 +29,9 @@ bool part_file_name(const char *path, char *part)
 // Opens the part and locks it, and checks that the name is still that of what was locked (another
 // writer may have renamed it meanwhile); else again. flags: O_CREAT or none. Not emptied when
 // opened (O_TRUNC): only the holder of the lock may do that.
-static bool open_part(PartFile *file, const char *path, int flags, Error *err)
+static bool open_part(PartFile *file, const char *path, int flags, double wait, Error *err)
 {
+    double until = clock_seconds() + wait;
     while (!file->open) {
         file->descriptor = open(file->part, O_RDWR | O_CLOEXEC | flags, 0666);
         if (file->descriptor < 0)
@@ -33,6 +40,7 @@ static bool open_part(PartFile *file, const char *path, int flags, Error *err)
         // Not every file system can lock; only a lock that another process holds is an error.
         if (flock(file->descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
             part_file_leave(file);
+            if (clock_seconds() < until && nanosleep(&PAUSE, NULL) == 0) continue;
             file->taken = true;
             FAIL(err, ERROR_FILE, "cannot write %s: another process is writing %s", path,
                  file->part);
@@ -53,10 +61,10 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool part_file_create(PartFile *file, const char *path, Error *err)
+static bool create_part(PartFile *file, const char *path, double wait, Error *err)
 {
     TRY(name_part(file, path, err));
-    TRY(open_part(file, path, O_CREAT, err));
+    TRY(open_part(file, path, O_CREAT, wait, err));
     if (ftruncate(file->descriptor, 0) != 0) {
         int cause = errno;
         part_file_leave(file);
@@ -66,12 +74,22 @@ cleanup:
     return error_is_clean(err);
 }
 
+bool part_file_create(PartFile *file, const char *path, Error *err)
+{
+    return create_part(file, path, LOCK_WAIT, err);
+}
+
+bool part_file_try(PartFile *file, const char *path, Error *err)
+{
+    return create_part(file, path, 0, err);
+}
+
 bool part_file_reopen(PartFile *file, const char *path, Error *err)
 {
     TRY(name_part(file, path, err));
     if (rename(path, file->part) != 0 && errno != ENOENT)
         FAIL(err, ERROR_FILE, "cannot go on with %s: %s", path, strerror(errno));
-    TRY(open_part(file, path, 0, err));
+    TRY(open_part(file, path, 0, LOCK_WAIT, err));
 cleanup:
     return error_is_clean(err);
 }

@@ -25,8 +25,10 @@ typedef struct PartFile {
 bool part_file_name(const char *path, char *part);
 
 // Opens an empty `path`.part and locks it against other writers; what a killed process left there
-// is overwritten. ERROR_FILE names the path and the cause, here and below.
+// is overwritten, and its lock waited for, for a second. ERROR_FILE names the path and the cause,
+// here and below.
 bool part_file_create(PartFile *file, const char *path, Error *err);
+bool part_file_try(PartFile *file, const char *path, Error *err);   // the same without waiting
 // Opens what there is of `path` to be gone on with: its .part, or the finished file, which is
 // called .part again until it is committed. ERROR_FILE where there is neither.
 bool part_file_reopen(PartFile *file, const char *path, Error *err);

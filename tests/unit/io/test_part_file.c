@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -90,6 +91,32 @@ static void commit_gives_the_name_and_leave_does_not(void **state)
     part_file_leave(&file);
     assert_content(path, "first");
     assert_content(part, "none");
+}
+
+// Who was killed takes a moment to end.
+static void a_writer_that_ends_is_waited_for(void **state)
+{
+    (void)state;
+    int ends[2];
+    char byte = 0;
+    assert_int_equal(pipe(ends), 0);
+    pid_t child = fork();
+    if (child == 0) {
+        PartFile file;
+        Error err = {0};
+        bool done = part_file_create(&file, path, &err) && write(ends[1], "x", 1) == 1;
+        usleep(50000);
+        _exit(done ? 0 : 1);
+    }
+    assert_int_equal(read(ends[0], &byte, 1), 1);
+    PartFile file;
+    create(&file, "after");
+    part_file_discard(&file);
+    int status = 1;
+    waitpid(child, &status, 0);
+    assert_int_equal(status, 0);
+    close(ends[0]);
+    close(ends[1]);
 }
 
 static void two_writers_do_not_meet(void **state)
@@ -188,6 +215,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(commit_gives_the_name_and_leave_does_not, forget_files),
+        cmocka_unit_test(a_writer_that_ends_is_waited_for),
         cmocka_unit_test_teardown(two_writers_do_not_meet, forget_files),
         cmocka_unit_test_teardown(a_reader_keeps_the_file_it_opened, forget_files),
         cmocka_unit_test_teardown(a_failed_commit_keeps_what_was_written, forget_files),
