@@ -139,12 +139,13 @@ static Axes frame_axes(const Page *page, const FigureInput *input, const Strip *
     const Block *block = &strip->blocks[k];
     Axis U = figure_length_axis(input->view, "U", block->U, block->U);
     Axes axes = {0};
+    int32_t line = k / COLUMNS;
     TextStyle style = {.size = SMALL_SIZE * point, .color = INK};
     block_page_ranges(strip->extent, strip->scale, SHARE, &axes);
     axes.box.left = round((LEFT + k % COLUMNS * (strip->width + GAP)) * point);
     axes.box.right = axes.box.left + round(strip->width * point);
     axes.box.top = page->head +
-                   round((WORDS_HEIGHT + k / COLUMNS * (strip->height + WORDS_HEIGHT)) * point);
+                   round((WORDS_HEIGHT + line * (strip->height + WORDS_HEIGHT)) * point);
     axes.box.bottom = axes.box.top + round(strip->height * point);
     snprintf(words, sizeof words, "(%c)  %s = %.6g", 'a' + k, U.label, block->U * U.factor);
     text_draw(page->text, &style, (Point){axes.box.left, axes.box.top - 1.5 * point}, words);

@@ -62,8 +62,9 @@ static Box frame_of(const Page *page, const GridPage *grid, int32_t k)
 {
     double across = grid->width + BETWEEN * page->point;
     double down = grid->height + TITLE_HEIGHT * page->point;
+    int32_t line = k / grid->columns;
     Box box = {.left = round(grid->left + across * (k % grid->columns)),
-               .top = round(grid->top + down * (k / grid->columns))};
+               .top = round(grid->top + down * line)};
     box.right = box.left + grid->width;
     box.bottom = box.top + grid->height;
     return box;

@@ -90,7 +90,10 @@ void shape_hatch(Canvas *canvas, const Stroke *stroke, const Box *box, double sp
 {
     double height = box->bottom - box->top;
     canvas_clip(canvas, box);
-    for (double x = box->left - height; x < box->right; x += spacing)
+    double x = box->left - height;
+    while (x < box->right) {
         shape_segment(canvas, stroke, (Point){x, box->bottom}, (Point){x + height, box->top});
+        x += spacing;
+    }
     canvas_clip(canvas, NULL);
 }

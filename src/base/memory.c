@@ -98,9 +98,9 @@ cleanup:
 
 char *memory_text(const char *text, Error *err)
 {
-    size_t length = strlen(text);
-    char *copy = memory_array((int64_t)length + 1, 1, err);
-    if (copy) memcpy(copy, text, length);
+    size_t size = strlen(text) + 1;
+    char *copy = memory_array((int64_t)size, 1, err);
+    if (copy) memcpy(copy, text, size);
     return copy;
 }
 

@@ -34,7 +34,7 @@ static bool build_graph(const Mesh *mesh, NodeGraph *graph, Error *err)
     int32_t nodes = mesh->node_count;
     int32_t *filled = NEW_ARRAY(int32_t, nodes, err);
     graph->start = NEW_ARRAY(int32_t, (int64_t)nodes + 1, err);
-    if (!filled || !graph->start) goto cleanup;
+    TRY(filled && graph->start);
     for (int32_t e = 0; e < mesh->element_count; e++) {
         int32_t first = mesh->first_node[e], count = mesh->first_node[e + 1] - first;
         for (int32_t a = 0; a < count; a++)
@@ -42,7 +42,7 @@ static bool build_graph(const Mesh *mesh, NodeGraph *graph, Error *err)
     }
     for (int32_t i = 0; i < nodes; i++) graph->start[i + 1] += graph->start[i];
     graph->neighbour = NEW_ARRAY(int32_t, graph->start[nodes], err);
-    if (!graph->neighbour) goto cleanup;
+    TRY(graph->neighbour);
     for (int32_t e = 0; e < mesh->element_count; e++) {
         const int32_t *element = mesh->element_nodes + mesh->first_node[e];
         int32_t count = mesh->first_node[e + 1] - mesh->first_node[e];
@@ -188,7 +188,7 @@ void curve_add_weights(const Mesh *mesh, const MeshCurve *curve, double *weight)
 {
     for (int32_t edge = 0; edge < curve->edge_count; edge++) {
         const int32_t *nodes = curve->edge_nodes + (int64_t)edge * curve->nodes_per_edge;
-        double share[3];
+        double share[3] = {0};
         share_edge(fabs(mesh->position[2 * nodes[1]] - mesh->position[2 * nodes[0]]),
                    curve->nodes_per_edge, share);
         for (int32_t a = 0; a < curve->nodes_per_edge; a++)
@@ -201,7 +201,7 @@ void bulk_add_traction(const Mesh *mesh, const MeshCurve *curve, const double tr
                        Bulk *bulk)
 {
     for (int32_t edge = 0; edge < curve->edge_count; edge++) {
-        double share[3];
+        double share[3] = {0};
         edge_weights(mesh, curve, edge, share);
         for (int32_t a = 0; a < curve->nodes_per_edge; a++) {
             int32_t node = curve->edge_nodes[edge * curve->nodes_per_edge + a];

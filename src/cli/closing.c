@@ -132,8 +132,8 @@ static void print_answers(const RunSummary *summary)
     printf("  steps           %lld accepted, %lld repeated (%lld: error too large, %lld: slip "
            "could have grown, %lld: no solution)\n",
            (long long)counters->accepted,
-           (long long)(counters->rejected + counters->unsolved_retries),
-           (long long)(counters->rejected - counters->rejected_uncertified),
+           (long long)counters->rejected + (long long)counters->unsolved_retries,
+           (long long)counters->rejected - (long long)counters->rejected_uncertified,
            (long long)counters->rejected_uncertified, (long long)counters->unsolved_retries);
     printf("  time taken      %.1f s (solving %.1f, output %.1f)\n", summary->seconds_total,
            summary->seconds_solve, summary->seconds_output);

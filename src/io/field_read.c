@@ -65,8 +65,8 @@ static bool find_kind(double type, uint8_t *kind)
                                                       [ELEMENT_Q4] = 9,
                                                       [ELEMENT_Q8] = 23,
                                                       [ELEMENT_Q9] = 28};
-    for (uint8_t k = 0; k < ELEMENT_KIND_COUNT; k++) {
-        *kind = k;
+    for (int k = 0; k < ELEMENT_KIND_COUNT; k++) {
+        *kind = (uint8_t)k;
         if (types[k] == type) return true;
     }
     return false;

@@ -35,7 +35,7 @@ void folder_relative(const char *folder, const char *file, char *path, int32_t s
     snprintf(path, (size_t)size, "%s", file);
     if (!realpath(folder, from) || !realpath(file, to)) return;
     size_t shared = 0, used = 0;   // bytes, up to the last slash behind which names differ
-    if (from[1]) strcat(from, "/");
+    if (from[1]) snprintf(from + strlen(from), 2, "/");
     for (size_t k = 0; from[k] && from[k] == to[k]; k++)
         if (from[k] == '/') shared = k + 1;
     for (const char *rest = from + shared; (rest = strchr(rest, '/')); rest++)

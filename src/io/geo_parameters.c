@@ -231,7 +231,7 @@ bool geo_parameters_check(const GeoParameters *known, const char *path, const Me
     for (int32_t k = 0; k < given_count; k++) {
         const GeoParameter *item = find_parameter(known, given[k].name);
         bool is_text = given[k].text[0] != '\0';
-        if (!item) TRY(fail_unknown(known, path, given[k].name, err));
+        if (!item) return fail_unknown(known, path, given[k].name, err);
         if (item->is_text && !is_text)
             FAIL(err, ERROR_INPUT, "%s: parameter '%s' is a text, found the number %g", path,
                  item->name, given[k].value);

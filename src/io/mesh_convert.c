@@ -66,9 +66,9 @@ static bool table_build(const MeshRaw *raw, const char *path, NodeTable *table, 
     table->count = (int32_t)raw->node_count;
     for (int32_t k = 0; k < table->count; k++) tags[k] = (TagAt){raw->node_number[k], k};
     qsort(tags, (size_t)table->count, sizeof *tags, compare_tags);
-    if (!(table->number = NEW_ARRAY(int64_t, table->count, err))) goto cleanup;
-    if (!(table->source = NEW_ARRAY(int64_t, table->count, err))) goto cleanup;
-    if (!(table->index = NEW_ARRAY(int32_t, table->count, err))) goto cleanup;
+    TRY((table->number = NEW_ARRAY(int64_t, table->count, err)));
+    TRY((table->source = NEW_ARRAY(int64_t, table->count, err)));
+    TRY((table->index = NEW_ARRAY(int32_t, table->count, err)));
     for (int32_t k = 0; k < table->count; k++) {
         table->number[k] = tags[k].number;
         table->source[k] = tags[k].source;

@@ -187,8 +187,8 @@ bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t p
     if (parameter_count > 0)
         memcpy(given.list, parameters, (size_t)parameter_count * sizeof *parameters);
     TRY(check_file(path, err));
-    bool trusted = getenv("AMONTONS_TRUST") && *getenv("AMONTONS_TRUST");
-    if (!trusted) TRY(geo_commands_refuse(path, request.generate, err));
+    const char *trusted = getenv("AMONTONS_TRUST");
+    if (!trusted || !*trusted) TRY(geo_commands_refuse(path, request.generate, err));
     if (request.generate)
         TRY(check_geo(path, &given, &request.splits, err));
     else

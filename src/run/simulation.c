@@ -194,7 +194,7 @@ bool amontons_simulation_create(const Scene *scene, const RunOptions *options, S
     SavedState state = {0};
     *out = NULL;
     Simulation *simulation = NEW_ARRAY(Simulation, 1, err);
-    if (!simulation) goto cleanup;
+    TRY(simulation);
     *out = simulation;   // also when a stage fails: what is there can be reported and destroyed
     simulation->scene = *scene;
     simulation->options = *options;
