@@ -28,7 +28,9 @@ bool cache_folder_path(char path[PATH_MAX])
         length = snprintf(path, PATH_MAX, "%s/amontons", base);
     else if (home && home[0])
         length = snprintf(path, PATH_MAX, "%s/.cache/amontons", home);
-    return length > 0 && length < PATH_MAX;
+    bool fits = length > 0 && length < PATH_MAX;
+    if (!fits) path[0] = 0;
+    return fits;
 }
 
 // What is no number of bytes is as good as not given; `amontons cache` says which limit holds.

@@ -205,7 +205,7 @@ static void test_run(void **state)
     open_scene((const char *const[]){"time.until={t: 1}", "time.step_max=0.5",
                                      "output.fields={every_t: 0.5}", "output.figures=[force]",
                                      "reduction.use=always", "reduction.cache=true", NULL});
-    try_all(run, 67);
+    try_all(run, 97);
     try_all(look, 13);
     try_all(draw, 41);
     try_all(report, 101);
@@ -230,7 +230,7 @@ static void test_studies(void **state)
     (void)state;
     open_scene((const char *const[]){"time.until={t: 1}", "reduction.use=never", NULL});
     try_all(equilibrium, 31);
-    try_all(stability, 53);
+    try_all(stability, 73);
     close_scene();
     open_scene((const char *const[]){"load.pressure=0.03", "time.until={U: 1e-4}", "mesh.set.nx=10",
                                      "mesh.set.nz=10", "rod.width=0.05", NULL});
@@ -255,7 +255,7 @@ static void test_sweep(void **state)
 {
     (void)state;
     write_study();
-    try_all(sweep, 139);
+    try_all(sweep, 199);
     try_all(draw_sweep, 29);
     try_all(report, 101);
 }

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The closing lines of a run, for answers that few runs come to; times in words.
+#include "cli/closing.h"
+
+#include "cli/progress.h"
+#include "near.h"
+#include "result_place.h"
+
+static char *text = NULL;
+static size_t size = 0;
+
+// What closing_print says, until the next call.
+static const char *closing(const char *title, const RunSummary *summary)
+{
+    FILE *usual = stdout;
+    free(text);
+    stdout = open_memstream(&text, &size);
+    closing_print(title, summary);
+    fclose(stdout);
+    stdout = usual;
+    return text;
+}
+
+static void assert_says(const char *said, const char *words)
+{
+    if (!strstr(said, words)) fail_msg("'%s' is not in\n%s", words, said);
+}
+
+static RunSummary no_answers(void)
+{
+    return (RunSummary){.mu_M = NAN,
+                        .mu_hold = NAN,
+                        .mu_M_error = NAN,
+                        .mu_hold_error = NAN,
+                        .mu_M_spread = NAN,
+                        .mu_M_parts = {NAN, NAN, NAN},
+                        .mu_hold_parts = {NAN, NAN, NAN},
+                        .critical_length = NAN,
+                        .slip_cells = NAN};
+}
+
+static void test_static_friction(void **state)
+{
+    (void)state;
+    RunSummary summary = no_answers();
+    const char *said = closing("", &summary);
+    assert_true(strncmp(said, "done\n", 5) == 0);
+    assert_says(said, "mu_M            none: the block as a whole did not slide in this run");
+    assert_says(said, "critical length not reached");
+    assert_null(strstr(said, "Results in"));
+    summary.peaks = 3;
+    assert_says(closing("A", &summary), "after the start only parts of the block slid");
+    summary.mu_M = 0.25;
+    summary.peaks_counted = 1;
+    said = closing("A", &summary);
+    assert_true(strncmp(said, "A: done\n", 8) == 0);
+    assert_says(said, "mu_M            0.2500: static friction, mean of the last 1 of 3 peaks");
+    assert_null(strstr(said, "they differ"));
+    summary.mu_M_spread = 0.01;
+    assert_says(closing("", &summary), "they differ by at most 0.0100; not periodic yet\n");
+    summary.period = 1;
+    assert_says(closing("", &summary), "they differ by at most 0.0100\n");
+    summary.period = 2;
+    summary.mu_M_error = 0.002;
+    said = closing("", &summary);
+    assert_says(said, "0.2500 +- 0.002: static");
+    assert_says(said, "at most 0.0100 and repeat after 2 slidings\n");
+    assert_says(said, "+- is that of 1 peaks alone");
+}
+
+static void test_what_holds(void **state)
+{
+    (void)state;
+    RunSummary summary = no_answers();
+    assert_says(closing("", &summary), "mu_hold         none: the load did not drop");
+    summary.mu_hold = 0.2;
+    summary.drops = 7;
+    const char *said = closing("", &summary);
+    assert_says(said, "0.2000 so far: what the contact holds, the lowest tenth of 7 load ratios");
+    assert_says(said, "too few to say");
+    summary.drops_enough = true;
+    assert_says(closing("", &summary), "which do not repeat");
+    summary.drop_period = 1;
+    said = closing("", &summary);
+    assert_says(said, "the lowest of 7 load ratios");
+    assert_null(strstr(said, "which repeat"));
+    summary.drop_period = 3;
+    assert_says(closing("", &summary), "which repeat after 3\n");
+    summary.slip_cells = 1;
+    assert_says(closing("", &summary), "resolution      1 cell of the contact slipped");
+    summary.slip_cells = 2.5;
+    summary.slip_length = 0.125;
+    snprintf(summary.slip_pad, sizeof summary.slip_pad, "pad_2");
+    assert_says(closing("", &summary), "2.5 cells of the contact slipped where slow slip turned "
+                                       "fast, on pad_2 over 0.125");
+}
+
+static void test_error_bars(void **state)
+{
+    (void)state;
+    RunSummary summary = no_answers();
+    summary.bar_runs = 4;
+    summary.bar_meshes = 1;
+    summary.bar_nodes = 21;
+    summary.bar_wanted = 0.01;
+    summary.bar_window = 0.02;
+    summary.bar_ended = "no time for more";
+    const char *said = closing("", &summary);
+    assert_says(said, "error bar       not known, 1.0 % asked for: no time for more");
+    assert_says(said, "from 4 runs on 1 mesh of up to 21 contact nodes, at pressures within 2 %");
+    summary.mu_hold = 0.2;
+    summary.mu_hold_error = 0.003;
+    said = closing("", &summary);
+    assert_says(said, "error bar       1.5 % of mu_hold");
+    assert_says(said, "+- 0.003 so far:");   // no part is known
+    summary.mu_hold_parts[1] = 0.001;
+    assert_says(closing("", &summary), "+- 0.003 (branches 0.001) so far:");
+    summary.mu_M = 0.25;
+    summary.bar_meshes = 2;
+    said = closing("", &summary);
+    assert_says(said, "0.2500 (its error is not known): static friction");
+    assert_says(said, "on 2 meshes");
+    summary.mu_M_error = 0.005;
+    summary.mu_M_parts[0] = 0.004;
+    summary.mu_M_parts[2] = 0.003;
+    said = closing("", &summary);
+    assert_says(said, "+- 0.005 (mesh 0.004, drops 0.003): static friction");
+    assert_says(said, "error bar       2.0 % of mu_M");
+}
+
+// Files are named where they are.
+static void test_files(void **state)
+{
+    (void)state;
+    char place[PLACE_SIZE];
+    RunSummary summary = no_answers();
+    place_make(place);
+    snprintf(summary.folder, sizeof summary.folder, "%s", place);
+    summary.figures = 2;
+    summary.field_files = 3;
+    summary.critical_length = 0.5;
+    place_write(place, "run.json", "{}");
+    place_write(place, "fields.pvd", "");
+    const char *said = closing("", &summary);
+    assert_says(said, "critical length 0.500 of the block's length");
+    assert_says(said, "run.json        scene, answers");
+    assert_says(said, "fields.pvd      3 times of the whole block");
+    assert_null(strstr(said, "history.h5"));
+    assert_null(strstr(said, "figures/"));   // the folder is not there
+    mkdir(place_path(place, "figures"), 0777);
+    place_write(place, "figures/b.png", "");
+    place_write(place, "figures/a.png", "");
+    place_write(place, "figures/a.json", "");
+    place_write(place, "figures/png", "");
+    said = closing("", &summary);
+    assert_says(said, "  figures/a.png\n  figures/b.png\n");
+    assert_null(strstr(said, "a.json"));
+    assert_null(strstr(said, "figures/png"));
+    place_remove(place);
+}
+
+static void test_times(void **state)
+{
+    (void)state;
+    static const struct {
+        double seconds;
+        const char *words;
+    } cases[] = {{NAN, "-:--"}, {0, "0:00"}, {65, "1:05"}, {3599, "59:59"}, {7420, "2:03:40"}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char words[32];
+        progress_format_left(cases[k].seconds, words, sizeof words);
+        assert_string_equal(words, cases[k].words);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_static_friction), cmocka_unit_test(test_what_holds),
+        cmocka_unit_test(test_error_bars),      cmocka_unit_test(test_files),
+        cmocka_unit_test(test_times),
+    };
+    int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    free(text);
+    return failed;
+}
