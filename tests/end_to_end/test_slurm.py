@@ -2,6 +2,7 @@
 """`amontons sweep --slurm` on a real Slurm of one node: tables against the pool's, ended elements, Ctrl-C, kills."""
 import csv
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -25,6 +26,8 @@ vary:
 rank: {{by: mu_M}}
 """
 FAILING = STUDY.replace("vary:", "cases: [{groups.top: top}, {groups.top: roof}]\nvary:")
+TABLE = STUDY.replace("set: {", "keep: table\nset: {time.until.U: 1e-7, ").replace(
+    "[0.003, 0.004, 0.006]", "{log: [0.003, 0.006], points: 30}")
 ENDLESS = STUDY.replace("set: {", "cases: [{}, {mesh.set.nx: 96, mesh.set.nz: 96, time.tolerance: 1e-12}]\nset: {")
 
 
@@ -186,6 +189,43 @@ class Sweep(unittest.TestCase):
         rows = self.table()
         self.assertEqual([row["status"] for row in rows], ["failed"] * 2 + ["done"] * 4)
         self.assertIn("was changed after the sweep began", rows[0]["message"])
+
+    def test_shares(self):
+        """Without folders of points an element computes many; what it has done stays when it is killed."""
+        self.study(TABLE)
+        process = self.start("--slurm=--hold", "-j", "2")
+        self.wait(lambda: len(self.elements("PENDING")) == 2)
+        lists = [path.read_text().split("\n")[:-1] for path in sorted((self.folder / "out/slurm").glob("share-*.points"))]
+        numbers = [[int(line.split()[0]) for line in lines] for lines in lists]
+        self.assertEqual(sorted(sum(numbers, [])), [k for k in range(60) if k % 4])   # each fourth was tried before
+        self.assertEqual([len(share) for share in numbers], [23, 22])
+        job, index = self.elements("PENDING")[0]
+        self.slurm.call("scancel", f"{job}_{index}")
+        self.release()
+        _, errors = process.communicate(timeout=100)
+        self.assertEqual(process.returncode, 1)
+        self.assertRegex(errors, "2[23] points are not computed, the same command goes on: .*cancelled before it began")
+        waiting = [int(row["point"]) for row in self.table() if row["status"] == "pending"]
+        self.assertEqual(waiting, sorted(numbers[int(index)]))
+        self.assertRegex(self.sweep("--slurm")[0], f"60 points: {len(waiting)} computed")
+        self.sweep(out="pool")
+        self.assertEqual(self.table("pool"), self.table())
+        left = {path.name for path in self.folder.glob("out/**/*")} - {path.name for path in self.folder.glob("out/slurm/*")}
+        self.assertEqual(left, {"lock", "reports", "slurm", "sweep.csv", "sweep.h5", "ranking.csv"})
+        self.assertEqual(list((self.folder / "out/slurm").glob("share-*")), [])
+
+    def test_killed_with_shares(self):
+        """What elements had done when the sweep was killed is found by the next one."""
+        self.study(TABLE.replace("1e-7", "0.006"))
+        process = self.start("--slurm", "-j", "1")
+        share = self.folder / "out/slurm/share-0.reports"
+        self.wait(lambda: share.exists() and share.read_bytes().count(b"\n") > 2)
+        process.kill()
+        process.wait()
+        self.wait(lambda: share.read_bytes().count(b"\n") > 4)   # it goes on without the sweep
+        found = self.sweep("-j", "2")[0]
+        self.assertGreaterEqual(int(re.search(r"(\d+) computed before", found)[1]), 15 + 5)
+        self.assertEqual(list((self.folder / "out/slurm").glob("share-*")), [])
 
     def test_refusals(self):
         _, errors = self.sweep("--slurm=--partition=none", status=1)

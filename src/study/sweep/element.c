@@ -3,10 +3,11 @@
 // has to pass through a shell:
 //
 //     {"directory": ..., "study": ..., "folder": ..., "set_count": 1, "set": ["rod.kind=push"],
-//      "points": [3, 7], "accuracies": [0, 0.005], "hashes": ["97e1...", "62f1..."]}
+//      "first": 0, "points": [3, 7], "accuracies": [0, 0.005], "hashes": ["97e1...", "62f1..."]}
 //
-// Element e computes points[e]. Its scene is made anew and must have the hash that it had when the
-// sweep began: a study that was changed meanwhile would answer another question.
+// Element e computes points[e], with `keep: table` the share first + e. Its scene is made anew and
+// must have the hash that it had when the sweep began: a study that was changed meanwhile would
+// answer another question.
 #include "study/sweep/element.h"
 
 #include "base/dense.h"
@@ -14,6 +15,7 @@
 #include "io/json_reader.h"
 #include "io/json_writer.h"
 #include "io/text_file.h"
+#include "study/sweep/share.h"
 #include "study/sweep/study_point.h"
 #include "study/sweep/study_read.h"
 
@@ -26,8 +28,8 @@ enum { ELEMENTS_BYTES_MAX = 1 << 24, SETTING_SIZE = 1000 };
 
 // Paths are stored as the sweep was given them, with the folder it was called in: errors in an
 // element's report then read as they would in the pool's.
-bool elements_write(const Sweep *sweep, const char *path, const int32_t *points, int32_t count,
-                    Error *err)
+bool elements_write(const Sweep *sweep, const char *path, const int32_t *points, int32_t first,
+                    int32_t count, Error *err)
 {
     const SweepOptions *options = sweep->options;
     char *directory = getcwd(NULL, 0), *folder = realpath(sweep->folder, NULL);
@@ -44,6 +46,8 @@ bool elements_write(const Sweep *sweep, const char *path, const int32_t *points,
     for (int32_t k = 0; k < options->override_count; k++)
         json_text(json, NULL, options->overrides[k]);
     json_end(json);
+    json_integer(json, "first", first);
+    points += first;
     json_begin_list(json, "points");
     for (int32_t k = 0; k < count; k++) json_integer(json, NULL, points[k]);
     json_end(json);
@@ -94,33 +98,40 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Point and hash of the element, and the sweep as far as one point needs it.
-static bool read_element(const char *text, int32_t element, Sweep *sweep, int32_t *point,
-                         Error *err)
+// The sweep as far as an element needs it.
+static bool read_sweep(const char *text, Sweep *sweep, Error *err)
 {
-    char directory[AMONTONS_PATH_SIZE] = "", study[AMONTONS_PATH_SIZE] = "", path[40];
-    double number = -1;
+    char directory[AMONTONS_PATH_SIZE] = "", study[AMONTONS_PATH_SIZE] = "";
     ElementSettings *settings = NEW_ARRAY(ElementSettings, 1, err);
     TRY(settings);
     TRY(read_settings(text, settings, err));
-    snprintf(path, sizeof path, "points.%d", element);
     bool found = json_find_text(text, "directory", directory, sizeof directory) &&
                  json_find_text(text, "study", study, sizeof study) &&
-                 json_find_text(text, "folder", sweep->folder, sizeof sweep->folder) &&
-                 json_find_number(text, path, &number);
-    if (!found) FAIL(err, ERROR_INPUT, "the list of elements has no element %d", element);
+                 json_find_text(text, "folder", sweep->folder, sizeof sweep->folder);
+    if (!found) FAIL(err, ERROR_INPUT, "no list of elements as a sweep writes it");
     if (chdir(directory) != 0)
         FAIL(err, ERROR_FILE, "cannot go to %s: %s", directory, strerror(errno));
     TRY(study_read(study, settings->list, settings->count, &sweep->study, err));
+cleanup:
+    memory_free(settings);
+    return error_is_clean(err);
+}
+
+static bool read_point(const char *text, int32_t element, Sweep *sweep, int32_t *point, Error *err)
+{
+    char path[40];
+    double number = -1;
+    snprintf(path, sizeof path, "points.%d", element);
+    if (!json_find_number(text, path, &number))
+        FAIL(err, ERROR_INPUT, "the list of elements has no element %d", element);
     *point = (int32_t)number;
     if (*point >= sweep->study.point_count)
-        FAIL(err, ERROR_INPUT, "%s has fewer points than when the sweep began", study);
+        FAIL(err, ERROR_INPUT, "%s has fewer points than when the sweep began", sweep->study.path);
     TRY((sweep->points = NEW_ARRAY(SweepPoint, sweep->study.point_count, err)));
     snprintf(path, sizeof path, "accuracies.%d", element);
     json_find_number(text, path, &sweep->points[*point].accuracy);
     find(text, "hashes", element, sweep->points[*point].hash, HASH_TEXT_SIZE);
 cleanup:
-    memory_free(settings);
     return error_is_clean(err);
 }
 
@@ -146,12 +157,21 @@ bool amontons_sweep_element(const char *path, int32_t element, Error *err)
 {
     char *text = NULL, *report = NULL;
     int32_t size = 0, point = -1;
+    double first = 0;
     Error ignored = {0};
+    const SweepOptions none = {0};
     Sweep *sweep = NEW_ARRAY(Sweep, 1, err);
     TRY(sweep);
     dense_use_one_thread();
     TRY(text_file_read(path, ELEMENTS_BYTES_MAX, &text, &size, err));
-    TRY(read_element(text, element, sweep, &point, err));
+    TRY(read_sweep(text, sweep, err));
+    if (sweep->study.keep_table) {
+        json_find_number(text, "first", &first);
+        sweep->options = &none;
+        TRY(share_run(sweep, (int32_t)first + element, err));
+        goto cleanup;
+    }
+    TRY(read_point(text, element, sweep, &point, err));
     TRY(check_scene(sweep, point, err));
     TRY(point_run(sweep, point, &report, err));
 cleanup:

@@ -65,7 +65,7 @@ static int compare_hashes(const void *a, const void *b)
     return order != 0 ? order : one->point - other->point;
 }
 
-// A study may have 100 000 points: none is compared with all others.
+// A study may have a million points: none is compared with all others.
 bool points_sort(Sweep *sweep, PointsByHash *points, Error *err)
 {
     int32_t count = sweep->study.point_count;
@@ -88,6 +88,13 @@ int32_t points_look_up(const PointsByHash *points, const char *hash)
     }
     bool found = low < count && strcmp(points->list[low].hash, hash) == 0;
     return found ? points->list[low].point : -1;
+}
+
+void points_note_place(void *context, const char *hash, ReportPlace place)
+{
+    const PointsByHash *points = context;
+    int32_t point = points_look_up(points, hash);
+    if (point >= 0) points->sweep->points[point].place = place;
 }
 
 bool points_find_same(Sweep *sweep, Error *err)

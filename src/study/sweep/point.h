@@ -71,6 +71,8 @@ typedef struct PointsByHash {
 
 bool points_sort(Sweep *sweep, PointsByHash *points, Error *err);
 int32_t points_look_up(const PointsByHash *points, const char *hash);   // the first; -1: none
+// For a ReportFound; context: PointsByHash.
+void points_note_place(void *points, const char *hash, ReportPlace place);
 // Of points with the same hash the first one is `same_as` of all.
 bool points_find_same(Sweep *sweep, Error *err);
 // run.json of the point (memory_free); NULL without an error when there is none.

@@ -47,7 +47,7 @@ typedef struct Pool {
     int32_t size;   // workers at a time
     Worker *workers;   // [size]; owned
     struct pollfd *polled;   // [size]; owned
-    int32_t next;   // point to look at for the next worker
+    int32_t next, step;   // point to look at for the next worker; to the one behind it
 } Pool;
 
 // Whether all of it came before the other end was closed.
@@ -172,10 +172,11 @@ static bool give_point(Pool *pool, Worker *worker, Error *err)
     Sweep *sweep = pool->sweep;
     while (pool->next < sweep->study.point_count && !sweep_is_waiting(sweep, pool->next))
         pool->next++;
-    if (pool->next == sweep->study.point_count) return true;
+    if (pool->next >= sweep->study.point_count) return true;
     if (worker->process && worker->given == POINTS_EACH) reap(worker);
     if (!worker->process) TRY(start_worker(pool, worker, err));
-    worker->point = pool->next++;
+    worker->point = pool->next;
+    pool->next += pool->step;
     worker->given++;
     worker->started = clock_seconds();
     send(worker->socket, &worker->point, sizeof worker->point, MSG_NOSIGNAL);
@@ -260,10 +261,10 @@ static void end_workers(Pool *pool)
 }
 
 // Children are watched by poll, not by signals: a pipe closes however its child ends.
-bool pool_run(Sweep *sweep, Error *err)
+bool pool_run(Sweep *sweep, const PoolDef *def, Error *err)
 {
     int32_t cores = (int32_t)sysconf(_SC_NPROCESSORS_ONLN), running = 0;
-    Pool pool = {.sweep = sweep, .size = sweep->options->jobs};
+    Pool pool = {.sweep = sweep, .size = def->workers, .step = def->step};
     if (pool.size < 1) pool.size = cores > 0 ? cores : 1;
     if (pool.size > JOBS_MAX) pool.size = JOBS_MAX;
     TRY((pool.workers = NEW_ARRAY(Worker, pool.size, err)));

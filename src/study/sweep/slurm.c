@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A point's result is its run.json, as with the pool; only for an element that left none the state
 // that Slurm reports decides (slurm_jobs).
+//
+// With `keep: table` points are far shorter than the start of an element: an element computes a
+// share of them (study/sweep/share), so many as take some minutes. What it left undone stays
+// pending, for the next sweep.
 #include "study/sweep/slurm.h"
 
 #include "base/clock.h"
 #include "base/memory.h"
 #include "io/folder.h"
+#include "io/json_reader.h"
 #include "io/text_file.h"
 #include "study/sweep/element.h"
+#include "study/sweep/pool.h"
+#include "study/sweep/share.h"
 #include "study/sweep/slurm_jobs.h"
 #include "study/sweep/tally.h"
 
@@ -19,11 +26,13 @@
 
 static const double LOOK_PAUSE = 2;   // s between two looks at the queue
 static const double STOP_PAUSE = 0.1;   // s between two looks at the stop flag
+static const double SHARE_SECONDS = 240;   // that an element takes over its share, about
+enum { TRIED_MAX = 20 };   // points whose time is looked at to cut shares
 static const double REPORT_PAUSE = 10;   // s that a file system shared by nodes may take to show a
     // run.json after its element has ended
 
 typedef struct Element {
-    int32_t point;
+    int32_t point;   // with `keep: table` the first of its share
     bool taken;   // its result is counted
     bool listed, ended;   // by squeue, at the last look
     char state[SLURM_WORD_SIZE], reason[SLURM_REASON_SIZE];   // as squeue lists them
@@ -38,8 +47,12 @@ typedef struct SlurmArray {
 typedef struct SlurmRun {
     Sweep *sweep;
     SlurmJobs jobs;   // owned, like the rest
+    int32_t waiting_count, *waiting;   // points to compute
     int32_t count, left;   // elements; those not taken
-    Element *elements;   // [count]
+    Element *elements;   // [count]; element k computes waiting[k], waiting[k + count], ...
+    PointsByHash points;   // with `keep: table`
+    int32_t undone;   // points that elements left so
+    char cause[ERROR_MESSAGE_SIZE];   // of the first of them
     int32_t array_count;
     SlurmArray *arrays;   // [array_count]
 } SlurmRun;
@@ -47,12 +60,12 @@ typedef struct SlurmRun {
 // As many arrays as MaxArraySize requires; array k's elements are `count` from `first` on.
 static bool submit_all(SlurmRun *run, Error *err)
 {
-    int32_t limit = slurm_array_limit(&run->jobs), *points = NULL;
+    int32_t limit = slurm_array_limit(&run->jobs);
     char script[POINT_PATH_SIZE], list[POINT_PATH_SIZE], name[40];
     run->array_count = (run->count + limit - 1) / limit;
     TRY((run->arrays = NEW_ARRAY(SlurmArray, run->array_count, err)));
-    TRY((points = NEW_ARRAY(int32_t, run->count, err)));
-    for (int32_t k = 0; k < run->count; k++) points[k] = run->elements[k].point;
+    for (int32_t k = 0; run->sweep->study.keep_table && k < run->count; k++)
+        TRY(share_write(run->sweep, k, run->waiting, run->waiting_count, run->count, err));
     for (int32_t k = 0; k < run->array_count; k++) {
         SlurmArray *array = &run->arrays[k];
         array->first = k * limit;
@@ -61,12 +74,11 @@ static bool submit_all(SlurmRun *run, Error *err)
         slurm_path(&run->jobs, name, list, sizeof list);
         snprintf(name, sizeof name, "array-%d.sh", k);
         slurm_path(&run->jobs, name, script, sizeof script);
-        TRY(elements_write(run->sweep, list, &points[array->first], array->count, err));
+        TRY(elements_write(run->sweep, list, run->waiting, array->first, array->count, err));
         TRY(slurm_write_script(script, list, err));
         TRY(slurm_submit(&run->jobs, script, array->count, run->sweep->options, array->id, err));
     }
 cleanup:
-    memory_free(points);
     return error_is_clean(err);
 }
 
@@ -125,18 +137,16 @@ static void last_words(const SlurmRun *run, const char *job, char *words, size_t
     memory_free(text);
 }
 
-// Element `k` has ended without a run.json: its failure is recorded. One that was cancelled before
-// it began is no longer listed.
-static bool take_lost(SlurmRun *run, int32_t k, Error *err)
+// How element `k` ended, in Slurm's words and its own last ones. One that was cancelled before it
+// began is no longer listed.
+static void describe_end(SlurmRun *run, int32_t k, char message[ERROR_MESSAGE_SIZE])
 {
     const Element *element = &run->elements[k];
-    char message[ERROR_MESSAGE_SIZE], state[SLURM_WORD_SIZE + SLURM_REASON_SIZE + 40], words[1100];
+    char state[SLURM_WORD_SIZE + SLURM_REASON_SIZE + 40], words[1100], job[SLURM_JOB_SIZE] = "";
     bool has_reason = *element->reason && strcmp(element->reason, "None") != 0;
-    char job[SLURM_JOB_SIZE] = "";
+    bool waited = strcmp(element->state, "PENDING") == 0;
     job_name(run, k, job);
     int number = slurm_signal(&run->jobs, job);
-    bool waited = strcmp(element->state, "PENDING") == 0;
-    bool cancelled = waited || strcmp(element->state, "CANCELLED") == 0;
     const char *last = *element->state ? element->state : "unknown";
     if (number > 0)
         snprintf(state, sizeof state, "%s by signal %d (%s)", last, number, strsignal(number));
@@ -146,29 +156,59 @@ static bool take_lost(SlurmRun *run, int32_t k, Error *err)
         snprintf(state, sizeof state, "%s", last);
     last_words(run, job, words, sizeof words);
     if (element->ended)
-        snprintf(message, sizeof message, "the Slurm job ended as %s%s", state, words);
+        snprintf(message, ERROR_MESSAGE_SIZE, "the Slurm job ended as %s%s", state, words);
     else
-        snprintf(message, sizeof message,
+        snprintf(message, ERROR_MESSAGE_SIZE,
                  "the Slurm job left the queue without a result, last seen as %s%s", state,
                  waited ? ": cancelled before it began" : words);
+}
+
+// Element `k` has ended without a run.json: its failure is recorded.
+static bool take_lost(SlurmRun *run, int32_t k, Error *err)
+{
+    const Element *element = &run->elements[k];
+    char message[ERROR_MESSAGE_SIZE];
+    bool cancelled = strcmp(element->state, "PENDING") == 0 ||
+                     strcmp(element->state, "CANCELLED") == 0;
+    describe_end(run, k, message);
     return sweep_take_lost(run->sweep, element->point, NAN, cancelled ? "cancelled" : "crashed",
                            message, err);
 }
 
-// Takes the result of element `k`, which has ended, once its run.json can be seen or need not be
-// waited for.
+// The points of element `k` that have a result. *undone: how many have none.
+static bool take_points(SlurmRun *run, int32_t k, int32_t *undone, Error *err)
+{
+    Sweep *sweep = run->sweep;
+    bool left = false;
+    *undone = 0;
+    if (sweep->study.keep_table) TRY(share_take(sweep, k, points_note_place, &run->points, err));
+    for (int32_t i = k; i < run->waiting_count; i += run->count) {
+        int32_t point = run->waiting[i];
+        if (!sweep_is_waiting(sweep, point)) continue;
+        TRY(sweep_take_ended(sweep, point, NAN, &left, err));
+        *undone += !left;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// Takes what element `k`, which has ended, came to, once it can be seen or need not be waited for.
 static bool take_element(SlurmRun *run, int32_t k, Error *err)
 {
     Element *element = &run->elements[k];
-    bool left = false;
-    TRY(sweep_take_ended(run->sweep, element->point, NAN, &left, err));
-    if (!left) {
+    int32_t undone = 0;
+    TRY(take_points(run, k, &undone, err));
+    if (undone > 0) {
         // Unless Slurm ended it, it wrote one.
         bool comes = !element->ended || strcmp(element->state, "COMPLETED") == 0 ||
                      strcmp(element->reason, "NonZeroExitCode") == 0;
         if (element->gone_since == 0) element->gone_since = clock_seconds();
         if (comes && clock_seconds() - element->gone_since < REPORT_PAUSE) goto cleanup;
-        TRY(take_lost(run, k, err));
+        if (!run->sweep->study.keep_table)
+            TRY(take_lost(run, k, err));
+        else if (run->undone == 0)
+            describe_end(run, k, run->cause);
+        if (run->sweep->study.keep_table) run->undone += undone;
     }
     element->taken = true;
     run->left--;
@@ -202,9 +242,8 @@ static void take_finished(SlurmRun *run)
 {
     for (int32_t k = 0; k < run->count; k++) {
         Error ignored = {0};   // the caller tells why the sweep ends
-        bool left = false;
-        if (!run->elements[k].taken)
-            sweep_take_ended(run->sweep, run->elements[k].point, NAN, &left, &ignored);
+        int32_t undone = 0;
+        if (!run->elements[k].taken) take_points(run, k, &undone, &ignored);
     }
 }
 
@@ -212,8 +251,10 @@ static void take_finished(SlurmRun *run)
 
 static void end(SlurmRun *run)
 {
+    memory_free(run->waiting);
     memory_free(run->elements);
     memory_free(run->arrays);
+    memory_free(run->points.list);
     slurm_jobs_close(&run->jobs);
 }
 
@@ -245,16 +286,70 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Room for all points: how many are pending is known only afterwards.
-static bool list_elements(SlurmRun *run, Error *err)
+// Mean time of some points that are done, without their mesh and basis, which the next ones find in
+// the cache; s. *tried: how many they are.
+static bool mean_time(const Sweep *sweep, int32_t *tried, double *mean, Error *err)
+{
+    double sum = 0;
+    int32_t count = sweep->study.point_count, step = 1 + count / TRIED_MAX;
+    *tried = 0;
+    for (int32_t k = 0; k < count; k++) {
+        double total = 0, mesh = 0, reduce = 0;
+        if (k % step != 0 || sweep->points[k].status != POINT_DONE) continue;
+        char *report = point_report(sweep, k, err);
+        TRY(report);
+        json_find_number(report, "timing_s.total", &total);
+        json_find_number(report, "timing_s.mesh", &mesh);
+        json_find_number(report, "timing_s.reduce", &reduce);
+        memory_free(report);
+        sum += total - mesh - reduce;
+        ++*tried;
+    }
+    *mean = *tried > 0 ? sum / *tried : SHARE_SECONDS;
+cleanup:
+    return error_is_clean(err);
+}
+
+// Shares of some minutes; as many as may run at a time (-j) there are in any case.
+static bool count_shares(const SlurmRun *run, int32_t *shares, Error *err)
+{
+    double mean = 0;
+    int32_t tried = 0;
+    TRY(mean_time(run->sweep, &tried, &mean, err));
+    *shares = (int32_t)ceil(run->waiting_count * fmin(mean / SHARE_SECONDS, 1));
+    if (*shares < run->sweep->options->jobs) *shares = run->sweep->options->jobs;
+    if (*shares > run->waiting_count) *shares = run->waiting_count;
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool list_waiting(SlurmRun *run, Error *err)
 {
     const Sweep *sweep = run->sweep;
-    TRY((run->elements = NEW_ARRAY(Element, sweep->study.point_count, err)));
+    TRY((run->waiting = NEW_ARRAY(int32_t, sweep->study.point_count, err)));
     for (int32_t k = 0; k < sweep->study.point_count; k++)
-        if (sweep_is_waiting(sweep, k)) run->elements[run->count++].point = k;
+        if (sweep_is_waiting(sweep, k)) run->waiting[run->waiting_count++] = k;
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool list_elements(SlurmRun *run, Error *err)
+{
+    TRY(list_waiting(run, err));
+    run->count = run->waiting_count;
+    if (run->sweep->study.keep_table && run->count > 0) TRY(count_shares(run, &run->count, err));
+    TRY((run->elements = NEW_ARRAY(Element, run->count, err)));
+    for (int32_t k = 0; k < run->count; k++) run->elements[k].point = run->waiting[k];
     run->left = run->count;
 cleanup:
     return error_is_clean(err);
+}
+
+// How long points take is found out here, before shares are cut: some of them, from all over.
+static bool try_some(Sweep *sweep, Error *err)
+{
+    PoolDef some = {.workers = 1, .step = 1 + sweep->study.point_count / TRIED_MAX};
+    return pool_run(sweep, &some, err);
 }
 
 // Also after an error no job of ours stays in the queue: the file `running` is removed only when
@@ -266,6 +361,8 @@ bool slurm_run(Sweep *sweep, Error *err)
     char path[POINT_PATH_SIZE];
     bool out = false;   // jobs may be
     TRY(slurm_jobs_open(sweep->folder, sweep->study.point_count, &run.jobs, err));
+    if (sweep->study.keep_table) TRY(try_some(sweep, err));
+    if (sweep->study.keep_table) TRY(points_sort(sweep, &run.points, err));
     TRY(list_elements(&run, err));
     if (run.count == 0) goto cleanup;
     TRY(slurm_jobs_check(&run.jobs, err));
@@ -273,6 +370,9 @@ bool slurm_run(Sweep *sweep, Error *err)
     out = true;
     TRY(submit_all(&run, err));
     TRY(wait_for_all(&run, err));
+    if (run.undone > 0)
+        FAIL(err, ERROR_INTERRUPT, "%d points are not computed, the same command goes on: %.1500s",
+             run.undone, run.cause);
 cleanup:
     if (!error_is_clean(err) && out) {
         out = !slurm_cancel(&run.jobs, &ignored);

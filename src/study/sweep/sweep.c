@@ -9,6 +9,7 @@
 #include "study/sweep/figure_ranking.h"
 #include "study/sweep/pool.h"
 #include "study/sweep/refine.h"
+#include "study/sweep/share.h"
 #include "study/sweep/slurm.h"
 #include "study/sweep/study_point.h"
 #include "study/sweep/study_read.h"
@@ -65,19 +66,10 @@ static bool check_table(const Sweep *sweep, const Scene *scene, Error *err)
              "%s: keep: with `table` points have no folder for a history, fields or figures: say "
              "`keep: points`",
              sweep->study.path);
-    if (sweep->study.rank.refine > 0 || sweep->options->slurm)
-        FAIL(err, ERROR_INPUT, "%s: keep: `table` goes neither with `refine` nor with --slurm",
-             sweep->study.path);
+    if (sweep->study.rank.refine > 0)
+        FAIL(err, ERROR_INPUT, "%s: keep: `table` does not go with `refine`", sweep->study.path);
 cleanup:
     return error_is_clean(err);
-}
-
-// For a ReportFound; context: points by hash.
-static void note_place(void *context, const char *hash, ReportPlace place)
-{
-    const PointsByHash *points = context;
-    int32_t point = points_look_up(points, hash);
-    if (point >= 0) points->sweep->points[point].place = place;
 }
 
 // Reports of an earlier sweep, also of points that the study no longer has.
@@ -89,7 +81,8 @@ static bool open_reports(Sweep *sweep, Error *err)
     snprintf(path, sizeof path, "%s/reports", sweep->folder);
     TRY(reports_open(&sweep->reports, path, sweep->options->fresh, err));
     TRY(points_sort(sweep, &points, err));
-    TRY(reports_list(&sweep->reports, note_place, &points, err));
+    TRY(reports_list(&sweep->reports, points_note_place, &points, err));
+    TRY(share_take_all(sweep, points_note_place, &points, err));
 cleanup:
     memory_free(points.list);
     return error_is_clean(err);
@@ -181,7 +174,8 @@ cleanup:
 
 static bool compute_waiting(Sweep *sweep, Error *err)
 {
-    bool whole = sweep->options->slurm ? slurm_run(sweep, err) : pool_run(sweep, err);
+    PoolDef pool = {.workers = sweep->options->jobs, .step = 1};
+    bool whole = sweep->options->slurm ? slurm_run(sweep, err) : pool_run(sweep, &pool, err);
     sweep_share_results(sweep);
     return whole;
 }
@@ -224,9 +218,9 @@ bool amontons_sweep(const char *path, const SweepOptions *options, SweepSummary 
     TRY(plan_points(sweep, err));
     sweep->planned = sweep->study.point_count;
     TRY(take_folder(sweep, err));
+    TRY(slurm_end_leftovers(sweep, err));
     TRY(open_reports(sweep, err));
     TRY(sweep_take_finished(sweep, err));
-    TRY(slurm_end_leftovers(sweep, err));
     bool whole = compute_waiting(sweep, &stopped) && decide_ranks(sweep, &stopped);
     sweep_summarise(sweep, summary);
     if (!whole && stopped.code != ERROR_INTERRUPT) {
