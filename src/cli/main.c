@@ -11,7 +11,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-static const long ROOM_LEAST = 190L << 20;   // bytes: what the program and HDF5 are mapped into
+// What a start takes, bytes: what the program and HDF5 are mapped into; paths and printf.
+static const rlim_t ROOM_LEAST = (rlim_t)190 << 20, STACK_LEAST = (rlim_t)256 << 10;
 
 typedef struct Command {
     const char *name;
@@ -126,23 +127,27 @@ static void occupy_standard_streams(void)
         if (fcntl(stream, F_GETFD) < 0 && open("/dev/null", O_RDWR) < 0) _exit(1);
 }
 
+static void meet_limit(int resource, rlim_t least, const char *what)
+{
+    struct rlimit limit;
+    char words[160];
+    if (getrlimit(resource, &limit) != 0 || limit.rlim_cur >= least) return;
+    int length = snprintf(words, sizeof words,
+                          "amontons: error: only %lu kB of %s); to start takes %lu kB\n",
+                          (unsigned long)limit.rlim_cur >> 10, what, (unsigned long)least >> 10);
+    ssize_t written = write(STDERR_FILENO, words, (size_t)length);
+    (void)written;
+    _exit(1);
+}
+
 // A file that reaches the limit of sizes (ulimit -f) is an error with a sentence, not a signal.
 // With less room than the libraries take (ulimit -v) OpenBLAS ends the program with its own words
 // before main, or its threads never end, nor does exit(): this runs before any library begins.
 static void meet_limits(void)
 {
-    struct rlimit room;
-    char words[160];
     signal(SIGXFSZ, SIG_IGN);
-    if (getrlimit(RLIMIT_AS, &room) != 0 || room.rlim_cur >= (rlim_t)ROOM_LEAST) return;
-    int length =
-        snprintf(words, sizeof words,
-                 "amontons: error: only %ld MB of memory are allowed (ulimit -v); to start "
-                 "takes %ld MB\n",
-                 (long)(room.rlim_cur >> 20), ROOM_LEAST >> 20);
-    ssize_t written = write(STDERR_FILENO, words, (size_t)length);
-    (void)written;
-    _exit(1);
+    meet_limit(RLIMIT_AS, ROOM_LEAST, "memory are allowed (ulimit -v");
+    meet_limit(RLIMIT_STACK, STACK_LEAST, "stack are allowed (ulimit -s");
 }
 
 __attribute__((section(".preinit_array"), used)) static void (*const first)(void) = meet_limits;

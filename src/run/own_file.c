@@ -74,7 +74,7 @@ static const char *mark_of(const char *name)
 // Looked for in the first and in the last bytes: PDF and SVG name their writer at the end.
 bool own_file_is_ours(const char *path)
 {
-    enum { REACH = 1 << 14 };
+    enum { REACH = 1 << 12 };
     char bytes[REACH];
     struct stat status;
     const char *slash = strrchr(path, '/'), *mark = mark_of(slash ? slash + 1 : path);

@@ -339,6 +339,8 @@ class Run(InFolder):
             done = limited(f"-v {room}", "room")
             self.assertIn(done.returncode, (1, 127))   # 127: the loader's own sentence
             self.assertRegex(done.stderr, "^amontons: error: only|error while loading shared libraries|Sanitizer|allocat")
+        done = limited("-s 100", "stack")
+        self.assertEqual((done.returncode, "ulimit -s" in done.stderr), (1, True), done.stderr)
 
     def test_standard_streams_that_are_closed(self):
         """The first file opened would get their numbers, and progress would be written into it."""

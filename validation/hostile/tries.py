@@ -110,6 +110,8 @@ def after_signal(attempt, folder, stock):
     looked = subprocess.run([PROGRAM, "info", "out"], cwd=folder, capture_output=True, text=True)
     if looked.returncode not in (0, 2):
         yield f"info on what is left: status {looked.returncode}"
+    if attempt.signal in (2, 15) and (folder / "out/amontons.lock").exists():
+        yield "left its lock"
     if (folder / "out/run.json").exists():
         json.loads((folder / "out/run.json").read_text())
     again = subprocess.run([PROGRAM, *attempt.words, "--overwrite"], cwd=folder, capture_output=True, text=True,
