@@ -8,6 +8,7 @@
 #include "near.h"
 #include "random_numbers.h"
 
+#include <SuiteSparse_config.h>
 #include <dlfcn.h>
 
 enum { SIZE_TRIED = 60 };
@@ -282,6 +283,54 @@ static void test_memory_faults(void **state)
     free_case(&made);
 }
 
+// CHOLMOD's own memory. (Within a substitution CHOLMOD 3 does not look whether it got any.)
+static int32_t library_left = -1;
+
+static void *allocate(size_t bytes)
+{
+    if (library_left == 0) return NULL;
+    if (library_left > 0) library_left--;
+    return malloc(bytes);
+}
+
+static void *allocate_zeroed(size_t count, size_t bytes)
+{
+    void *made = allocate(count * bytes);
+    return made ? memset(made, 0, count * bytes) : NULL;
+}
+
+static void test_memory_of_the_library(void **state)
+{
+    (void)state;
+    Random random = {.state = 9};
+    Case made;
+    make_case(&random, 20, 5, &made);
+    int64_t live = memory_counters().live;
+    bool done = false;
+    int32_t failed = 0;
+    SuiteSparse_config.malloc_func = allocate;
+    SuiteSparse_config.calloc_func = allocate_zeroed;
+    for (; !done; failed++) {
+        Error err = {0};
+        library_left = failed;
+        SparseAnalysis *analysis = sparse_analyse(&made.pattern, made.border, 5, &err);
+        SparseFactor *factor = analysis ? sparse_factorise(analysis, made.values, &err) : NULL;
+        library_left = -1;
+        done = factor != NULL;
+        if (!done && err.code != ERROR_MEMORY && err.code != ERROR_LIBRARY)
+            fail_msg("%d: %s", failed, err.message);
+        if (done) assert_int_equal(err.code, ERROR_NONE);
+        sparse_factor_destroy(factor);
+        sparse_analysis_destroy(analysis);
+        assert_int_equal(memory_counters().live, live);
+        assert_true(failed < 200);
+    }
+    assert_true(failed > 20);
+    SuiteSparse_config.malloc_func = malloc;
+    SuiteSparse_config.calloc_func = calloc;
+    free_case(&made);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -291,6 +340,7 @@ int main(void)
         cmocka_unit_test(test_entries),
         cmocka_unit_test(test_not_definite),
         cmocka_unit_test(test_memory_faults),
+        cmocka_unit_test(test_memory_of_the_library),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
