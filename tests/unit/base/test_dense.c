@@ -220,6 +220,40 @@ static void test_add_nonzero(void **state)
     dense_add_nonzero((DenseView){NULL, 0, COLUMNS}, (double[COLUMNS]){1}, 1, NULL);
 }
 
+// Sizes of 0 are answered as sums over nothing are, and nothing is touched: BLAS refuses them, with
+// a sentence on standard error.
+static void test_nothing(void **state)
+{
+    (void)state;
+    double a[4] = {3, 5, 7, 9}, c[4] = {1, 2, 3, 4}, x[2] = {1, 1};
+    const double kept[4] = {1, 2, 3, 4};
+    const DenseView none = {a, 0, 2}, thin = {a, 2, 0}, full = {a, 2, 2};
+    int32_t pivots[1];
+    assert_true(dense_cholesky(c, 0) && dense_lu(c, 0, pivots) && dense_invert_factored(c, 0));
+    assert_true(dense_eigen(c, 0, x, x) && dense_eigen_general(c, 0, x, x, x, x));
+    dense_lower_apply(a, 0, c);
+    dense_lower_apply_transposed(a, 0, c);
+    dense_lower_solve_transposed(a, 0, c);
+    dense_lower_square(a, 0, c);
+    dense_add_scaled(2, a, 0, c);
+    dense_lower_divide(a, 0, 2, c);
+    dense_lower_divide(a, 2, 0, c);
+    dense_divide_both_sides(a, 0, c);
+    dense_multiply_transposed(thin, full, 1, 0, c);
+    dense_multiply_transposed(full, thin, 1, 0, c);
+    dense_multiply(none, full, 1, 0, c);
+    dense_multiply(thin, none, 1, 0, c);
+    dense_multiply(full, thin, 1, 0, c);
+    dense_apply(none, x, 1, 0, c);
+    dense_apply(thin, x, 1, 0, c);
+    dense_apply_transposed(thin, x, 1, 0, c);
+    assert_memory_equal(c, kept, sizeof kept);
+    dense_multiply_transposed(none, none, 1, 0.5, c);   // no rows: what was there alone
+    for (int k = 0; k < 4; k++) assert_true(c[k] == 0.5 * kept[k]);
+    dense_multiply_transposed(none, none, 1, 0, c);
+    for (int k = 0; k < 4; k++) assert_true(c[k] == 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -231,6 +265,7 @@ int main(void)
         cmocka_unit_test(test_one_thread),
         cmocka_unit_test(test_sweep),
         cmocka_unit_test(test_add_nonzero),
+        cmocka_unit_test(test_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

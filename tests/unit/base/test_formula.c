@@ -137,6 +137,11 @@ static void test_length(void **state)
     double value = 0;
     assert_false(formula_value(text, look_up, NULL, &value, &err));
     assert_non_null(strstr(err.message, "a shorter formula"));
+    err = (Error){0};
+    memset(text, 'a', 300);
+    text[300] = 0;
+    assert_false(formula_value(text, look_up, NULL, &value, &err));
+    assert_non_null(strstr(err.message, "a shorter name"));
 }
 
 // Neither brackets, nor signs, nor powers without end run the stack over.

@@ -149,6 +149,40 @@ static void test_long_result(void **state)
     assert_info_holds(folder, parts);
 }
 
+// Killed, with and without a checkpoint; a file that is nothing of ours, a picture of one.
+static void test_odd_folders(void **state)
+{
+    (void)state;
+    Error err = {0};
+    char path[200], other[200];
+    snprintf(other, sizeof other, "%s/run.json", folder);
+    write_text("notes.txt", "mine\n");
+    snprintf(path, sizeof path, "%s/notes.txt", folder);
+    assert_false(amontons_info(path, NULL, stdout, &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+    unlink(path);
+    InfoOptions options = {.picture = "/nowhere/a.png"};
+    write_text("run.json", "{}");
+    error_clear(&err);
+    assert_false(amontons_info(folder, &options, stdout, &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+    static const char *const wrong[] = {"n", "=3", "n=",
+                                        "a_name_that_is_longer_than_any_name_of_a_parameter_of_a_"
+                                        "mesh_may_be_in_a_scene_or_here=1"};
+    snprintf(path, sizeof path, "%s/meshes/block.geo", getenv("AMONTONS_SOURCE"));
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        options = (InfoOptions){.overrides = &wrong[k], .override_count = 1};
+        error_clear(&err);
+        assert_false(amontons_info(path, &options, stdout, &err));
+        if (!strstr(err.message, wrong[k])) fail_msg("%s", err.message);
+    }
+    write_text("run.json",
+               "{\"status\": \"failed\", \"results\": {\"mu_M\": null, \"mu_max\": 1e300}}");
+    static const char *const parts[] = {"failed", "none", "1e+300", NULL};
+    assert_info_holds(folder, parts);
+    unlink(other);
+}
+
 static void test_broken_results(void **state)
 {
     (void)state;
@@ -171,10 +205,9 @@ int main(void)
 {
     assert_non_null(mkdtemp(folder));
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_result),
-        cmocka_unit_test(test_long_result),
-        cmocka_unit_test(test_scene),
-        cmocka_unit_test(test_broken_results),
+        cmocka_unit_test(test_result),      cmocka_unit_test(test_long_result),
+        cmocka_unit_test(test_scene),       cmocka_unit_test(test_broken_results),
+        cmocka_unit_test(test_odd_folders),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     char path[200];
