@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Plots of a table written by hand: curves and maps with panels, formulas, points without a value or
-// with a warning, two sweeps; what their descriptions hold, and what is refused.
+// Plots of a table written by hand: curves and maps with panels, formulas, points without a value
+// or with a warning, two sweeps; what their descriptions hold, and what is refused.
 #include "amontons_pictures.h"
 
 #include "io/array_file.h"
