@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The same scene gives the same bits, whatever surrounds it: cache, output, folder, locale, time
-zone, umask, threads, jobs of a sweep. Other kernels of OpenBLAS and other optimisation may round
+zone, umask, threads, jobs of a sweep, a stop and --resume. Other kernels of OpenBLAS and other optimisation may round
 otherwise: within TOLERANCE.
 
     validation/hostile/same_bits.py [-o FOLDER] [--build FOLDER ...]
 
 --build: build folders with other optimisation to compare with (build-sanitize: -O1, build-coverage:
--O0). Prints a table and leaves same_bits.md in FOLDER (default results/hostile). Exit status 1:
+-O0, or of `cmake -B FOLDER -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O3`). Prints a table and leaves same_bits.md in FOLDER (default results/hostile). Exit status 1:
 something differs that should not.
 """
 import argparse
@@ -58,10 +58,14 @@ class Place:
         self.scratch, self.count = scratch, 0
         self.cache = scratch / "cache"
 
-    def run(self, words=RUN, env=None, shell="", program=PROGRAM):
+    def prepare(self):
         self.count += 1
         folder = self.scratch / f"run{self.count}"
         cases.put(folder, {"scene.yaml": SCENE, "study.yaml": STUDY, "block.geo": ROOT / "meshes/block.geo"})
+        return folder
+
+    def run(self, words=RUN, env=None, shell="", program=PROGRAM):
+        folder = self.prepare()
         line = [str(program), *words]
         if shell:
             line = ["sh", "-c", shell, "sh", *line]
@@ -70,6 +74,27 @@ class Place:
         if ended.returncode != 0:
             raise RuntimeError(f"{words} {env} {shell}: {ended.stderr}")
         return folder
+
+
+def resumed(place):
+    """A run that was stopped by SIGTERM and gone on with, twice at least."""
+    stops, pause = 0, 0.2
+    while stops < 2 and pause > 1e-3:
+        folder, stops, more = place.prepare(), 0, []
+        while True:
+            process = subprocess.Popen([str(PROGRAM), *RUN, *more], cwd=folder, env=os.environ | {"AMONTONS_CACHE": str(place.cache)},
+                                       stderr=subprocess.DEVNULL)
+            try:
+                process.wait(pause)
+            except subprocess.TimeoutExpired:
+                process.terminate()
+            if process.wait() == 0:
+                break
+            more = ["--resume"] if (folder / "out/checkpoint.bin").exists() else ["--overwrite"]
+            stops += more == ["--resume"]
+            pause *= 1.05 if more == ["--resume"] else 1.5   # before the first step nothing is kept
+        pause /= 2
+    return folder, stops
 
 
 def locales(scratch):
@@ -89,6 +114,8 @@ def exact_cases(place):
     yield "pictures", place.run(RUN + ["--set", "output.figures=[force, slip-map]"])
     yield "cold cache", place.run(env={"AMONTONS_CACHE": str(place.cache)})
     yield "warm cache", place.run(env={"AMONTONS_CACHE": str(place.cache)})
+    folder, stops = resumed(place)
+    yield f"stopped {stops} times, --resume", folder
     yield "not quiet", place.run(["run", "scene.yaml", "-o", "out"])
     yield "profile", place.run(RUN + ["--profile"])
     yield "another current folder", place.run(shell='p="$1"; here="$PWD"; cd /; exec "$p" run "$here/scene.yaml" '
