@@ -25,7 +25,10 @@ static const struct {
                  {"model1d.json", REPORT},
                  {"model1d.h5", "profile"},
                  {"report.html", WRITER},
-                 {"accuracy.json", "\"contact nodes\""}};
+                 {"accuracy.json", "\"contact nodes\""},
+                 {"sweep.csv", "point,"},
+                 {"sweep.h5", "result"},
+                 {"ranking.csv", "rank,rank_from,"}};
 static const char *const FIELDS[][3] = {{"bulk_", ".vtu", "stress_elastic"},
                                         {"interface_", ".vtp", "slip_rate"}};
 
@@ -34,10 +37,10 @@ static const char *const FIELDS[][3] = {{"bulk_", ".vtu", "stress_elastic"},
 static const char *const FIGURES[] = {
     RENDER_FIGURES(FIGURE_FILE) BLOCK_QUANTITIES(FIELD_FILE) "accuracy.png", "accuracy.json"};
 
+// What stands behind accuracy.json is no file of a run.
 const char *own_file_name(int32_t k)
 {
-    enum { IN_THE_FOLDER = sizeof OWN_FILES / sizeof OWN_FILES[0] - 1 };   // not accuracy.json
-    return k < IN_THE_FOLDER ? OWN_FILES[k].name : NULL;
+    return strcmp(OWN_FILES[k].name, "accuracy.json") != 0 ? OWN_FILES[k].name : NULL;
 }
 
 bool own_file_is_figure(const char *name)

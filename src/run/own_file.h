@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Which files in a result folder are ours: by name, and by what every file of that kind of ours
-// holds. Whatever else lies there belongs to somebody. Called by run/result_folder only.
+// holds. Whatever else lies there belongs to somebody. Called by run/result_folder and study/sweep.
 #ifndef AMONTONS_RUN_OWN_FILE_H
 #define AMONTONS_RUN_OWN_FILE_H
 

@@ -67,6 +67,15 @@ class Sweep(unittest.TestCase):
     def without_times(self, out):
         return [{key: value for key, value in row.items() if key not in TIMES} for row in self.table(out)]
 
+    def test_tables_of_somebody(self):
+        """What has the name of a table of ours and is none stays, and is named."""
+        for name in ("sweep.csv", "sweep.h5", "ranking.csv"):
+            (self.folder / "theirs" / name).parent.mkdir(exist_ok=True)
+            (self.folder / "theirs" / name).write_text("mine")
+            self.assertIn(f"theirs/{name} is there", self.sweep(out="theirs", status=2).stderr)
+            self.assertEqual((self.folder / "theirs" / name).read_text(), "mine")
+            (self.folder / "theirs" / name).unlink()
+
     def test_included_file_changes(self):
         """The mesh that gmsh makes decides what is known before, not the bytes of the outer file alone."""
         inner, outer = self.folder / "height.geo", self.folder / "block.geo"

@@ -312,6 +312,13 @@ def own_files(stock):
                       may=(REFUSED,), says=name, keeps=tuple(named))
 
 
+def own_tables(stock):
+    """A sweep writes its tables where these are its own."""
+    for name in ("sweep.csv", "sweep.h5", "ranking.csv"):
+        yield Try("own files", f"a sweep over somebody's {name}", ["sweep", "study.yaml", "-q", "-o", "out"],
+                  {"study.yaml": STUDY, f"out/{name}": "mine"}, may=(REFUSED,), says=name, keeps=(f"out/{name}",))
+
+
 def signals(stock):
     """Stopped at any moment: nothing half-written under a final name, and the next run is right."""
     for number, name in ((9, "KILL"), (15, "TERM"), (2, "INT"), (1, "HUP"), (13, "PIPE")):
@@ -337,7 +344,7 @@ def command_lines(stock):
     yield Try("words", "bytes that are no UTF-8", ["run", b"\xff\xfe.yaml", "--set", b"title=\xff"])
 
 
-GROUPS = [geometries, keys, scenes, meshes, results, caches, studies, plots, surroundings, own_files, signals,
+GROUPS = [geometries, keys, scenes, meshes, results, caches, studies, plots, surroundings, own_files, own_tables, signals,
           command_lines]
 
 

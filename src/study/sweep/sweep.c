@@ -5,6 +5,7 @@
 #include "base/dense.h"
 #include "base/memory.h"
 #include "io/folder.h"
+#include "run/own_file.h"
 #include "study/sweep/figure_plot.h"
 #include "study/sweep/figure_ranking.h"
 #include "study/sweep/pool.h"
@@ -36,6 +37,23 @@ static bool take_lock(int descriptor)
     return true;
 }
 
+// What has the name of one of the sweep's tables and is none is not written over.
+static bool refuse_taken(const char *folder, Error *err)
+{
+    static const char *const tables[] = {"sweep.csv", "sweep.h5", "ranking.csv"};
+    char path[POINT_PATH_SIZE];
+    for (size_t k = 0; k < sizeof tables / sizeof tables[0]; k++) {
+        snprintf(path, sizeof path, "%s/%s", folder, tables[k]);
+        if (access(path, F_OK) == 0 && !own_file_is_ours(path))
+            FAIL(err, ERROR_INPUT,
+                 "%s is there, and is none that a sweep wrote: choose another folder (-o), or move "
+                 "it away",
+                 path);
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
 // The system removes the lock when the process ends, however it ends.
 static bool take_folder(Sweep *sweep, Error *err)
 {
@@ -54,6 +72,7 @@ static bool take_folder(Sweep *sweep, Error *err)
              "another sweep is running in %s: wait for it, or choose another "
              "folder (-o)",
              sweep->folder);
+    TRY(refuse_taken(sweep->folder, err));
 cleanup:
     return error_is_clean(err);
 }
