@@ -1,26 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Bad scenes: each error must stand at the right place and say what is wrong and what is allowed.
 // Lines and columns were counted by hand.
-#include "scene/scene.h"
-#include "scene_of_text.h"
-#include "unit/scene/scene_texts.h"
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
-#include <cmocka.h>
-
-typedef struct BadScene {
-    int32_t line;   // of the good scene, replaced
-    const char *text;
-    const char *place;   // the message starts so
-    const char *words[3];   // and holds these
-} BadScene;
+#include "unit/scene/bad_scenes.h"
 
 static const BadScene bad_values[] = {
     // unknown keys, with the nearest known one
@@ -262,127 +243,6 @@ static const BadScene bad_combinations[] = {
     {2, "units: si", "s.yaml:4:1: material.young: missing, which an SI scene must give", {0}},
 };
 
-// Laws of contact groups, regions, programs, windows.
-static const BadScene bad_parts[] = {
-    {5,
-     "friction: {mu_static: 0.5, mu_kinetic: 0.2, critical_velocity: 1e-3, contacts: [a]}",
-     "s.yaml:5:81: friction.contacts: found `a`",
-     {"a map {group: NAME, ...}"}},
-    {5,
-     "friction: {mu_static: 0.5, mu_kinetic: 0.2, critical_velocity: 1e-3, contacts: [{group: "
-     "''}]}",
-     "s.yaml:5:89: friction.contacts: found ``",
-     {"a text"}},
-    {5,
-     "friction: {mu_static: 0.5, mu_kinetic: 0.2, critical_velocity: 1e-3, contacts: [{law: "
-     "coulomb}]}",
-     "s.yaml:5:81: friction.contacts: an item needs its `group`",
-     {0}},
-    {5,
-     "friction: {mu_static: 0.5, mu_kinetic: 0.2, critical_velocity: 1e-3, contacts: [{group: a, "
-     "formula: ''}]}",
-     "s.yaml:5:101: friction.contacts: found ``",
-     {0}},
-    {5,
-     "friction: {mu_static: 0.5, mu_kinetic: 0.2, critical_velocity: 1e-3, contacts: [{group: a, "
-     "mu: 1}]}",
-     "s.yaml:5:92: friction.contacts: unknown key `mu`",
-     {"critical_velocity, formula"}},
-    {5,
-     "friction: {mu_static: 0.5, mu_kinetic: 0.2, critical_velocity: 1e-3, contacts: [{group: a, "
-     "law: formula}]}",
-     "s.yaml:5:81: friction.contacts: a: the law `formula` needs a formula",
-     {0}},
-    {5,
-     "friction: {mu_static: 0.5, mu_kinetic: 0.2, critical_velocity: 1e-3, contacts: [{group: a, "
-     "formula: '1'}]}",
-     "s.yaml:5:81: friction.contacts: a: the law `linear-weakening` does not read a formula",
-     {0}},
-    {5,
-     "friction: {mu_static: 0.5, mu_kinetic: 0.2, critical_velocity: 1e-3, contacts: [{group: a, "
-     "law: table}]}",
-     "s.yaml:5:81: friction.contacts: a: a table is for the whole contact",
-     {0}},
-    {5,
-     "friction: {mu_static: 0.5, mu_kinetic: 0.2, critical_velocity: 1e-3, contacts: [{group: a, "
-     "mu_kinetic: 0.6}]}",
-     "s.yaml:5:81: friction.contacts: a: mu_kinetic: 0.6 is more than mu_static (0.5)",
-     {0}},
-    {5,
-     "friction: {law: coulomb, mu_static: 0.5, contacts: [{group: a, law: linear-weakening, "
-     "mu_kinetic: 0.1}]}",
-     "s.yaml:5:53: friction.contacts: a: critical_velocity: a weakening law needs it",
-     {0}},
-    {5,
-     "friction: {mu_static: 0.5, mu_kinetic: 0.2, critical_velocity: 1e-3, contacts: [{group: a, "
-     "law: formula, formula: 'v('}]}",
-     "s.yaml:5:81: friction.contacts: a: ",
-     {0}},
-    {4,
-     "material: {poisson: 0.3, plane: strain}\nmaterials: {pads: {poisson: 0.5}}",
-     "s.yaml:5:12: materials: pads.poisson: 0.5",
-     {"less than 0.5"}},
-    {4,
-     "material: {poisson: 0.3}\nmaterials: {pads: 3}",
-     "s.yaml:5:19: materials.pads: found `3`",
-     {"a map for a region of that name"}},
-    {4,
-     "material: {poisson: 0.3}\nmaterials: {'': {young: 1}}",
-     "s.yaml:5:13: materials: at most",
-     {"names of 1 to 63 bytes"}},
-    {0, "groups: {contact: top}", "s.yaml:9:19: groups.contact: `top` is groups.top as well", {0}},
-    {7,
-     "rod: {velocity: 1e-4, program: {t: [0], factor: [1]}}",
-     "s.yaml:7:",
-     {"rod.program.t: a program needs two points or more"}},
-    {7,
-     "rod: {velocity: 1e-4, program: {factor: [1]}}",
-     "s.yaml:7:",
-     {"a program needs two points or more"}},
-    {7,
-     "rod: {velocity: 1e-4, program: {repeat: true}}",
-     "s.yaml:7:",
-     {"a program needs two points or more"}},
-    {7,
-     "rod: {velocity: 1e-4, program: {t: [0, 0, 1], factor: [1, 1, 2]}}",
-     "s.yaml:7:",
-     {"rod.program.t: 0 stands twice: say what it begins with"}},
-    {7,
-     "rod: {velocity: 1e-4, program: {t: [0, 1, 1, 1], factor: [1, 1, 2, 3]}}",
-     "s.yaml:7:",
-     {"rod.program.t: 1 stands three times"}},
-    {7,
-     "rod: {kind: none, program: {t: [0, 1], factor: [1, 2]}}\ntime: {until: {t: 1}}",
-     "s.yaml:",
-     {"time"}},
-    {6,
-     "load: {pressure: 0.01, program: {t: [0], factor: [1]}}",
-     "s.yaml:6:",
-     {"load.program.t: a program needs two points"}},
-    {8,
-     "time: {until: {U: 0.1, slidings: 1.5}}",
-     "s.yaml:8:",
-     {"time.until.slidings: 1.5 is no whole number"}},
-    {0,
-     "output: {fields: {}, window: {from_t: 2, to_t: 1}}",
-     "s.yaml:9:48: output.window.to_t: 1 is not more than from_t (2)",
-     {0}},
-    {0,
-     "output: {fields: {}, window: {around: sliding 1.5}}",
-     "s.yaml:9:39: output.window.around: found `sliding 1.5`",
-     {0}},
-    {0,
-     "output: {figures: [field-strip]}",
-     "s.yaml:9:",
-     {"`field-strip` needs a sliding, which no run is sure to have"}},
-    {0, "output: {figures: [field]}", "s.yaml:9:", {"it needs output.fields"}},
-    {0, "output: {fields: 3}", "s.yaml:9:18: output.fields: found `3`", {0}},
-    {1,
-     "a_key_that_is_longer_than_any_key_of_a_scene_could_ever_be_in_its_life_or_later_on: 1",
-     "s.yaml:1:1: a_key_that_is",
-     {"unknown key"}},
-};
-
 static const BadScene bad_units[] = {
     {6,
      "load: {pressure: 3 um/s}",
@@ -398,66 +258,10 @@ static const BadScene bad_units[] = {
     {3, "mesh: {file: a.geo, set: {nx: 4 kg}}", "s.yaml:3:31: ", {"`kg` is no unit of length"}},
 };
 
-static void assert_bad(const BadScene *bad, const char *text)
-{
-    static Scene scene;
-    Error err = {0};
-    assert_false(scene_of_text("s.yaml", text, &scene, &err));
-    assert_int_equal(err.code, ERROR_INPUT);
-    bool right = strncmp(err.message, bad->place, strlen(bad->place)) == 0;
-    for (int i = 0; i < 3 && bad->words[i]; i++)
-        right &= strstr(err.message, bad->words[i]) != NULL;
-    if (!right) fail_msg("line %d `%s` gave\n%s", bad->line, bad->text, err.message);
-}
-
-static void assert_all_bad(const BadScene *cases, size_t count)
-{
-    for (size_t k = 0; k < count; k++) {
-        char text[SCENE_TEXT_MAX];
-        scene_text_with(cases[k].line, cases[k].text, text);
-        assert_bad(&cases[k], text);
-    }
-}
-
 static void test_bad_values(void **state)
 {
     (void)state;
     assert_all_bad(bad_values, sizeof bad_values / sizeof bad_values[0]);
-}
-
-static void test_bad_parts(void **state)
-{
-    (void)state;
-    assert_all_bad(bad_parts, sizeof bad_parts / sizeof bad_parts[0]);
-}
-
-// Without a rod nothing can follow its way, or drive it.
-static void test_without_a_rod(void **state)
-{
-    (void)state;
-    static const BadScene cases[] = {
-        {0,
-         "rod: {kind: none, program: {t: [0, 1], factor: [1, 2]}}",
-         "s.yaml:7:19: rod.program",
-         {"the scene has no rod"}},
-        {0,
-         "rod: {kind: none}\nload: {pressure: 0.01, program: {U: [0, 1], factor: [1, 2]}}",
-         "s.yaml:8:",
-         {"load.program.U: the scene has no rod", "give t"}},
-        {0,
-         "rod: {kind: none, stiffness: 1}",
-         "s.yaml:7:",
-         {"rod.stiffness: the scene has no rod"}},
-    };
-    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        char text[SCENE_TEXT_MAX] = "";
-        bool loads = strstr(cases[k].text, "load:") != NULL;
-        for (int32_t i = 1; i <= 5; i++) strcat(strcat(text, scene_lines[i - 1]), "\n");
-        strcat(strcat(text, loads ? "" : scene_lines[5]), loads ? "time: {until: {t: 1}}\n" : "\n");
-        strcat(text, cases[k].text);
-        if (!loads) strcat(text, "\ntime: {until: {t: 1}}");
-        assert_bad(&cases[k], text);
-    }
 }
 
 static void test_bad_combinations(void **state)
@@ -513,6 +317,30 @@ static void test_lists_that_are_too_long(void **state)
     scene_text_with(3, line, text);
     bad = (BadScene){3, line, "s.yaml:3:", {"at most 32 parameters"}};
     assert_bad(&bad, text);
+    static const struct {
+        const char *begin, *each, *end;
+        int32_t count, replaced;
+        const char *says;
+    } lists[] = {
+        {"rod: {velocity: 1, program: {t: [", "%d, ", "], factor: [1, 1]}}", 200, 7,
+         "rod.program.t"},
+        {"load: {pressure: 1, supports: [", "{group: g%d, direction: x}, ", "]}", 33, 6,
+         "at most 32 maps"},
+        {"load: {pressure: 1, tractions: [", "{group: g%d, x: 1}, ", "]}", 33, 6,
+         "at most 32 maps"},
+        {"materials: {", "m%d: {young: 1}, ", "}", 40, 0, "materials: at most"},
+        {"groups: {top: a", "%d", "}", 60, 0, "a name of 1 to 63 bytes"},
+        {"mesh: {set: {p", "%d", ": 1}, file: a.msh}", 60, 3, "names of 1 to 63 bytes"},
+    };
+    for (size_t k = 0; k < sizeof lists / sizeof *lists; k++) {
+        strcpy(line, lists[k].begin);
+        for (int i = 0; i < lists[k].count; i++)
+            snprintf(line + strlen(line), 40, lists[k].each, i);
+        strcat(line, lists[k].end);
+        scene_text_with(lists[k].replaced, line, text);
+        bad = (BadScene){lists[k].replaced, line, "s.yaml:", {lists[k].says}};
+        assert_bad(&bad, text);
+    }
     snprintf(line, sizeof line, "title: %0600d", 1);
     scene_text_with(1, line, text);
     bad = (BadScene){1, line, "s.yaml:1:8: title", {"at most 511 bytes"}};
@@ -559,6 +387,12 @@ static void test_bad_overrides(void **state)
         {"rod.kind=pusch", "--set rod.kind:1:10: ", "did you mean `push`?"},
         {"friction.mu_kinetic=2", "--set friction.mu_kinetic:1:21: ", "more than mu_static (0.38)"},
         {"output=[1", "--set output:1:", "not YAML"},
+        {"materials.pads.young=-1", "--set materials.pads.young:1:", "a number > 0"},
+        {"materials.pads.yung=1", "--set materials.pads.yung:1:", "unknown key"},
+        {"rod.program.t=[0, a]", "--set rod.program.t:1:", "found"},
+        {"output.figures=force\nslip-map", "--set output.figures:1:", "found"},
+        {"a.key.that.is.longer.than.any.key.of.a.scene.may.be.so.that.it.cannot.be.one.at.all.=1",
+         "--set a.key", ""},
     };
     char path[600];
     snprintf(path, sizeof path, "%s/validation/paper/fig1.yaml", getenv("AMONTONS_SOURCE"));
@@ -577,8 +411,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bad_values),
-        cmocka_unit_test(test_bad_parts),
-        cmocka_unit_test(test_without_a_rod),
         cmocka_unit_test(test_bad_combinations),
         cmocka_unit_test(test_bad_units),
         cmocka_unit_test(test_not_scenes),
