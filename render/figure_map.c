@@ -16,6 +16,7 @@ static const double DOT_SHARE = 0.13;   // of the distance of points
 static const double DOT_MAX = 0.9, RING_MAX = 1.7;   // points: radii
 static const double DOT_RIM = 0.35, RING_INSIDE = 0.6;   // points; of the ring's radius
 static const double DISTANCE_MIN = 3;   // points: marks of points nearer than this are left out
+static const double MARKS_APART = 5;   // points: those that stand for others
 static const double BAR_GAP = 6;   // points: frame to colour bar
 static const double CROSS_ARM = 1.5, CROSS_WIDTH = 0.6;   // points
 static const double LABEL_CLEARANCE = 6, HIDING_WORTH = 0.4;   // points: number to mark
@@ -267,29 +268,43 @@ static void cross_draw(const Page *page, Point at, double arm)
                   (Point){at.x + arm, at.y - arm});
 }
 
-// Marks get smaller as points come nearer to each other; of very many only the doubtful ones and
-// those without value have some.
-static void points_draw(const MapDrawing *drawing)
+// distance: to the next mark. Marks get smaller as they come nearer to each other; of very many
+// only the doubtful points and those without value have some.
+static void point_draw(const MapDrawing *drawing, int32_t k, double distance, bool shows_all)
 {
     const Page *page = drawing->page;
-    double distance = point_distance(drawing), point = page->point;
-    double dot = fmin(DOT_SHARE * distance, DOT_MAX * point);
+    double point = page->point, dot = fmin(DOT_SHARE * distance, DOT_MAX * point);
     double ring = fmin(2 * DOT_SHARE * distance, RING_MAX * point);
-    double arm = fmin(2 * DOT_SHARE * distance, CROSS_ARM * point);
-    bool shows_all = distance >= DISTANCE_MIN * point;
-    for (int32_t k = 0; k < drawing->map->count; k++) {
-        Point at = drawing->place[k];
-        bool open = drawing->map->open && drawing->map->open[k] > 0;
-        bool missing = !isfinite(drawing->map->value[k]);
-        if (!isfinite(at.x) || !isfinite(at.y)) continue;
-        if (missing) {
-            cross_draw(page, at, arm);
-        } else if (open) {
-            shape_disc(page->canvas, INK, at, ring);
-            shape_disc(page->canvas, PAPER, at, RING_INSIDE * ring);
-        } else if (shows_all) {
-            shape_disc(page->canvas, PAPER, at, dot + DOT_RIM * point);
-            shape_disc(page->canvas, INK, at, dot);
+    Point at = drawing->place[k];
+    if (!isfinite(at.x) || !isfinite(at.y)) return;
+    if (!isfinite(drawing->map->value[k])) {
+        cross_draw(page, at, fmin(2 * DOT_SHARE * distance, CROSS_ARM * point));
+    } else if (drawing->map->open && drawing->map->open[k] > 0) {
+        shape_disc(page->canvas, INK, at, ring);
+        shape_disc(page->canvas, PAPER, at, RING_INSIDE * ring);
+    } else if (shows_all) {
+        shape_disc(page->canvas, PAPER, at, dot + DOT_RIM * point);
+        shape_disc(page->canvas, INK, at, dot);
+    }
+}
+
+// Where cells of a grid are smaller than marks that one can tell apart, those of some points stand
+// for the ones around them.
+static void points_draw(const MapDrawing *drawing)
+{
+    const MapGrid *grid = &drawing->grid;
+    double distance = point_distance(drawing), least = DISTANCE_MIN * drawing->page->point;
+    bool thinned = grid->columns > 0 && distance < least;
+    if (!thinned) {
+        for (int32_t k = 0; k < drawing->map->count; k++)
+            point_draw(drawing, k, distance, distance >= least);
+        return;
+    }
+    int32_t step = (int32_t)ceil(MARKS_APART * drawing->page->point / distance);
+    for (int32_t row = step / 2; row < grid->rows; row += step) {
+        for (int32_t column = step / 2; column < grid->columns; column += step) {
+            int32_t k = grid->point[row * grid->columns + column];
+            if (k >= 0) point_draw(drawing, k, least, false);
         }
     }
 }

@@ -61,7 +61,9 @@ static const CommandText text = {
         "Partition, time and memory are given by the variables of sbatch (SBATCH_PARTITION, "
         "SBATCH_TIMELIMIT, ...) or here: --slurm=\"--partition=short --time=10 --mem=1G\". A point "
         "needs one core. The output of an element is in DIR/slurm; an element that Slurm ended is "
-        "a failed point, with Slurm's reason.\n\n"
+        "a failed point, with Slurm's reason. With `keep: table` an element computes as many "
+        "points as "
+        "take four minutes; what it left undone the same command goes on with.\n\n"
         "Exit status: 0 all points done, 1 some failed (listed; the others are in the table), "
         "2 the study is wrong. Example:\n\n"
         "  amontons sweep validation/paper/fig2a.yaml -j 2 -o fig2a"};
