@@ -17,7 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CELL_SIZE = 80, NOTE_SIZE = 120, CELLS_MAX = STUDY_COLUMNS_MAX + 6 };
+enum { CELL_SIZE = 80, NOTE_SIZE = 120, CELLS_MAX = STUDY_COLUMNS_MAX + 6, BLOCK = 256 };
 
 // --- order --------------------------------------------------------------------------------------
 
@@ -48,14 +48,65 @@ static bool is_decided(const RankRow *a, const RankRow *b)
     return difference * difference > a->error * a->error + b->error * b->error;
 }
 
-// rows: sorted. The ranks that row `k` may have.
-static void find_places(Ranking *ranking, int32_t k)
+// What is known of BLOCK rows one after the other: so a point of a long ranking is compared with
+// the rows near to it, and with the others by the block.
+typedef struct RankBlock {
+    int32_t known;   // errors that are
+    double least, greatest;   // of their squares; infinite, 0: none is known
+} RankBlock;
+
+static RankBlock look_at_block(const RankRow *rows, int32_t count)
 {
-    RankRow *row = &ranking->rows[k];
-    row->from = 1;
-    row->to = ranking->ranked;
-    for (int32_t i = 0; i < k; i++) row->from += is_decided(&ranking->rows[i], row);
-    for (int32_t i = k + 1; i < ranking->ranked; i++) row->to -= is_decided(row, &ranking->rows[i]);
+    RankBlock block = {.least = INFINITY};
+    for (int32_t i = 0; i < count; i++) {
+        double square = rows[i].error * rows[i].error;
+        block.known += !isnan(square);
+        block.least = fmin(block.least, square);
+        block.greatest = fmax(block.greatest, square);
+    }
+    return block;
+}
+
+// How many of the rows `first` to `last` - 1, all of a block or a part of it, are decided against
+// `row`. Squares and sums are rounded alike for all, so the bounds are exact.
+static int32_t count_decided(const Ranking *ranking, const RankBlock *block, int32_t first,
+                             int32_t last, const RankRow *row)
+{
+    const RankRow *rows = ranking->rows;
+    if (first >= last) return 0;
+    double one = fabs(rows[first].value - row->value), own = row->error * row->error;
+    double other = fabs(rows[last - 1].value - row->value);
+    double near = fmin(one, other), far = fmax(one, other);
+    int32_t count = 0;
+    if (isnan(own) || far * far <= block->least + own) return 0;
+    if (last - first == BLOCK && near * near > block->greatest + own) return block->known;
+    for (int32_t i = first; i < last; i++) count += is_decided(&rows[i], row);
+    return count;
+}
+
+// rows: sorted. The ranks that each may have.
+static bool find_places(Ranking *ranking, Error *err)
+{
+    int32_t count = ranking->ranked, block_count = (count + BLOCK - 1) / BLOCK;
+    RankBlock *blocks = NEW_ARRAY(RankBlock, block_count, err);
+    TRY(blocks);
+    for (int32_t b = 0, first = 0; b < block_count; b++, first += BLOCK)
+        blocks[b] =
+            look_at_block(&ranking->rows[first], count - first < BLOCK ? count - first : BLOCK);
+    for (int32_t k = 0; k < count; k++) {
+        RankRow *row = &ranking->rows[k];
+        row->from = 1;
+        row->to = count;
+        for (int32_t b = 0, first = 0; b < block_count; b++, first += BLOCK) {
+            int32_t last = count - first < BLOCK ? count : first + BLOCK;
+            int32_t before = k < last ? k : last, after = k >= first ? k + 1 : first;
+            row->from += count_decided(ranking, &blocks[b], first, before, row);
+            row->to -= count_decided(ranking, &blocks[b], after, last, row);
+        }
+    }
+cleanup:
+    memory_free(blocks);
+    return error_is_clean(err);
 }
 
 static void find_gain(const Sweep *sweep, const SweepTable *table, const Ranking *ranking,
@@ -87,7 +138,7 @@ bool ranking_make(const Sweep *sweep, const SweepTable *table, Ranking *ranking,
         ranking->ranked += !isnan(values[k]);
     }
     qsort(ranking->rows, (size_t)ranking->count, sizeof *ranking->rows, compare);
-    for (int32_t k = 0; ranking->has_error && k < ranking->ranked; k++) find_places(ranking, k);
+    if (ranking->has_error) TRY(find_places(ranking, err));
     int32_t base = study->rank.against == AGAINST_KEYS ? -1 : baseline_of(sweep, ranking, 0);
     ranking->base = base < 0 ? (double)NAN : values[base];
     for (int32_t k = 0; k < ranking->count; k++) {
