@@ -23,6 +23,10 @@ void dpotri_(const char *uplo, const int *n, double *a, const int *lda, int *inf
              size_t uplo_size);
 void dsyev_(const char *jobz, const char *uplo, const int *n, double *a, const int *lda, double *w,
             double *work, const int *lwork, int *info, size_t jobz_size, size_t uplo_size);
+void dsytrd_(const char *uplo, const int *n, double *a, const int *lda, double *d, double *e,
+             double *tau, double *work, const int *lwork, int *info, size_t uplo_size);
+void dorgtr_(const char *uplo, const int *n, double *a, const int *lda, const double *tau,
+             double *work, const int *lwork, int *info, size_t uplo_size);
 void dgeev_(const char *jobvl, const char *jobvr, const int *n, double *a, const int *lda,
             double *wr, double *wi, double *vl, const int *ldvl, double *vr, const int *ldvr,
             double *work, const int *lwork, int *info, size_t jobvl_size, size_t jobvr_size);
@@ -192,6 +196,15 @@ bool dense_eigen_general(double *a, int32_t n, double *re, double *im, double *v
     return info == 0;
 }
 
+bool dense_tridiagonalise(double *a, int32_t n, double *diagonal, double *beside, double *work)
+{
+    int info = 0, size = (int)dense_eigen_work(n) - n;
+    double *reflectors = work, *rest = work + n;
+    if (n > 0) dsytrd_("L", &n, a, &n, diagonal, beside, reflectors, rest, &size, &info, 1);
+    if (n > 0 && info == 0) dorgtr_("L", &n, a, &n, reflectors, rest, &size, &info, 1);
+    return info == 0;
+}
+
 // c := keep c, where there is nothing to add: BLAS takes no matrix without rows.
 static void scale_by(double keep, int64_t count, double *c)
 {
@@ -237,6 +250,23 @@ void dense_add_nonzero(DenseView a, const double *x, double factor, double *y)
                     a.values + first * rows, stride * a.rows, x + first, stride, 1, y, 1);
         first = end - stride;
     }
+}
+
+void dense_bordered_apply(DenseBordered a, const double *x, double *y)
+{
+    int32_t border = a.border, inner = a.size - border;
+    const double *in = x + border;
+    double *out = y + border;
+    memset(y, 0, (size_t)border * sizeof *y);
+    for (int32_t k = 0; k < inner; k++) out[k] = a.diagonal[k] * in[k];
+    for (int32_t k = 0; k + 1 < inner; k++) {
+        out[k] += a.beside[k] * in[k + 1];
+        out[k + 1] += a.beside[k] * in[k];
+    }
+    if (border > 0 && inner > 0)
+        cblas_dgemv(CblasColMajor, CblasTrans, inner, border, 1, a.values + border, a.size, in, 1,
+                    0, y, 1);
+    dense_add_nonzero((DenseView){a.values, a.size, border}, x, 1, y);
 }
 
 // A few rows at a time, which stay in the processor's cache for the next vector.

@@ -63,6 +63,19 @@ bool dense_eigen(double *a, int32_t n, double *values, double *work);
 bool dense_eigen_general(double *a, int32_t n, double *re, double *im, double *vectors,
                          double *work);
 
+// a = Q T Q' for a symmetric `a` [n * n], which becomes the orthogonal Q; T is tridiagonal: `diagonal`
+// [n] and, from `beside` on, the n - 1 entries below it. work: [dense_eigen_work(n)].
+bool dense_tridiagonalise(double *a, int32_t n, double *diagonal, double *beside, double *work);
+
+// y = a x for a symmetric `a` [n * n], both triangles, tridiagonal from row and column `border` on:
+// there `diagonal` and `beside` are read in its place, and before it columns that meet a 0 are not.
+typedef struct DenseBordered {
+    const double *values;
+    int32_t size, border;
+    const double *diagonal, *beside;   // [size - border] each
+} DenseBordered;
+void dense_bordered_apply(DenseBordered a, const double *x, double *y);
+
 // A general matrix: column-major, `rows` long columns, no gaps.
 typedef struct DenseView {
     const double *values;

@@ -6,7 +6,7 @@
 // The full operator leaves all this to base/sparse, which reads S out of CHOLMOD's factor. Callers
 // do not know which of the two they have (a test compares them). Unknowns of the full system are
 // those of the mesh; of the reduced one the interface's come first, then the interior's coordinates
-// q.
+// q. A stage reads B twice (the second time what moves of it), half of A_qq^-1 and, for M v, M_qb.
 #include "bulk/interface_operator.h"
 
 #include "base/dense.h"
@@ -49,6 +49,24 @@ cleanup:
     return error_is_clean(err);
 }
 
+// M_qq where it is tridiagonal (reduced_bulk_narrow), close together.
+static bool copy_narrow_mass(BulkOperator *system, Error *err)
+{
+    const ReducedBulk *reduced = system->reduced;
+    int64_t r = reduced->interior_count, stride = reduced->count;
+    const double *mass = reduced->mass + reduced->interface_count * (stride + 1);
+    for (int64_t j = 0; j < r; j++)
+        for (int64_t i = j + 2; i < r; i++)
+            if (mass[j * stride + i] != 0) return true;
+    system->interior_mass = NEW_ARRAY(double, 2 * r, err);
+    if (!system->interior_mass) return false;
+    for (int64_t j = 0; j < r; j++) {
+        system->interior_mass[j] = mass[j * stride + j];
+        if (j + 1 < r) system->interior_mass[r + j] = mass[j * stride + j + 1];
+    }
+    return true;
+}
+
 bool bulk_operator_reduce(const ReducedBulk *reduced, const double *interface_rotation,
                           double mass_total, BulkOperator *system, Error *err)
 {
@@ -65,6 +83,7 @@ bool bulk_operator_reduce(const ReducedBulk *reduced, const double *interface_ro
     for (int32_t k = 0; k < reduced->interface_count; k++) system->interface_dofs[k] = k;
     for (int32_t k = 0; k < reduced->count; k++)
         system->load[k] = reduced->scales.load * reduced->load[k];
+    TRY(copy_narrow_mass(system, err));
 cleanup:
     return error_is_clean(err);
 }
@@ -75,13 +94,15 @@ void bulk_operator_destroy(BulkOperator *system)
     memory_free(system->load);
     memory_free(system->rotation);
     memory_free(system->values);
+    memory_free(system->interior_mass);
     sparse_analysis_destroy(system->analysis);
     *system = (BulkOperator){0};
 }
 
 // y = K x, C x or M x in the scene's units: normalised matrices times their scale.
-static void apply_reduced(const ReducedBulk *reduced, BulkTerm term, const double *x, double *y)
+static void apply_reduced(const BulkOperator *system, BulkTerm term, const double *x, double *y)
 {
+    const ReducedBulk *reduced = system->reduced;
     const BulkScales *scales = &reduced->scales;
     double factor = scales->stiffness;
     if (term == BULK_STIFFNESS) {
@@ -90,6 +111,15 @@ static void apply_reduced(const ReducedBulk *reduced, BulkTerm term, const doubl
         dense_add_nonzero((DenseView){reduced->stiffness, m, m}, x, 1, y);
         memcpy(y + reduced->interface_count, x + reduced->interface_count,
                (size_t)reduced->interior_count * sizeof(double));
+    } else if (term == BULK_MASS && system->interior_mass) {
+        factor = scales->mass;
+        dense_bordered_apply(
+            (DenseBordered){.values = reduced->mass,
+                            .size = reduced->count,
+                            .border = reduced->interface_count,
+                            .diagonal = system->interior_mass,
+                            .beside = system->interior_mass + reduced->interior_count},
+            x, y);
     } else {
         factor = term == BULK_MASS ? scales->mass : scales->damping;
         dense_symmetric_apply(term == BULK_MASS ? reduced->mass : reduced->damping, reduced->count,
@@ -103,7 +133,7 @@ void bulk_operator_apply(const BulkOperator *system, BulkTerm term, const double
 {
     const Bulk *bulk = system->bulk;
     if (!bulk) {
-        apply_reduced(system->reduced, term, x, y);
+        apply_reduced(system, term, x, y);
     } else if (term == BULK_MASS) {
         for (int32_t k = 0; k < system->dof_count; k++) y[k] = bulk->mass[k] * x[k];
     } else {

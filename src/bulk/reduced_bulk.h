@@ -2,14 +2,18 @@
 // The bulk as a small dense system: the unknowns u_b of the interface first, then the coordinates
 // q of an interior basis,
 //
-//     u = [ I   0   ] [ u_b ]      K = [ S_K 0 ]      M, C full.
-//         [ Psi Phi ] [ q   ]          [ 0   I ]
+//     u = [ I   0   ] [ u_b ]      K = [ S_K 0 ]      M = [ M_bb M_bq ]    C full,
+//         [ Psi Phi ] [ q   ]          [ 0   I ]          [ M_qb T    ],
+//
+// T tridiagonal: a product with M or K costs m r, not (m + r)^2.
 //
 // All matrices are normalised: K/E, C/eta, M/(rho L^2) with lengths over L; so one serves every
 // size and stiffness of a shape. Built by bulk/reduction, stored by model/basis_cache, used through
 // bulk/interface_operator.
 #ifndef AMONTONS_BULK_REDUCED_BULK_H
 #define AMONTONS_BULK_REDUCED_BULK_H
+
+#include "base/error.h"
 
 #include <stdint.h>
 
@@ -50,6 +54,11 @@ typedef struct ReducedBulk {
 } ReducedBulk;
 
 void reduced_bulk_destroy(ReducedBulk *reduced);
+
+// Turns the interior's coordinates by an orthogonal Q, so that K_qq stays the unit matrix and M_qq
+// becomes tridiagonal; `columns` [rows * interior_count], of the modes or of what they are made
+// from, are multiplied by Q from the right.
+bool reduced_bulk_narrow(ReducedBulk *reduced, double *columns, int64_t rows, Error *err);
 
 // The error of S to expect at `inertia` (normalised, see bulk/reduction): the larger of those
 // measured on either side of it.

@@ -303,6 +303,8 @@ bool reduction_build(const Bulk *bulk, const int32_t *interface_dofs, int32_t in
     list_levels(slowest, work.element_inertia, &reduced->errors);
     TRY(visit_levels(&work, err));
     TRY(find_viscous(&work, err));
+    int64_t m = reduced->interface_count, dofs = reduced->full_dofs;
+    TRY(reduced_bulk_narrow(reduced, reduced->modes + m * dofs, dofs, err));
 cleanup:
     interface_operator_destroy(statics);
     builder_destroy(&work);

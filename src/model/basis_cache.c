@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-const char BASIS_FORMAT[] = "basis 6 " AMONTONS_VERSION;
+const char BASIS_FORMAT[] = "basis 7 " AMONTONS_VERSION;
 
 enum { COUNTS = 4 };
 

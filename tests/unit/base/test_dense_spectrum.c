@@ -247,16 +247,56 @@ static void test_lu_sign(void **state)
     assert_int_equal(dense_lu_sign(NULL, 0, NULL), 1);   // the empty product
 }
 
+// Q T Q' = A with Q'Q = 1; a product with such a matrix behind a border, whatever else stands there.
+static void test_tridiagonal(void **state)
+{
+    (void)state;
+    enum { SIZE = 7, BORDER = 3 };
+    Random random = {.state = 31};
+    for (int32_t n = 0; n <= SIZE; n++) {
+        double a[SIZE * SIZE], q[SIZE * SIZE], t[SIZE * SIZE] = {0}, work[34 * SIZE + 64];
+        double diagonal[SIZE], beside[SIZE], x[SIZE], y[SIZE], through[SIZE], wanted[SIZE];
+        for (int32_t j = 0; j < n; j++)
+            for (int32_t i = 0; i <= j; i++)
+                q[j * n + i] = q[i * n + j] = a[j * n + i] = a[i * n + j] =
+                    random_between(&random, -1, 1);
+        for (int32_t k = 0; k < n; k++) x[k] = k == 1 ? 0 : random_between(&random, -1, 1);
+        assert_true(dense_eigen_work(n) <= 34 * SIZE + 64);
+        assert_true(dense_tridiagonalise(q, n, diagonal, beside, work));
+        for (int32_t k = 0; k < n; k++) {
+            t[k * n + k] = diagonal[k];
+            if (k + 1 < n) t[k * n + k + 1] = t[(k + 1) * n + k] = beside[k];
+        }
+        dense_apply_transposed((DenseView){q, n, n}, x, 1, 0, y);
+        hand_apply(q, n, n, y, through);
+        assert_all_near("Q Q' x", through, x, n, 1e-14);
+        hand_apply(t, n, n, y, through);
+        hand_apply(q, n, n, through, y);
+        hand_apply(a, n, n, x, wanted);
+        assert_all_near("Q T Q' x", y, wanted, n, 1e-14);
+        for (int32_t border = n < BORDER ? n : BORDER; border >= 0; border--) {
+            for (int32_t j = border; j < n; j++)
+                for (int32_t i = border; i < n; i++)
+                    if (abs(i - j) > 1) a[j * n + i] = 0;
+            for (int32_t k = border; k < n; k++) {
+                diagonal[k] = a[k * n + k];
+                if (k + 1 < n) beside[k] = a[k * n + k + 1];
+            }
+            hand_apply(a, n, n, x, wanted);
+            DenseBordered bordered = {a, n, border, diagonal + border, beside + border};
+            dense_bordered_apply(bordered, x, y);
+            assert_all_near("bordered", y, wanted, n, 1e-14);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_eigen_of_a_string),
-        cmocka_unit_test(test_eigen_of_random_matrices),
-        cmocka_unit_test(test_inverse_of_hilbert),
-        cmocka_unit_test(test_products),
-        cmocka_unit_test(test_divide_both_sides),
-        cmocka_unit_test(test_general_eigenvalues),
-        cmocka_unit_test(test_lu_sign),
+        cmocka_unit_test(test_eigen_of_a_string),   cmocka_unit_test(test_eigen_of_random_matrices),
+        cmocka_unit_test(test_inverse_of_hilbert),  cmocka_unit_test(test_products),
+        cmocka_unit_test(test_tridiagonal),         cmocka_unit_test(test_divide_both_sides),
+        cmocka_unit_test(test_general_eigenvalues), cmocka_unit_test(test_lu_sign),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

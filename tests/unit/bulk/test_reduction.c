@@ -122,6 +122,9 @@ static void test_blocks(void **state)
         assert_all_near("V'CV", reduced->damping, c_small, count * count, 1e-13);
         assert_all_near("V'MV", reduced->mass, m_small, count * count, 1e-13);
         assert_definite("M", reduced->mass, count, 0);
+        for (int32_t j = m; j < count; j++)
+            for (int32_t i = m; i < count; i++)
+                if (abs(i - j) > 1) assert_true(reduced->mass[j * count + i] == 0);
         assert_definite("C", reduced->damping, count, 3);   // the plane's rigid motions
         assert_definite("S_K", reduced->stiffness, m, 3);
         free(k), free(c), free(mass), free(k_small), free(c_small), free(m_small), free(schur);
@@ -223,6 +226,7 @@ static void test_operator(void **state)
     double *sum = hand_matrix(count, 1), *g = hand_matrix(m, 1);
     BulkOperator system;
     assert_true(bulk_operator_reduce(reduced, turn, 1, &system, &err));
+    assert_non_null(system.interior_mass);
     double *dense[] = {[BULK_STIFFNESS] = dense_matrix(&block.bulk, block.bulk.stiffness),
                        [BULK_DAMPING] = dense_matrix(&block.bulk, block.bulk.damping),
                        [BULK_MASS] = dense_mass(&block.bulk)};
