@@ -28,8 +28,7 @@ typedef struct BulkOperator {
     Machine machine;   // behind the rod; set before an operator is made, rigid at first
     const Bulk *bulk;   // full: K, C, M; not owned; NULL when reduced
     const ReducedBulk *reduced;   // reduced: likewise; not owned; NULL when full
-    double
-        *interior_mass;   // reduced: [2, interior] diagonal of M_qq and what is beside it; owned;
+    double *interior_mass;   // reduced: [2, interior] diagonal of M_qq, what is beside it; owned;
         // NULL: M_qq has more than that
     SparseAnalysis *analysis;   // full; owned
     double *values;   // full: [entries] work, A; owned

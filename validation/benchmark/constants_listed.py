@@ -187,6 +187,7 @@ NOT_A_CHOICE = {
     "bulk/material.h": {"MATERIALS_MAX": SIZE},
     "bulk/mesh.h": {"MESH_PATH_SIZE": SIZE},
     "bulk/mesh_contact.c": {"PLACE_TOLERANCE": ROUNDING},
+    "bulk/reduced_bulk.c": {"PIECE": "rows that are turned together"},
     "bulk/reduced_bulk.h": {"REDUCTION_LEVELS_MAX": SIZE},
     "bulk/reduction.c": {"VISCOSITIES_MAX": SIZE},
     "bulk/growing_basis.c": {"TAKEN_MAX": "rounding: modes orthogonal to 1e-11"},
