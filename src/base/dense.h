@@ -63,8 +63,8 @@ bool dense_eigen(double *a, int32_t n, double *values, double *work);
 bool dense_eigen_general(double *a, int32_t n, double *re, double *im, double *vectors,
                          double *work);
 
-// a = Q T Q' for a symmetric `a` [n * n], which becomes the orthogonal Q; T is tridiagonal: `diagonal`
-// [n] and, from `beside` on, the n - 1 entries below it. work: [dense_eigen_work(n)].
+// a = Q T Q' for a symmetric `a` [n * n], which becomes the orthogonal Q; T is tridiagonal, its
+// diagonal [n] and beside it n - 1 entries. work: [dense_eigen_work(n)].
 bool dense_tridiagonalise(double *a, int32_t n, double *diagonal, double *beside, double *work);
 
 // y = a x for a symmetric `a` [n * n], both triangles, tridiagonal from row and column `border` on:

@@ -247,7 +247,7 @@ static void test_lu_sign(void **state)
     assert_int_equal(dense_lu_sign(NULL, 0, NULL), 1);   // the empty product
 }
 
-// Q T Q' = A with Q'Q = 1; a product with such a matrix behind a border, whatever else stands there.
+// Q T Q' = A with Q'Q = 1; a product with such a matrix behind a border.
 static void test_tridiagonal(void **state)
 {
     (void)state;
