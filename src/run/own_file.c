@@ -4,6 +4,7 @@
 #include "render/render.h"
 
 #include <ctype.h>
+#include <errno.h>
 #include <fcntl.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -87,7 +88,9 @@ bool own_file_is_ours(const char *path)
     if (fstat(file, &status) == 0 && S_ISREG(status.st_mode)) {
         off_t last = status.st_size > REACH ? status.st_size - REACH : 0;
         for (int end = 0; end < 2 && !found; end++) {
-            ssize_t size = pread(file, bytes, REACH, end ? last : 0);
+            ssize_t size;
+            while ((size = pread(file, bytes, REACH, end ? last : 0)) < 0 && errno == EINTR)
+                continue;
             found = size == 0 || (size > 0 && memmem(bytes, (size_t)size, mark, strlen(mark)));
         }
     }
