@@ -75,7 +75,7 @@ class Machine(Driven):
     def test_refusals(self):
         for words, settings in (
                 ("rod.stiffness: the scene has no rod", ["rod={kind: none, stiffness: 1}", "time.until={t: 1}"]),
-                ("rod.stiffness: found `0`; allowed: a number > 0", ["rod.stiffness=0"])):
+                ("rod.stiffness: found `0`; allowed: none, or a number > 0", ["rod.stiffness=0"])):
             self.assertIn(words, self.call("run", *settings, status=2, flags=("-q",)))
         self.assertIn("rod.stiffness: the 1D model's rod goes where it is driven",
                       self.call("model1d", "rod.stiffness=1", status=2, flags=["--theory"]))
