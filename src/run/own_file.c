@@ -29,7 +29,7 @@ static const struct {
                  {"accuracy.json", "\"contact nodes\""},
                  {"sweep.csv", "point,"},
                  {"sweep.h5", "result"},
-                 {"ranking.csv", "rank,rank_from,"}};
+                 {"ranking.csv", "rank,"}};
 static const char *const FIELDS[][3] = {{"bulk_", ".vtu", "stress_elastic"},
                                         {"interface_", ".vtp", "slip_rate"}};
 
