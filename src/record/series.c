@@ -147,7 +147,7 @@ static int compare(const void *left, const void *right)
 
 void series_sort(SeriesItem *items, int32_t count)
 {
-    qsort(items, (size_t)count, sizeof *items, compare);
+    if (count > 0) qsort(items, (size_t)count, sizeof *items, compare);   // of none: NULL
 }
 
 // Single linkage: a branch goes on as long as the next value is within the tolerance of its

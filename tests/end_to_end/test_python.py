@@ -18,10 +18,13 @@ from pathlib import Path
 
 import numpy as np
 
+from sanitizer_fixture import begin_again_with
+
 SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
 BIN = Path(os.environ.get("AMONTONS_BIN", SOURCE / "build" / "bin"))
 MODULE = BIN.resolve().parent / "python"
 sys.path.insert(0, str(MODULE))
+begin_again_with(BIN / "libamontons.so")
 import amontons                         # noqa: E402
 from amontons import _structs           # noqa: E402
 

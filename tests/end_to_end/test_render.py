@@ -19,6 +19,7 @@ from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 import render_fixture as fixture
+from sanitizer_fixture import begin_again_with
 
 MODULES = os.environ["AMONTONS_MODULES"]
 FIGURES = ("force", "slip-map", "contact-density")
@@ -43,16 +44,7 @@ class Request(ctypes.Structure):
                 ("style", Style)]
 
 
-def preload_sanitizer(module):
-    """A module built with the address sanitizer wants its runtime to be in the process first."""
-    needed = subprocess.run(["ldd", module], capture_output=True, text=True, check=True).stdout
-    runtime = re.findall(r"/\S*libasan\S*", needed)
-    if runtime and "LD_PRELOAD" not in os.environ:
-        environment = dict(os.environ, LD_PRELOAD=runtime[0], ASAN_OPTIONS="detect_leaks=0")
-        os.execve(sys.executable, [sys.executable, *sys.argv], environment)
-
-
-preload_sanitizer(os.path.join(MODULES, "amontons_render.so"))
+begin_again_with(os.path.join(MODULES, "amontons_render.so"))
 LIBRARY = ctypes.CDLL(os.path.join(MODULES, "amontons_render.so"))
 LIBRARY.amontons_render.restype = ctypes.c_bool
 

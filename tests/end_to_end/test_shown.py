@@ -7,7 +7,10 @@ import subprocess
 import unittest
 from pathlib import Path
 
+from sanitizer_fixture import preload
+
 SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
+BIN = Path(os.environ.get("AMONTONS_BIN", SOURCE / "build" / "bin"))
 # The gallery shows pictures of the others, and two runs more.
 PAGES = [page for page in sorted(SOURCE.glob("docs/*.md"))
          if "\n```console\n" in page.read_text() and page.name != "gallery.md"]
@@ -17,7 +20,8 @@ PICTURES_MAX = 3_000_000   # bytes in all, a film among them: pages are read on 
 class Shown(unittest.TestCase):
     def test_commands(self):
         self.assertGreaterEqual(len(PAGES), 2)
-        done = subprocess.run([SOURCE / "docs/examples/shown.py", "--small", *PAGES], capture_output=True, text=True)
+        done = subprocess.run([SOURCE / "docs/examples/shown.py", "--small", *PAGES], capture_output=True, text=True,
+                              env=os.environ | preload(BIN / "libamontons.so"))
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def test_ten_studies_with_a_picture_each(self):

@@ -123,6 +123,7 @@ static void test_ladder(void **state)
 static void test_few(void **state)
 {
     (void)state;
+    series_sort(NULL, 0);   // a run that failed before its first drop
     set_values((double[]){2, 2, 2, 2, 2}, 5);
     assert_true(isnan(series_mean(items, 0, 1).value));
     assert_true(isnan(series_lowest_decile(items, 0).value));
