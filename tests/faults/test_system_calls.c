@@ -129,6 +129,39 @@ static bool draw_sweep(Error *err)
     return amontons_render_sweep(result, NULL, NULL, err);
 }
 
+// A scene with what other files and formulas it may name.
+static bool read_scene(Error *err)
+{
+    static const char *const settings[] = {"mesh.set.nx== 2 * mesh.set.nz",
+                                           "rod.width== load.pressure * 10",
+                                           "materials.pads={young: 2, eta1: 3}",
+                                           "friction.contacts=[{group: a, mu_kinetic: 0.05}]",
+                                           "contact.profile=profile.csv",
+                                           "output.fields={every_t: 1}",
+                                           "output.figures=[force]"};
+    char path[PLACE_SIZE + 20];
+    Scene *read = NULL;
+    snprintf(path, sizeof path, "%s/again.yaml", place);
+    bool done = amontons_scene_read(path, settings, 7, &read, err);
+    amontons_scene_destroy(read);
+    return done;
+}
+
+static bool film(Error *err)
+{
+    char path[PLACE_SIZE + 20];
+    snprintf(path, sizeof path, "%s/film.mp4", place);
+    FilmRequest request = {.path = path, .seconds = 0.1, .width = 640, .height = 360};
+    return amontons_film(result, &request, err);
+}
+
+static bool compare(Error *err)
+{
+    char page[PLACE_SIZE + 20];
+    snprintf(page, sizeof page, "%s/page.html", place);
+    return amontons_report((const char *const[]){result, result}, 2, page, err);
+}
+
 // --- and how it may end -------------------------------------------------------------------------
 
 static bool is_whole(const char *name)
@@ -210,6 +243,31 @@ static void test_run(void **state)
     try_all(draw, 41);
     try_all(report, 101);
     close_scene();
+}
+
+// Only where all faults are tried: a film and a comparison take long.
+static void test_films(void **state)
+{
+    (void)state;
+    if (!getenv("AMONTONS_FAULTS_EVERY")) skip();
+    open_scene((const char *const[]){"time.until={t: 1}", "time.step_max=0.5",
+                                     "reduction.use=never", NULL});
+    Error err = {0};
+    if (!run(&err)) fail_msg("%s", err.message);
+    try_all(film, 1);
+    try_all(compare, 1);
+    close_scene();
+}
+
+static void test_scene(void **state)
+{
+    (void)state;
+    char text[4000], path[PLACE_SIZE];
+    snprintf(path, sizeof path, "%s/validation/paper", getenv("AMONTONS_SOURCE"));
+    place_read(path, "fig1.yaml", text, sizeof text);
+    place_write(place, "again.yaml", text);
+    place_write(place, "profile.csv", "x,gap\n0,0\n0.5,1e-6\n1,0\n");
+    try_all(read_scene, 19);
 }
 
 static void test_resume(void **state)
@@ -297,12 +355,15 @@ static int end(void **state)
     return 0;
 }
 
-int main(void)
+// An argument: only the tests that it fits.
+int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(test_run, anew),     cmocka_unit_test_teardown(test_resume, anew),
+        cmocka_unit_test_teardown(test_run, anew),     cmocka_unit_test_teardown(test_films, anew),
+        cmocka_unit_test_teardown(test_scene, anew),   cmocka_unit_test_teardown(test_resume, anew),
         cmocka_unit_test_teardown(test_studies, anew), cmocka_unit_test_teardown(test_sweep, anew),
         cmocka_unit_test_teardown(test_slurm, anew),
     };
+    if (argc > 1) cmocka_set_test_filter(argv[1]);
     return cmocka_run_group_tests(tests, begin, end);
 }
