@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Pages about results that lack something: a run without a history, in SI, without events; a sweep with failed points,
 many values, without figures, arrays or a report."""
+import json
 import os
+import pty
 import shutil
 import subprocess
 import tempfile
@@ -54,6 +56,50 @@ class Odd(unittest.TestCase):
         self.assertIn("image/gif", self.page("run"))
         (self.folder / "run/history.h5").write_bytes(b"damaged")
         self.assertIn("history.h5", self.page("run"))
+
+    def test_numbers_by_hand(self):
+        """Of two reports that are edited: errors of all sizes, states, scenes that differ."""
+        done = self.call("run", FIG1, *TINY, "output.history=false", "-o", "one", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        report = json.loads((self.folder / "one/run.json").read_text())
+        for name, value, error, status in (("two", 0.25, 0.003, "done"), ("three", -12345.678, 5, "failed"),
+                                           ("four", 3.0, 1e-12, "done"), ("five", None, 0.1, "running")):
+            (self.folder / name).mkdir()
+            report["status"] = status
+            report["message"] = "no more"
+            report["results"] |= {"mu_M": value, "mu_M_error": error, "mu_hold": value, "mu_hold_error": error}
+            report["scene"]["rod"]["extra"] = [[1,   2], {"a b": "  c  "}, True]
+            report["scene"]["load"].pop("supports", None)
+            (self.folder / name / "run.json").write_text(json.dumps(report, indent=None if name == "two" else 3))
+        self.assertIn("0.2500&nbsp;±&nbsp;0.0030", self.page("two"))
+        self.assertIn("no more", self.page("three"))
+        self.page("four")
+        self.page("five")
+        done = self.call("report", "one", "two", "three", "four", "five", "-o", "all.html")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        page = (self.folder / "all.html").read_text()
+        self.assertIn("three failed: its own report says why", page)
+        self.assertIn("rod.extra", page)
+
+    def test_bar_of_a_sweep(self):
+        """On a terminal a last line with the progress of the whole."""
+        (self.folder / "study.yaml").write_text(STUDY.replace("points: 16", "points: 2"))
+        ours, its = pty.openpty()
+        process = subprocess.Popen([PROGRAM, "sweep", "study.yaml", "-o", "few", "-j", "1"], cwd=self.folder, stderr=its,
+                                   stdout=subprocess.DEVNULL)
+        os.close(its)
+        said = b""
+        while True:
+            try:
+                more = os.read(ours, 4096)
+            except OSError:
+                break
+            if not more:
+                break
+            said += more
+        os.close(ours)
+        self.assertEqual(process.wait(), 1)
+        self.assertIn(b"4 of 4 points, 2 failed, 0:00 left", said)
 
     def test_sweep(self):
         (self.folder / "study.yaml").write_text(STUDY)

@@ -328,6 +328,8 @@ static void test_lists_that_are_too_long(void **state)
          "at most 32 maps"},
         {"load: {pressure: 1, tractions: [", "{group: g%d, x: 1}, ", "]}", 33, 6,
          "at most 32 maps"},
+        {"friction: {mu_static: 0.5, mu_kinetic: 0.2, critical_velocity: 1, contacts: [",
+         "{group: g%d, along: '2'}, ", "]}", 17, 5, "at most 16 items"},
         {"materials: {", "m%d: {young: 1}, ", "}", 40, 0, "materials: at most"},
         {"groups: {top: a", "%d", "}", 60, 0, "a name of 1 to 63 bytes"},
         {"mesh: {set: {p", "%d", ": 1}, file: a.msh}", 60, 3, "names of 1 to 63 bytes"},
@@ -362,6 +364,23 @@ static void test_bad_files(void **state)
         if (err.code != ERROR_INPUT || !strstr(err.message, cases[k].words))
             fail_msg("%s", err.message);
     }
+    char path[1500], text[SCENE_TEXT_MAX];
+    Error err = {0};
+    snprintf(path, sizeof path, "%s/validation/paper/", getenv("AMONTONS_SOURCE"));
+    for (int k = 0; k < 260; k++) strcat(path, "./");
+    strcat(path, "fig1.yaml");
+    assert_false(scene_read(path, NULL, 0, &scene, &err));
+    assert_non_null(strstr(err.message, "a path of more than 511 bytes"));
+    snprintf(path, sizeof path, "mesh: {file: %0500d.msh}", 1);
+    scene_text_with(3, path, text);
+    err = (Error){0};
+    assert_false(scene_of_text("a_folder/s.yaml", text, &scene, &err));
+    if (!strstr(err.message, "is longer than 511 bytes")) fail_msg("%s", err.message);
+    snprintf(path, sizeof path, "%0100d: 1", 1);
+    scene_text_with(1, path, text);
+    err = (Error){0};
+    assert_false(scene_of_text("s.yaml", text, &scene, &err));
+    if (!strstr(err.message, "unknown key")) fail_msg("%s", err.message);
 }
 
 static void test_bad_overrides(void **state)
