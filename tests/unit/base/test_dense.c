@@ -180,7 +180,8 @@ static void test_two_vectors_at_once(void **state)
     static double a[ROWS * COLUMNS], x[2][COLUMNS], one[ROWS], y[2][ROWS];
     Random random = {.state = 8};
     for (int32_t k = 0; k < ROWS * COLUMNS; k++) a[k] = random_between(&random, -1, 1);
-    for (int32_t k = 0; k < 2 * COLUMNS; k++) x[0][k] = random_between(&random, -1, 1);
+    for (int32_t k = 0; k < 2 * COLUMNS; k++)
+        x[k / COLUMNS][k % COLUMNS] = random_between(&random, -1, 1);
     DenseView view = {a, ROWS, COLUMNS};
     dense_apply_each(view, 2, (const double *[]){x[0], x[1]}, (double *[]){y[0], y[1]});
     for (int k = 0; k < 2; k++) {
