@@ -129,6 +129,26 @@ static bool draw_sweep(Error *err)
     return amontons_render_sweep(result, NULL, NULL, err);
 }
 
+// A mesh that no cache holds.
+static bool look_at_mesh(Error *err)
+{
+    static const char *const settings[] = {"nx=4", "nz=2", "length=2"};
+    char path[4 * PLACE_SIZE], picture[PLACE_SIZE + 20];
+    snprintf(path, sizeof path, "%s/meshes/block.geo", getenv("AMONTONS_SOURCE"));
+    snprintf(picture, sizeof picture, "%s/mesh.svg", place);
+    InfoOptions options = {.overrides = settings, .override_count = 3, .picture = picture};
+    return amontons_info(path, &options, nowhere, err);
+}
+
+static bool plot(Error *err)
+{
+    static const char *const plots[] = {
+        "{x: load.pressure, y: mu_max, series: load.pressure, log: both}",
+        "{x: load.pressure, y: = 2 * mu_max, color: mu_max, contours: mu_max}"};
+    return amontons_render_sweep(result, plots[0], NULL, err) &&
+           amontons_render_sweep(result, plots[1], NULL, err);
+}
+
 // A scene with what other files and formulas it may name.
 static bool read_scene(Error *err)
 {
@@ -318,6 +338,26 @@ static void test_sweep(void **state)
     try_all(report, 101);
 }
 
+// Where the cache cannot help.
+static void test_meshes(void **state)
+{
+    (void)state;
+    setenv("AMONTONS_CACHE", "", 1);
+    try_all(look_at_mesh, 41);
+    setenv("AMONTONS_CACHE", place_path(place, "cache"), 1);
+}
+
+// Only where all faults are tried.
+static void test_plots(void **state)
+{
+    (void)state;
+    if (!getenv("AMONTONS_FAULTS_EVERY")) skip();
+    Error err = {0};
+    write_study();
+    if (!sweep(&err)) fail_msg("%s", err.message);
+    try_all(plot, 1);
+}
+
 static void test_slurm(void **state)
 {
     (void)state;
@@ -362,6 +402,7 @@ int main(int argc, char **argv)
         cmocka_unit_test_teardown(test_run, anew),     cmocka_unit_test_teardown(test_films, anew),
         cmocka_unit_test_teardown(test_scene, anew),   cmocka_unit_test_teardown(test_resume, anew),
         cmocka_unit_test_teardown(test_studies, anew), cmocka_unit_test_teardown(test_sweep, anew),
+        cmocka_unit_test_teardown(test_meshes, anew),  cmocka_unit_test_teardown(test_plots, anew),
         cmocka_unit_test_teardown(test_slurm, anew),
     };
     if (argc > 1) cmocka_set_test_filter(argv[1]);
