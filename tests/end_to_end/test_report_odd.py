@@ -57,6 +57,16 @@ class Odd(unittest.TestCase):
         (self.folder / "run/history.h5").write_bytes(b"damaged")
         self.assertIn("history.h5", self.page("run"))
 
+    def test_events_in_metres(self):
+        """More of them than a page lists; films in every format, and one that is none."""
+        done = self.call("run", FIG1, *TINY, *SI, "time.until={U: 0.008}", "-o", "run", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for name in ("run.webm", "run.mp4"):
+            (self.folder / "run" / name).write_bytes(b"no film")
+        page = self.page("run")
+        self.assertRegex(page, r"<tr class='kind\d'>")
+        self.assertIn("video/", page)
+
     def test_numbers_by_hand(self):
         """Of two reports that are edited: errors of all sizes, states, scenes that differ."""
         done = self.call("run", FIG1, *TINY, "output.history=false", "-o", "one", "--quiet")

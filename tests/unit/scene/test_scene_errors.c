@@ -383,6 +383,19 @@ static void test_bad_files(void **state)
     if (!strstr(err.message, "unknown key")) fail_msg("%s", err.message);
 }
 
+static void test_too_many_overrides(void **state)
+{
+    (void)state;
+    static const char *words[20000];
+    static Scene scene;
+    char path[600];
+    Error err = {0};
+    snprintf(path, sizeof path, "%s/validation/paper/fig1.yaml", getenv("AMONTONS_SOURCE"));
+    for (int k = 0; k < 20000; k++) words[k] = "rod.width=0.1";
+    assert_false(scene_read(path, words, 20000, &scene, &err));
+    if (!strstr(err.message, "settings of keys")) fail_msg("%s", err.message);
+}
+
 static void test_bad_overrides(void **state)
 {
     (void)state;
@@ -429,13 +442,10 @@ static void test_bad_overrides(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bad_values),
-        cmocka_unit_test(test_bad_combinations),
-        cmocka_unit_test(test_bad_units),
-        cmocka_unit_test(test_not_scenes),
-        cmocka_unit_test(test_bad_files),
-        cmocka_unit_test(test_bad_overrides),
-        cmocka_unit_test(test_lists_that_are_too_long),
+        cmocka_unit_test(test_bad_values),         cmocka_unit_test(test_bad_combinations),
+        cmocka_unit_test(test_bad_units),          cmocka_unit_test(test_not_scenes),
+        cmocka_unit_test(test_bad_files),          cmocka_unit_test(test_bad_overrides),
+        cmocka_unit_test(test_too_many_overrides), cmocka_unit_test(test_lists_that_are_too_long),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
