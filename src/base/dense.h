@@ -53,7 +53,7 @@ void dense_lower_divide(const double *lower, int32_t n, int32_t columns, double 
 void dense_divide_both_sides(const double *lower, int32_t n, double *a);
 
 // Eigenvalues, ascending, and orthonormal eigenvectors (columns, in place) of a symmetric `a` [n *
-// n]. values: [n]; work: [dense_eigen_work(n)].
+// n]. values: [n]; work: [dense_eigen_work(n)], here and below.
 int64_t dense_eigen_work(int32_t n);
 bool dense_eigen(double *a, int32_t n, double *values, double *work);
 
@@ -85,6 +85,11 @@ typedef struct DenseView {
 // c = factor a' b + keep c, c = factor a b + keep c; c has the rows and columns that follow.
 void dense_multiply_transposed(DenseView a, DenseView b, double factor, double keep, double *c);
 void dense_multiply(DenseView a, DenseView b, double factor, double keep, double *c);
+// Where c or b are rows of a larger matrix, whose columns are `stride` apart: c = a' b, and
+// c += factor a b, b [a.columns * columns].
+void dense_multiply_transposed_rows(DenseView a, DenseView b, double *c, int64_t stride);
+void dense_multiply_rows(DenseView a, const double *b, int64_t stride, int64_t columns,
+                         double factor, double *c);
 // y = factor a x + keep y, y = factor a' x + keep y
 void dense_apply(DenseView a, const double *x, double factor, double keep, double *y);
 void dense_apply_transposed(DenseView a, const double *x, double factor, double keep, double *y);

@@ -9,6 +9,7 @@
 
 #include "base/dense.h"
 #include "base/memory.h"
+#include "base/share.h"
 
 #include <cholmod.h>
 #include <string.h>
@@ -16,6 +17,15 @@
 // Of GNU's OpenMP, which Debian's CHOLMOD comes with.
 int omp_get_max_active_levels(void) __attribute__((weak));
 void omp_set_max_active_levels(int levels) __attribute__((weak));
+
+enum { TOGETHER = 32 };   // columns of one pass over a factor
+
+// Work space of passes over a factor with many columns, of one thread.
+typedef struct Passage {
+    cholmod_common common;
+    cholmod_dense *columns;   // [size * TOGETHER]; NULL: not open
+    cholmod_dense *work;
+} Passage;
 
 struct SparseAnalysis {
     cholmod_common common;
@@ -28,6 +38,7 @@ struct SparseAnalysis {
     cholmod_dense *forward;   // solve2's workspaces, shared by all factors
     cholmod_dense *work_y, *work_e;
     cholmod_dense *permuted;   // right-hand side in L's order
+    Passage passages[2];
 };
 
 struct SparseFactor {
@@ -68,6 +79,29 @@ void sparse_apply(const SparsePattern *pattern, const double *values, const doub
         for (int32_t k = start[row]; k < start[row + 1]; k++) sum += values[k] * x[index[k]];
         y[row] = sum;
     }
+}
+
+// Eight columns share one pass, their entries of a row side by side.
+void sparse_apply_many(const SparsePattern *pattern, const double *values, const double *x,
+                       int64_t columns, double *y, double *work)
+{
+    enum { WIDE = SPARSE_WIDE };
+    const int32_t *start = pattern->start, *index = pattern->index;
+    int64_t size = pattern->size, column = 0;
+    for (; column + WIDE <= columns; column += WIDE) {
+        for (int64_t row = 0; row < size; row++)
+            for (int j = 0; j < WIDE; j++) work[row * WIDE + j] = x[(column + j) * size + row];
+        for (int64_t row = 0; row < size; row++) {
+            double sum[WIDE] = {0};
+            for (int32_t k = start[row]; k < start[row + 1]; k++) {
+                const double *from = work + (int64_t)index[k] * WIDE;
+                for (int j = 0; j < WIDE; j++) sum[j] += values[k] * from[j];
+            }
+            for (int j = 0; j < WIDE; j++) y[(column + j) * size + row] = sum[j];
+        }
+    }
+    for (; column < columns; column++)
+        sparse_apply(pattern, values, x + column * size, y + column * size);
 }
 
 // A CHOLMOD view of the pattern; `values` may be NULL. Points into the caller's arrays.
@@ -167,6 +201,30 @@ cleanup:
     return NULL;
 }
 
+// Kept from call to call: memory that is asked for anew comes page by page.
+static bool open_passage(const SparseAnalysis *analysis, Passage *passage, Error *err)
+{
+    if (passage->columns) return true;
+    cholmod_start(&passage->common);
+    passage->common.print = 0;
+    passage->columns =
+        cholmod_zeros(analysis->pattern->nrow, TOGETHER, CHOLMOD_REAL, &passage->common);
+    passage->work =
+        cholmod_zeros(analysis->symbolic->maxesize + 1, TOGETHER, CHOLMOD_REAL, &passage->common);
+    if (!passage->columns || !passage->work)
+        FAIL(err, ERROR_MEMORY, "no memory for %d answers of a factor", TOGETHER);
+cleanup:
+    return error_is_clean(err);
+}
+
+static void close_passage(Passage *passage)
+{
+    if (!passage->columns) return;
+    cholmod_free_dense(&passage->columns, &passage->common);
+    cholmod_free_dense(&passage->work, &passage->common);
+    cholmod_finish(&passage->common);
+}
+
 // Also of one half built. Factors made from it must have been destroyed.
 void sparse_analysis_destroy(SparseAnalysis *analysis)
 {
@@ -180,6 +238,7 @@ void sparse_analysis_destroy(SparseAnalysis *analysis)
         cholmod_free_dense(&analysis->work_y, common);
         cholmod_free_dense(&analysis->work_e, common);
         cholmod_free_dense(&analysis->permuted, common);
+        for (int which = 0; which < 2; which++) close_passage(&analysis->passages[which]);
         cholmod_finish(common);
     }
     memory_free(analysis->border_position);
@@ -333,42 +392,52 @@ cleanup:
     return error_is_clean(err);
 }
 
-// TOGETHER columns fill a block that the factor passes over once; more would leave the cache.
+typedef struct Expansion {
+    SparseFactor *factor;
+    const double *border;   // [border_count * count]
+    int32_t count;
+    double *x;   // [size * count]
+} Expansion;
+
+// One half's columns, TOGETHER at a time: they fill a block that the factor passes over once; more
+// would leave the cache. The halves share nothing that either writes to.
+static void expand_half(void *context, int32_t which)
+{
+    const Expansion *all = context;
+    SparseAnalysis *analysis = all->factor->analysis;
+    Passage *passage = &analysis->passages[which];
+    cholmod_factor *numeric = all->factor->numeric;
+    const int32_t *permutation = numeric->Perm, *position = analysis->border_position;
+    int32_t border_count = analysis->border_count;
+    int32_t first = which ? all->count / 2 : 0, end = which ? all->count : all->count / 2;
+    int64_t size = (int64_t)numeric->n;
+    int32_t passes = (end - first + TOGETHER - 1) / TOGETHER, columns = 0;
+    for (int32_t pass = 0; pass < passes; pass++, first += columns) {
+        columns = (end - first) / (passes - pass);   // alike: a few alone take as long as many
+        double *values = passage->columns->x;
+        passage->columns->ncol = (size_t)columns;
+        memset(values, 0, (size_t)(size * columns) * sizeof *values);
+        for (int32_t j = 0; j < columns; j++) {
+            const double *given = all->border + (int64_t)(first + j) * border_count;
+            double *border = values + (j + 1) * size - border_count;
+            for (int32_t k = 0; k < border_count; k++) border[position[k]] = given[k];
+            dense_lower_apply_transposed(all->factor->border_factor, border_count, border);
+        }
+        cholmod_super_ltsolve(numeric, passage->columns, passage->work, &passage->common);
+        for (int32_t j = 0; j < columns; j++) {
+            double *out = all->x + (first + j) * size;
+            for (int64_t k = 0; k < size; k++) out[permutation[k]] = values[j * size + k];
+        }
+    }
+}
+
 bool sparse_expand_many(SparseFactor *factor, const double *x_border, int32_t count, double *x,
                         Error *err)
 {
-    enum { TOGETHER = 32 };
-    cholmod_common *common = &factor->analysis->common;
-    const int32_t *permutation = factor->numeric->Perm,
-                  *position = factor->analysis->border_position;
-    int32_t border_count = factor->analysis->border_count;
-    int64_t size = (int64_t)factor->numeric->n;
-    cholmod_dense *right = NULL, *solution = NULL, *work_y = NULL, *work_e = NULL;
-    for (int32_t first = 0; first < count; first += TOGETHER) {
-        int32_t columns = count - first < TOGETHER ? count - first : TOGETHER;
-        cholmod_free_dense(&right, common);
-        right = cholmod_zeros((size_t)size, (size_t)columns, CHOLMOD_REAL, common);
-        if (!right) FAIL(err, ERROR_MEMORY, "no memory for %d answers of a factor", columns);
-        for (int32_t j = 0; j < columns; j++) {
-            const double *given = x_border + (int64_t)(first + j) * border_count;
-            double *border = (double *)right->x + (j + 1) * size - border_count;
-            for (int32_t k = 0; k < border_count; k++) border[position[k]] = given[k];
-            dense_lower_apply_transposed(factor->border_factor, border_count, border);
-        }
-        if (!cholmod_solve2(CHOLMOD_Lt, factor->numeric, right, NULL, &solution, NULL, &work_y,
-                            &work_e, common))
-            FAIL(err, ERROR_MEMORY, "CHOLMOD: the backward substitution failed (status %d)",
-                 common->status);
-        for (int32_t j = 0; j < columns; j++) {
-            const double *permuted = (double *)solution->x + j * size;
-            double *out = x + (first + j) * size;
-            for (int64_t k = 0; k < size; k++) out[permutation[k]] = permuted[k];
-        }
-    }
+    Expansion all = {factor, x_border, count, x};
+    for (int which = 0; which < 2; which++)
+        TRY(open_passage(factor->analysis, &factor->analysis->passages[which], err));
+    share_in_two(expand_half, &all);
 cleanup:
-    cholmod_free_dense(&right, common);
-    cholmod_free_dense(&solution, common);
-    cholmod_free_dense(&work_y, common);
-    cholmod_free_dense(&work_e, common);
     return error_is_clean(err);
 }

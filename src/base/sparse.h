@@ -30,6 +30,10 @@ int32_t sparse_entry(const SparsePattern *pattern, int32_t row, int32_t column);
 
 // y = A x; values: [start[size]].
 void sparse_apply(const SparsePattern *pattern, const double *values, const double *x, double *y);
+// Of `columns` columns of x and y, [size] each; work: [size * SPARSE_WIDE].
+enum { SPARSE_WIDE = 8 };
+void sparse_apply_many(const SparsePattern *pattern, const double *values, const double *x,
+                       int64_t columns, double *y, double *work);
 
 // The fill-reducing order and symbolic factor of one pattern, made once.
 typedef struct SparseAnalysis SparseAnalysis;
@@ -51,7 +55,7 @@ bool sparse_condense(SparseFactor *factor, const double *rhs, double *g, Error *
 // x_border: [border_count] -> x: [size]; nothing is allocated after the first solve.
 bool sparse_expand(SparseFactor *factor, const double *x_border, double *x, Error *err);
 // x [size * count], with no right-hand side inside, from as many x_border [border_count * count].
-// Many at once take a fraction of the time that one by one would.
+// Many at once take a fraction of the time that one by one would; two threads do half each.
 bool sparse_expand_many(SparseFactor *factor, const double *x_border, int32_t count, double *x,
                         Error *err);
 

@@ -48,6 +48,7 @@ static void *run(void *self)
             pthread_cond_wait(&worker->changed, &worker->lock);
     }
     pthread_mutex_unlock(&worker->lock);
+    if (worker->def.end) worker->def.end(worker->def.context);
     return NULL;
 }
 
@@ -71,7 +72,7 @@ bool worker_create(const WorkerDef *def, Worker **out, Error *err)
     worker->locale = duplocale(uselocale((locale_t)0));
     if (!worker->locale) {
         memory_free(worker);
-        FAIL(err, ERROR_MEMORY, "no memory for a thread to write in");
+        FAIL(err, ERROR_MEMORY, "no memory for a thread");
     }
     pthread_mutex_init(&worker->lock, NULL);
     pthread_cond_init(&worker->changed, NULL);
@@ -79,19 +80,17 @@ bool worker_create(const WorkerDef *def, Worker **out, Error *err)
     if (cause != 0) {
         freelocale(worker->locale);
         memory_free(worker);
-        FAIL(err, ERROR_MEMORY, "no thread to write in: %s", strerror(cause));
+        FAIL(err, ERROR_MEMORY, "no thread for work beside: %s", strerror(cause));
     }
     *out = worker;
 cleanup:
     return error_is_clean(err);
 }
 
-// Until at most `waiting` jobs are not done.
-static bool wait_for(Worker *worker, int64_t waiting, Error *err)
+bool worker_wait_for(Worker *worker, int64_t jobs, Error *err)
 {
     pthread_mutex_lock(&worker->lock);
-    while (worker->given - worker->done > waiting)
-        pthread_cond_wait(&worker->changed, &worker->lock);
+    while (worker->done < jobs) pthread_cond_wait(&worker->changed, &worker->lock);
     Error failure = worker->failure;
     pthread_mutex_unlock(&worker->lock);
     if (error_is_clean(&failure)) return true;
@@ -102,7 +101,7 @@ static bool wait_for(Worker *worker, int64_t waiting, Error *err)
 bool worker_slot(Worker *worker, int32_t *slot, Error *err)
 {
     *slot = (int32_t)(worker->given % worker->def.slots);   // only the owner moves `given`
-    return wait_for(worker, worker->def.slots - 1, err);
+    return worker_wait_for(worker, worker->given - worker->def.slots + 1, err);
 }
 
 void worker_submit(Worker *worker)
@@ -115,7 +114,7 @@ void worker_submit(Worker *worker)
 
 bool worker_wait(Worker *worker, Error *err)
 {
-    return !worker || wait_for(worker, 0, err);
+    return !worker || worker_wait_for(worker, worker->given, err);
 }
 
 void worker_destroy(Worker *worker)

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Most of the work is products of matrices as long as the mesh: with V the modes and X new answers,
-// four of them. V'KX says what of X lies in V,
-//
-//     Y = X - V q,   q = [ X on the interface; Phi' K X ];
-//
-// the others are V q, V'CY and V'MY. What belongs to Y alone is small beside them.
+// Modes are combinations V = X T of answers X of the full mesh, and only T is made orthogonal: from
+// products of answers, columns as long as the mesh are multiplied once. What of an answer is
+// orthogonal to the others is a difference of nearly equal energies: where too many digits are lost
+// it is formed by the mesh.
 #include "bulk/growing_basis.h"
 
 #include "base/dense.h"
@@ -13,281 +11,346 @@
 #include <math.h>
 #include <string.h>
 
-// The squared length of the part orthogonal to the others below which a new vector is rounding.
+// The squared length of what is left of an answer below which it is rounding.
 static const double DEPENDENT = 1e-12;
-
-// The squared length of the part that lies in the others, of what is left, from which on rounding
-// is taken out, too.
-static const double TAKEN_MAX = 1e3;
 
 void basis_destroy(GrowingBasis *basis)
 {
-    bulk_operator_destroy(&basis->full);
-    memory_free(basis->border);
-    memory_free(basis->still);
-    memory_free(basis->zeros);
-    memory_free(basis->unit_load);
+    answers_destroy(&basis->answers);
+    memory_free(basis->mix);
     *basis = (GrowingBasis){0};
 }
 
 bool basis_create(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
                   ReducedBulk *reduced, GrowingBasis *basis, Error *err)
 {
-    int64_t m = interface_count, dofs = bulk->dof_count;
-    *basis = (GrowingBasis){.reduced = reduced, .modes_room = 4 * interface_count + 64};
+    int64_t m = interface_count;
+    *basis = (GrowingBasis){.reduced = reduced};
     *reduced = (ReducedBulk){.full_dofs = bulk->dof_count,
                              .interface_count = interface_count,
-                             .count = interface_count,
                              .scales = reduced->scales};
-    TRY(bulk_operator_create(bulk, NULL, interface_dofs, interface_count, &basis->full, err));
-    basis->border = NEW_ARRAY(double, m, err);
-    basis->still = NEW_ARRAY(double, m, err);
-    basis->zeros = NEW_ARRAY(double, dofs, err);
-    basis->unit_load = NEW_ARRAY(double, dofs, err);
-    reduced->modes = NEW_ARRAY(double, dofs * basis->modes_room, err);
     reduced->stiffness = NEW_ARRAY(double, m *m, err);
-    if (!error_is_clean(err)) goto cleanup;
-    // Without a load every answer to it is 0, in any unit.
-    double scale = reduced->scales.load > 0 ? reduced->scales.load : 1;
-    for (int64_t k = 0; k < dofs; k++) basis->unit_load[k] = bulk->load[k] / scale;
-cleanup:
-    return error_is_clean(err);
+    return reduced->stiffness && answers_create(bulk, interface_dofs, interface_count,
+                                                &reduced->scales, &basis->answers, err);
 }
 
-void basis_apply_full(const GrowingBasis *basis, BulkTerm term, const double *x, double *y)
+// a [rows * columns] into the upper left corner of a new one, [new_rows * new_columns], zero
+// elsewhere.
+static bool grow_matrix(double **a, int64_t rows, int64_t columns, int64_t new_rows,
+                        int64_t new_columns, Error *err)
 {
-    const BulkScales *scales = &basis->reduced->scales;
-    double scale = term == BULK_STIFFNESS ? scales->stiffness
-                   : term == BULK_DAMPING ? scales->damping
-                                          : scales->mass;
-    bulk_operator_apply(&basis->full, term, x, y);
-    for (int32_t k = 0; k < basis->full.dof_count; k++) y[k] /= scale;
-}
-
-// a [old^2] into the upper left corner of a new one, [size^2], zero elsewhere.
-static bool grow_square(double **a, int64_t old, int64_t size, Error *err)
-{
-    double *grown = NEW_ARRAY(double, size *size, err);
+    double *grown = NEW_ARRAY(double, new_rows *new_columns, err);
     if (!grown) return false;
-    for (int64_t j = 0; j < old; j++)
-        memcpy(grown + j * size, *a + j * old, (size_t)old * sizeof(double));
+    for (int64_t j = 0; j < columns; j++)
+        memcpy(grown + j * new_rows, *a + j * rows, (size_t)rows * sizeof(double));
     memory_free(*a);
     *a = grown;
     return true;
 }
 
-// With room for half as many again, so that modes are copied a few times only.
-double *basis_make_room(GrowingBasis *basis, int32_t columns, Error *err)
+// Work of one extension, by the next block of answers: V of `count` columns.
+typedef struct Extension {
+    const AnswerBlock *next;
+    int64_t count, added;   // columns of V, of the block
+    double *gram[BULK_TERMS];   // [answers * added] X' (K, C, M) X_new
+    double *old[BULK_TERMS];   // [count * added] V' (K, C, M) X_new
+    double *parts;   // [count * added] what of X_new is in V
+    double *left[BULK_TERMS];   // [added^2] of Y = X_new - V parts: Y' (K, C, M) Y
+    double *lacking;   // [added] f'Y
+    double *rotation;   // [added^2], its last `kept` columns: new modes are Y times these
+    int64_t kept;
+    double *values, *work;   // [added]; [largest of what follows]
+} Extension;
+
+static void extension_destroy(Extension *x)
 {
-    ReducedBulk *reduced = basis->reduced;
-    int64_t dofs = reduced->full_dofs;
-    if (reduced->count + columns > basis->modes_room) {
-        int32_t room = 3 * (reduced->count + columns) / 2;
-        double *modes = memory_resize(reduced->modes, dofs * basis->modes_room, dofs * room,
-                                      sizeof(double), err);
-        if (!modes) return NULL;
-        reduced->modes = modes;
-        basis->modes_room = room;
+    for (int term = 0; term < BULK_TERMS; term++) {
+        memory_free(x->gram[term]);
+        memory_free(x->old[term]);
+        memory_free(x->left[term]);
     }
-    return reduced->modes + dofs * reduced->count;
+    memory_free(x->parts);
+    memory_free(x->lacking);
+    memory_free(x->rotation);
+    memory_free(x->values);
+    memory_free(x->work);
 }
 
-static DenseView view_modes(const GrowingBasis *basis, int64_t first, int64_t columns)
+static bool extension_create(const GrowingBasis *basis, Extension *x, Error *err)
+{
+    const AnswerBlock *next = &basis->answers.blocks[basis->answers.block_count];
+    int64_t count = basis->reduced->count, added = next->count, all = next->first + added;
+    int64_t eigen_work = dense_eigen_work((int32_t)added);
+    *x = (Extension){.next = next, .count = count, .added = added};
+    for (int term = 0; term < BULK_TERMS; term++) {
+        x->gram[term] = NEW_ARRAY(double, all *added, err);
+        x->old[term] = NEW_ARRAY(double, count *added, err);
+        x->left[term] = NEW_ARRAY(double, added *added, err);
+    }
+    x->parts = NEW_ARRAY(double, count *added, err);
+    x->lacking = NEW_ARRAY(double, added, err);
+    x->rotation = NEW_ARRAY(double, added *added, err);
+    x->values = NEW_ARRAY(double, added, err);
+    x->work = NEW_ARRAY(double, all *added > eigen_work ? all * added : eigen_work, err);
+    return error_is_clean(err);
+}
+
+static DenseView view(const double *values, int64_t rows, int64_t columns)
+{
+    return (DenseView){values, (int32_t)rows, (int32_t)columns};
+}
+
+// V' (K, C, M) X_new, X_new' (K, C, M) X_new, f'X_new, and of what is in V the static modes' part.
+static void project(const GrowingBasis *basis, Extension *x)
+{
+    int64_t m = basis->reduced->interface_count, added = x->added, count = x->count;
+    int64_t first = x->next->first, answers = first + added;
+    const double *motion = x->next->motion;
+    for (int term = 0; term < BULK_TERMS; term++) {
+        for (int64_t j = 0; j < added; j++) {
+            const double *column = x->gram[term] + j * answers;
+            memcpy(x->work + j * first, column, (size_t)first * sizeof *column);
+            memcpy(x->left[term] + j * added, column + first, (size_t)added * sizeof *column);
+        }
+        dense_multiply_transposed(view(basis->mix, first, count), view(x->work, first, added), 1, 0,
+                                  x->old[term]);
+    }
+    for (int64_t j = 0; j < added; j++) {
+        memcpy(x->parts + j * count, motion + j * (m + 1), (size_t)m * sizeof *motion);
+        x->lacking[j] = motion[j * (m + 1) + m];
+    }
+}
+
+// Y = X - V parts instead of X, in old, left and lacking. The static modes' parts are there; those
+// of Phi, which is orthonormal in K, are its products.
+static void take_out(const GrowingBasis *basis, Extension *x)
 {
     const ReducedBulk *reduced = basis->reduced;
-    return (DenseView){reduced->modes + first * reduced->full_dofs, reduced->full_dofs,
-                       (int32_t)columns};
-}
-
-// image = T times these
-static DenseView apply_term(const GrowingBasis *basis, BulkTerm term, DenseView vectors,
-                            double *image)
-{
-    for (int64_t j = 0; j < vectors.columns; j++)
-        basis_apply_full(basis, term, vectors.values + j * vectors.rows, image + j * vectors.rows);
-    return (DenseView){image, vectors.rows, vectors.columns};
-}
-
-// *matrix := V'TV, known up to `first`; product: its columns from there on.
-static bool extend_square(double **matrix, int64_t first, int64_t count, const double *product,
-                          Error *err)
-{
-    if (!grow_square(matrix, first, count, err)) return false;
-    for (int64_t j = first; j < count; j++) {
-        const double *column = product + (j - first) * count;
-        for (int64_t i = 0; i <= j; i++)
-            (*matrix)[j * count + i] = (*matrix)[i * count + j] = column[i];
+    const double *projected[BULK_TERMS] = {
+        [BULK_DAMPING] = reduced->damping, [BULK_MASS] = reduced->mass};
+    int64_t added = x->added, count = x->count, m = reduced->interface_count;
+    DenseView parts = view(x->parts, count, added);
+    for (int64_t j = 0; j < added; j++)
+        memcpy(x->parts + j * count + m, x->old[BULK_STIFFNESS] + j * count + m,
+               (size_t)(count - m) * sizeof(double));
+    for (int term = 0; term < BULK_TERMS; term++) {
+        DenseView old = view(x->old[term], count, added);
+        dense_multiply_transposed(parts, old, -1, 1, x->left[term]);
+        if (!projected[term]) continue;
+        dense_multiply(view(projected[term], count, count), parts, -1, 1, x->old[term]);
+        dense_multiply_transposed(old, parts, -1, 1, x->left[term]);
     }
+    dense_apply_transposed(parts, reduced->load, -1, 1, x->lacking);
+}
+
+// Forms Y by the mesh, and all products with it.
+static bool form_rest(const GrowingBasis *basis, Extension *x, Error *err)
+{
+    const Answers *answers = &basis->answers;
+    int64_t dofs = basis->reduced->full_dofs, m = basis->reduced->interface_count;
+    int64_t added = x->added, count = x->count, first = x->next->first;
+    double *rest = NEW_ARRAY(double, dofs *added, err),
+           *image = NEW_ARRAY(double, dofs *added, err);
+    if (!rest || !image) goto cleanup;
+    memcpy(rest, x->next->field, (size_t)(dofs * added) * sizeof *rest);
+    dense_multiply(view(basis->mix, first, count), view(x->parts, count, added), 1, 0, x->work);
+    answers_combine(answers, -1, x->work, added, rest);
+    for (int64_t j = 0; j < added; j++)
+        for (int64_t i = 0; i < m; i++) rest[j * dofs + answers->full.interface_dofs[i]] = 0;
+    for (int term = 0; term < BULK_TERMS; term++) {
+        answers_project(answers, (BulkTerm)term, rest, added, image, x->work);
+        dense_multiply_transposed(view(basis->mix, first, count), view(x->work, first, added), 1, 0,
+                                  x->old[term]);
+        dense_multiply_transposed(view(rest, dofs, added), view(image, dofs, added), 1, 0,
+                                  x->left[term]);
+    }
+    dense_apply_transposed(view(rest, dofs, added), answers->unit_load, 1, 0, x->lacking);
+cleanup:
+    memory_free(rest);
+    memory_free(image);
+    return error_is_clean(err);
+}
+
+// Where products of answers are too rough, what is left is formed, and rounding taken out of it.
+static bool refine(const GrowingBasis *basis, Extension *x, Error *err)
+{
+    int64_t entries = x->count * x->added;
+    double *before = NEW_ARRAY(double, entries, err);
+    if (!before) goto cleanup;
+    memcpy(before, x->parts, (size_t)entries * sizeof *before);
+    TRY(form_rest(basis, x, err));
+    memset(x->parts, 0, (size_t)entries * sizeof *before);   // nothing of the static modes
+    take_out(basis, x);
+    for (int64_t k = 0; k < entries; k++) x->parts[k] += before[k];
+cleanup:
+    memory_free(before);
+    return error_is_clean(err);
+}
+
+// The rotation that makes Y orthonormal in K, of those columns that are not rounding. *loss: how
+// much larger an answer's energy is than that of what is left of it, at most.
+static bool orthonormalise(Extension *x, double *loss, Error *err)
+{
+    int64_t added = x->added, answers = x->next->first + added;
+    double largest = 0;
+    for (int64_t j = 0; j < added; j++)
+        largest = fmax(largest, x->gram[BULK_STIFFNESS][j * answers + x->next->first + j]);
+    memcpy(x->rotation, x->left[BULK_STIFFNESS], (size_t)(added * added) * sizeof(double));
+    if (!dense_eigen(x->rotation, (int32_t)added, x->values, x->work))
+        FAIL(err, ERROR_LIBRARY, "LAPACK: the responses of the interior are not independent");
+    *loss = 1;
+    for (x->kept = 0; x->kept < added; x->kept++) {
+        int64_t j = added - 1 - x->kept;
+        if (!(x->values[j] > DEPENDENT * largest)) break;
+        for (int64_t i = 0; i < added; i++) x->rotation[j * added + i] /= sqrt(x->values[j]);
+        *loss = largest / x->values[j];
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// *matrix := V'TV with the modes that were added.
+static bool extend_square(BulkTerm term, double **matrix, Extension *x, Error *err)
+{
+    int64_t count = x->count, added = x->added, kept = x->kept, size = count + kept;
+    DenseView rotation = view(x->rotation + (added - kept) * added, added, kept);
+    if (!grow_matrix(matrix, count, count, size, size, err)) return false;
+    dense_multiply(view(x->old[term], count, added), rotation, 1, 0, x->work);
+    for (int64_t j = 0; j < kept; j++)
+        for (int64_t i = 0; i < count; i++)
+            (*matrix)[(count + j) * size + i] = (*matrix)[i * size + count + j] =
+                x->work[j * count + i];
+    // R' (left R), in the memory of `gram`, which is done with.
+    double *half = x->gram[0], *square = x->gram[1];
+    dense_multiply(view(x->left[term], added, added), rotation, 1, 0, half);
+    dense_multiply_transposed(rotation, view(half, added, kept), 1, 0, square);
+    for (int64_t j = 0; j < kept; j++)
+        for (int64_t i = 0; i <= j; i++)
+            (*matrix)[(count + j) * size + count + i] = (*matrix)[(count + i) * size + count + j] =
+                (square[j * kept + i] + square[i * kept + j]) / 2;
     return true;
 }
 
-// C, M and the load of the modes from `first` on, in one pass over all modes: to read them takes as
-// long as to multiply by a few columns.
-static bool project(const GrowingBasis *basis, int64_t first, Error *err)
+// New columns of T: [-T parts; 1] R. Those of the load: R' f'Y.
+static bool extend_mix(GrowingBasis *basis, Extension *x, Error *err)
 {
     ReducedBulk *reduced = basis->reduced;
-    int64_t dofs = reduced->full_dofs, count = reduced->count, added = count - first;
-    DenseView added_modes = view_modes(basis, first, added);
-    double *image = NEW_ARRAY(double, dofs * 2 * added, err);
-    double *product = NEW_ARRAY(double, count * 2 * added, err);
-    double *load = memory_resize(reduced->load, first, count, sizeof *load, err);
-    if (load) reduced->load = load;
-    if (!error_is_clean(err)) goto cleanup;
-    apply_term(basis, BULK_DAMPING, added_modes, image);
-    apply_term(basis, BULK_MASS, added_modes, image + dofs * added);
-    dense_multiply_transposed(view_modes(basis, 0, count),
-                              (DenseView){image, (int32_t)dofs, (int32_t)(2 * added)}, 1, 0,
-                              product);
-    TRY(extend_square(&reduced->damping, first, count, product, err));
-    TRY(extend_square(&reduced->mass, first, count, product + count * added, err));
-    dense_apply_transposed(added_modes, basis->unit_load, 1, 0, load + first);
-cleanup:
-    memory_free(image);
-    memory_free(product);
-    return error_is_clean(err);
-}
-
-typedef struct Extension {
-    int64_t count, added;   // columns of V, of X
-    double *vectors;   // [dofs * added] X, then Y, then the new modes; not owned
-    double *image;   // [dofs * added] work
-    double *parts;   // [count * added] q
-    double *gram;   // [added^2] Y'KY, then R
-    double *values, *eigen_work;   // [added] of Y'KY; [dense_eigen_work(added)]
-} Extension;
-
-static void extension_destroy(Extension *work)
-{
-    memory_free(work->image);
-    memory_free(work->parts);
-    memory_free(work->gram);
-    memory_free(work->values);
-    memory_free(work->eigen_work);
-}
-
-static bool extension_create(const GrowingBasis *basis, int32_t columns, Extension *work,
-                             Error *err)
-{
-    int64_t dofs = basis->reduced->full_dofs, count = basis->reduced->count, added = columns;
-    *work = (Extension){
-        .count = count, .added = added, .vectors = basis->reduced->modes + dofs * count};
-    work->image = NEW_ARRAY(double, dofs *added, err);
-    work->parts = NEW_ARRAY(double, count *added, err);
-    work->gram = NEW_ARRAY(double, added *added, err);
-    work->values = NEW_ARRAY(double, added, err);
-    work->eigen_work = NEW_ARRAY(double, dense_eigen_work(columns), err);
-    return error_is_clean(err);
-}
-
-// X becomes Y, exactly 0 on the interface; leaves Y'KY.
-static void take_parts(const GrowingBasis *basis, Extension *work)
-{
-    int64_t dofs = basis->reduced->full_dofs, m = basis->reduced->interface_count;
-    int64_t count = work->count;
-    const int32_t *border = basis->full.interface_dofs;
-    DenseView modes = view_modes(basis, 0, count);
-    DenseView vectors = view_modes(basis, count, work->added);
-    DenseView image = apply_term(basis, BULK_STIFFNESS, vectors, work->image);
-    dense_multiply_transposed(modes, image, 1, 0, work->parts);
-    for (int64_t j = 0; j < work->added; j++)
-        for (int64_t i = 0; i < m; i++)
-            work->parts[j * count + i] = work->vectors[j * dofs + border[i]];
-    dense_multiply(modes, (DenseView){work->parts, (int32_t)count, (int32_t)work->added}, -1, 1,
-                   work->vectors);
-    for (int64_t j = 0; j < work->added; j++)
-        for (int64_t i = 0; i < m; i++) work->vectors[j * dofs + border[i]] = 0;
-    apply_term(basis, BULK_STIFFNESS, vectors, work->image);
-    dense_multiply_transposed(vectors, image, 1, 0, work->gram);
-}
-
-// Y becomes Y R, orthonormal in K, of *kept columns; *least: the smallest squared length kept.
-static bool orthonormalise(const GrowingBasis *basis, Extension *work, int64_t *kept, double *least,
-                           Error *err)
-{
-    int64_t added = work->added;
-    double *gram = work->gram, *values = work->values;
-    *kept = 0;
-    if (!dense_eigen(gram, (int32_t)added, values, work->eigen_work))
-        FAIL(err, ERROR_LIBRARY, "LAPACK: the responses of the interior are not independent");
-    for (int64_t j = added - 1; j >= 0; j--) {
-        if (!(values[j] > DEPENDENT * values[added - 1])) break;
-        for (int64_t i = 0; i < added; i++) gram[j * added + i] /= sqrt(values[j]);
-        *least = values[j];
-        ++*kept;
+    int64_t added = x->added, count = x->count, kept = x->kept, first = x->next->first;
+    int64_t answers = first + added;
+    DenseView rotation = view(x->rotation + (added - kept) * added, added, kept);
+    double *load = memory_resize(reduced->load, count, count + kept, sizeof *load, err);
+    if (!load) goto cleanup;
+    reduced->load = load;
+    dense_apply_transposed(rotation, x->lacking, 1, 0, load + count);
+    dense_multiply(view(x->parts, count, added), rotation, 1, 0, x->work);
+    double *taken = x->gram[0];
+    dense_multiply(view(basis->mix, first, count), view(x->work, count, kept), 1, 0, taken);
+    TRY(grow_matrix(&basis->mix, first, count, answers, count + kept, err));
+    for (int64_t j = 0; j < kept; j++) {
+        double *column = basis->mix + (count + j) * answers;
+        for (int64_t i = 0; i < first; i++) column[i] = -taken[j * first + i];
+        memcpy(column + first, rotation.values + j * added, (size_t)added * sizeof *column);
     }
-    DenseView rotation = {gram + (added - *kept) * added, (int32_t)added, (int32_t)*kept};
-    DenseView vectors = view_modes(basis, work->count, added);
-    dense_multiply(vectors, rotation, 1, 0, work->image);
-    memcpy(work->vectors, work->image, (size_t)(vectors.rows * *kept) * sizeof *work->image);
-    work->added = *kept;
 cleanup:
     return error_is_clean(err);
 }
 
-// The largest squared length that was taken out of a vector.
-static double largest_part(const GrowingBasis *basis, const Extension *work)
-{
-    double largest = 0;
-    for (int64_t j = 0; j < work->added; j++) {
-        const double *q = work->parts + j * work->count + basis->reduced->interface_count;
-        largest = fmax(largest, dense_dot(q, q, basis->reduced->interior_count));
-    }
-    return largest;
-}
-
-bool basis_extend(GrowingBasis *basis, int32_t columns, Error *err)
+bool basis_extend(GrowingBasis *basis, Error *err)
 {
     ReducedBulk *reduced = basis->reduced;
-    int64_t kept = 0;
-    double taken = 0, least = 0;
-    Extension work;
-    TRY(extension_create(basis, columns, &work, err));
-    for (int pass = 0; pass < 2; pass++) {
-        take_parts(basis, &work);
-        taken = largest_part(basis, &work);
-        TRY(orthonormalise(basis, &work, &kept, &least, err));
-        if (taken <= TAKEN_MAX * least) break;
+    Extension x = {0};
+    double loss = 1;
+    TRY(extension_create(basis, &x, err));
+    TRY(answers_multiply(&basis->answers, x.gram, err));
+    project(basis, &x);
+    take_out(basis, &x);
+    TRY(orthonormalise(&x, &loss, err));
+    if (loss > basis->loss_max) {
+        TRY(refine(basis, &x, err));
+        TRY(orthonormalise(&x, &loss, err));
     }
-    reduced->interior_count += (int32_t)kept;
-    reduced->count += (int32_t)kept;
-    TRY(project(basis, work.count, err));
+    TRY(extend_square(BULK_DAMPING, &reduced->damping, &x, err));
+    TRY(extend_square(BULK_MASS, &reduced->mass, &x, err));
+    TRY(extend_mix(basis, &x, err));
+    reduced->interior_count += (int32_t)x.kept;
+    reduced->count += (int32_t)x.kept;
+    answers_keep(&basis->answers);
 cleanup:
-    extension_destroy(&work);
+    extension_destroy(&x);
     return error_is_clean(err);
 }
 
-// Static constraint modes, S_K. statics: the full mesh at inertia and viscosity 0.
-static bool start_motions(GrowingBasis *basis, InterfaceOperator *statics, Error *err)
+// Takes the static modes as they are: inside the block K Psi = 0, so that Psi'K Psi is S_K.
+static bool take_motions(GrowingBasis *basis, Error *err)
 {
     ReducedBulk *reduced = basis->reduced;
     int64_t m = reduced->interface_count;
-    double *motions = NEW_ARRAY(double, m *m, err);
-    if (!motions) goto cleanup;
-    for (int64_t j = 0; j < m; j++) motions[j * m + j] = 1;
-    TRY(interface_operator_answer(statics, motions, (int32_t)m, reduced->modes, err));
-    // Inside the block K Psi = 0, so that V'KV is the Schur complement of K.
-    memcpy(reduced->stiffness, interface_operator_schur(statics), (size_t)(m * m) * sizeof(double));
-    TRY(project(basis, 0, err));
+    Extension x = {0};
+    TRY(extension_create(basis, &x, err));
+    TRY(answers_multiply(&basis->answers, x.gram, err));
+    reduced->mass = NEW_ARRAY(double, m *m, err);
+    reduced->damping = NEW_ARRAY(double, m *m, err);
+    reduced->load = NEW_ARRAY(double, m, err);
+    basis->mix = NEW_ARRAY(double, m *m, err);
+    if (!error_is_clean(err)) goto cleanup;
+    for (int64_t j = 0; j < m; j++) {
+        for (int64_t i = 0; i < m; i++) {
+            int64_t low = i > j ? j * m + i : i * m + j;
+            reduced->mass[j * m + i] = x.gram[BULK_MASS][low];
+            reduced->damping[j * m + i] = x.gram[BULK_DAMPING][low];
+        }
+        reduced->load[j] = x.next->motion[j * (m + 1) + m];
+        basis->mix[j * m + j] = 1;
+    }
+    reduced->count = reduced->interface_count;
+    answers_keep(&basis->answers);
 cleanup:
-    memory_free(motions);
-    return error_is_clean(err);
-}
-
-// The static answer to the load, the interface held: exact from then on.
-static bool start_load(GrowingBasis *basis, InterfaceOperator *statics, Error *err)
-{
-    double *x = basis_make_room(basis, 1, err);
-    if (!x) goto cleanup;
-    TRY(interface_operator_condense(statics, basis->unit_load, basis->border, err));
-    TRY(interface_operator_expand(statics, basis->still, x, err));
-    if (dense_max_abs(x, basis->full.dof_count) > 0) TRY(basis_extend(basis, 1, err));
-cleanup:
+    extension_destroy(&x);
     return error_is_clean(err);
 }
 
 bool basis_start(GrowingBasis *basis, InterfaceOperator *statics, Error *err)
 {
-    return start_motions(basis, statics, err) && start_load(basis, statics, err);
+    ReducedBulk *reduced = basis->reduced;
+    int64_t m = reduced->interface_count;
+    const double *schur = interface_operator_schur(statics);
+    double *motions = NEW_ARRAY(double, m *m, err);
+    AnswerBlock *next = answers_next(&basis->answers, (StripPoint){0, 0}, m, err);
+    if (!motions || !next) goto cleanup;
+    memcpy(reduced->stiffness, schur, (size_t)(m * m) * sizeof *schur);
+    for (int64_t j = 0; j < m; j++) {
+        motions[j * m + j] = next->motion[j * (m + 1) + j] = 1;
+        memcpy(next->reaction + j * (m + 1), schur + j * m, (size_t)m * sizeof *schur);
+    }
+    TRY(interface_operator_answer(statics, motions, (int32_t)m, next->field, err));
+    TRY(take_motions(basis, err));
+    next = answers_next(&basis->answers, (StripPoint){0, 0}, 1, err);
+    if (!next) goto cleanup;
+    TRY(interface_operator_answer_held(statics, basis->answers.unit_load, next->field,
+                                       next->reaction, err));
+    for (int64_t i = 0; i < m; i++) next->reaction[i] = -next->reaction[i];
+    next->reaction[m] = 1;
+    if (dense_max_abs(next->field, reduced->full_dofs) > 0) TRY(basis_extend(basis, err));
+cleanup:
+    memory_free(motions);
+    return error_is_clean(err);
+}
+
+// The static modes are answers; of the others the interface's part is 0, to the last bit.
+bool basis_write_modes(GrowingBasis *basis, Error *err)
+{
+    ReducedBulk *reduced = basis->reduced;
+    const Answers *answers = &basis->answers;
+    int64_t dofs = reduced->full_dofs, m = reduced->interface_count;
+    int64_t interior = reduced->interior_count;
+    double *modes = reduced->modes = NEW_ARRAY(double, dofs * reduced->count, err);
+    if (!modes) return false;
+    memcpy(modes, answers->blocks[0].field, (size_t)(dofs * m) * sizeof *modes);
+    double *own = modes + dofs * m;
+    answers_combine(answers, 1, basis->mix + m * answers->count, interior, own);
+    for (int64_t j = 0; j < interior; j++)
+        for (int64_t i = 0; i < m; i++) own[j * dofs + answers->full.interface_dofs[i]] = 0;
+    return true;
 }
 
 // Rows `first` to `first + rows` of a column of A, but for its part in K.

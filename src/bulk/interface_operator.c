@@ -142,6 +142,19 @@ void bulk_operator_apply(const BulkOperator *system, BulkTerm term, const double
     }
 }
 
+void bulk_operator_apply_many(const BulkOperator *system, BulkTerm term, const double *x,
+                              int64_t columns, double *y, double *work)
+{
+    const Bulk *bulk = system->bulk;
+    if (term == BULK_MASS) {
+        for (int64_t j = 0; j < columns; j++)
+            bulk_operator_apply(system, term, x + j * system->dof_count, y + j * system->dof_count);
+    } else {
+        sparse_apply_many(&bulk->pattern, term == BULK_STIFFNESS ? bulk->stiffness : bulk->damping,
+                          x, columns, y, work);
+    }
+}
+
 // Interior coordinates are orthonormal in K/E, so their length is a displacement's elastic size.
 double bulk_operator_size(const BulkOperator *system, const double *x)
 {
@@ -367,6 +380,16 @@ bool interface_operator_answer(InterfaceOperator *condensed, const double *motio
         for (int64_t j = 0; j < m; j++)
             v[k * dofs + system->interface_dofs[j]] = motions[k * m + j];
     return true;
+}
+
+bool interface_operator_answer_held(InterfaceOperator *condensed, const double *rhs, double *v,
+                                    double *g, Error *err)
+{
+    double *still = NEW_ARRAY(double, condensed->system->interface_count, err);
+    bool done = still && interface_operator_condense(condensed, rhs, g, err) &&
+                interface_operator_expand(condensed, still, v, err);
+    memory_free(still);
+    return done;
 }
 
 void bulk_operator_archive(BulkOperator *system, Archive *archive)

@@ -49,6 +49,9 @@ void bulk_operator_destroy(BulkOperator *system);
 
 // y = K x, C x or M x; [dof_count]
 void bulk_operator_apply(const BulkOperator *system, BulkTerm term, const double *x, double *y);
+// Of many columns, [dof_count * columns]; full only. work: [dof_count * SPARSE_WIDE].
+void bulk_operator_apply_many(const BulkOperator *system, BulkTerm term, const double *x,
+                              int64_t columns, double *y, double *work);
 
 // The size of a displacement, length, or of a velocity: the largest component on the full mesh; on
 // a reduced one the largest on the interface or, if larger, sqrt(2 elastic energy / E) of the
@@ -96,6 +99,11 @@ bool interface_operator_expand(InterfaceOperator *condensed, const double *inter
 // nothing pressing inside.
 bool interface_operator_answer(InterfaceOperator *condensed, const double *motions, int32_t count,
                                double *v, Error *err);
+
+// The answer v [dof_count] to `rhs`, the interface held, and what is condensed of it, g
+// [interface_count].
+bool interface_operator_answer_held(InterfaceOperator *condensed, const double *rhs, double *v,
+                                    double *g, Error *err);
 
 // The load, which a caller may have changed, and the counters; all else is the model's.
 void bulk_operator_archive(BulkOperator *system, Archive *archive);

@@ -31,6 +31,7 @@ typedef struct ReductionDef {
     double tolerance;   // of responses, relative, in the energy norm
     BulkScales scales;   // of the bulk to reduce
     Materials materials;   // likewise
+    bool modes;   // of the whole mesh are wanted, to see what happens inside
 } ReductionDef;
 
 // interface_dofs: [interface_count] unknowns of `bulk` that stay.

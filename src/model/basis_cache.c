@@ -8,8 +8,9 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
-const char BASIS_FORMAT[] = "basis 7 " AMONTONS_VERSION;
+const char BASIS_FORMAT[] = "basis 8 " AMONTONS_VERSION;
 
 enum { COUNTS = 4 };
 
@@ -115,9 +116,12 @@ static bool store_basis(const char *name, const ReducedBulk *reduced, Error *err
                            {"stiffness", m * m, reduced->stiffness},
                            {"viscous", m * m, reduced->viscous},
                            {"load", all, reduced->load}};
-    // The modes first: a basis that is there has its modes.
+    // The modes first: they belong to the basis that is there afterwards.
     if (!cache_file_path(name, "modes", path)) goto cleanup;
-    TRY(cache_file_write(path, name, &modes, 1, err));
+    if (reduced->modes)
+        TRY(cache_file_write(path, name, &modes, 1, err));
+    else
+        unlink(path);
     if (!cache_file_path(name, "basis", path)) goto cleanup;
     TRY(cache_file_write(path, name, arrays, sizeof arrays / sizeof *arrays, err));
 cleanup:

@@ -4,7 +4,8 @@
 // law. Called by model/obtain.
 //
 //     CACHE/<name>.basis     sizes, reduced M, C, K and load, what it is off
-//     CACHE/<name>.modes     u = modes [u_b; q], read only where fields of the bulk are asked for
+//     CACHE/<name>.modes     u = modes [u_b; q], kept and read only where fields of the bulk are
+//                            asked for
 //     CACHE/<name>.lock      there while a process builds the basis: others wait and read it
 #ifndef AMONTONS_MODEL_BASIS_CACHE_H
 #define AMONTONS_MODEL_BASIS_CACHE_H

@@ -106,6 +106,7 @@ static bool obtain_basis(Model *model, const ReductionBlock *block, Shape *shape
     const Interface *interface = &shape->interface;
     ReductionDef def = {.tolerance = reduction_tolerance(scene),
                         .materials = block->materials,
+                        .modes = wants_mesh(scene),
                         .scales = {.stiffness = 1, .damping = 1, .mass = 1, .load = 1}};
     bool *found = &model->from_cache;
     bool with_modes = wants_mesh(scene);

@@ -76,7 +76,7 @@ class SameBits(Cached):
         none, uncached = self.run_scene(*PLAIN, cache="")
         self.assertFalse(self.cache.exists())
         first, made = self.run_scene(*PLAIN)
-        self.assertEqual(self.endings(), [".basis", ".mesh", ".modes", ".shape"])
+        self.assertEqual(self.endings(), [".basis", ".mesh", ".shape"])
         second, read = self.run_scene(*PLAIN)
         self.assertEqual([run["model"]["from_cache"] for run in (uncached, made, read)],
                          [False, False, True])
@@ -93,12 +93,16 @@ class SameBits(Cached):
         self.assertTrue(all(run["model"]["cache_note"] is None for run in (uncached, made, read)))
 
     def test_fields(self):
+        """Modes of the whole mesh are kept when first asked for, with the basis they belong to."""
         without, _ = self.run_scene(*FIELDS, cache="")
         self.run_scene(*PLAIN)
-        cached, report = self.run_scene(*FIELDS)
-        self.assertTrue(report["model"]["from_cache"])
-        self.assert_same_fields(without, cached)
-        self.assert_same_history(without, cached)
+        for known in (False, True):
+            cached, report = self.run_scene(*FIELDS)
+            self.assertEqual(report["model"]["from_cache"], known)
+            self.assertIsNone(report["model"]["cache_note"])
+            self.assertEqual(self.endings(), [".basis", ".mesh", ".modes", ".shape"])
+            self.assert_same_fields(without, cached)
+            self.assert_same_history(without, cached)
 
     def test_no_gmsh_and_no_vtk(self):
         """Where gmsh and VTK are missing a shape that is new fails, one in the cache does not."""
@@ -126,10 +130,10 @@ class SameBits(Cached):
                         "friction.law=exponential-weakening", "start.friction=off",
                         "rod.kind=bonded", "material.density=120"):
             self.assertTrue(self.model(*PLAIN, setting)["from_cache"], setting)
-        self.assertEqual(len(self.files()), 4)
+        self.assertEqual(len(self.files()), 3)
         self.assertFalse(self.model(*PLAIN, "mesh.set.nz=12")["from_cache"])
         self.assertFalse(self.model(*PLAIN, "reduction.tolerance=1e-3")["from_cache"])
-        self.assertEqual(len(self.files()), 11)   # the tolerance asks for no new mesh
+        self.assertEqual(len(self.files()), 8)   # the tolerance asks for no new mesh
 
     def test_what_has_no_shape(self):
         for setting in ("reduction.cache=false", "reduction.use=never"):
@@ -158,7 +162,7 @@ class SameBits(Cached):
     def test_blocks_that_fly_at_other_speeds(self):
         """Where no load presses, forces are measured by the impact's: it is none of the shape's."""
         flying = ["load.pressure=0", "rod.kind=none", "time.until={t: 2}", "time.energy_tolerance=1"]
-        for speed in ("-1e-3", "-1e-2"):
+        for speed in ("-1e-3", "-2e-2"):
             moving = [*flying, f"start.velocity_z={speed}", *PLAIN]
             one, cached = self.run_scene(*moving, settings=SHORT[:2] + SHORT[3:])
             other, made = self.run_scene(*moving, cache="", settings=SHORT[:2] + SHORT[3:])
@@ -230,7 +234,7 @@ class OneBasis(Cached):
             self.assertFalse(made["model"]["from_cache"])
             self.assert_same_history(folder, alone)   # to the last bit, whoever made the basis
             peaks[length] = [peak["mu"] for peak in report["results"]["peaks"]]
-        self.assertEqual(self.endings(), [".basis"] + 3 * [".mesh"] + [".modes"] + 3 * [".shape"])
+        self.assertEqual(self.endings(), [".basis"] + 3 * [".mesh"] + 3 * [".shape"])
         self.assertGreater(peaks[0.25][0], 1.02 * peaks[4][0])   # they are not the same block
 
     def test_against_the_full_mesh(self):
@@ -244,7 +248,7 @@ class OneBasis(Cached):
             self.assertGreater(len(wanted), 0)
             np.testing.assert_allclose(mine, wanted, rtol=1e-3)
             # At L = 4 waves are as short as these elements: what is said there is what is allowed.
-            self.assertLess(report["errors"]["reduction"], 0.06 if length == 4 else 0.002)
+            self.assertLess(report["errors"]["reduction"], 0.09 if length == 4 else 0.002)
             self.assertGreater(report["errors"]["reduction"], 1e-7)
             self.assertEqual(full["errors"]["reduction"], 0)
 
@@ -256,7 +260,7 @@ class OneBasis(Cached):
             self.assertFalse(self.run_length(1, setting)[1]["model"]["from_cache"], setting)
 
     def test_fields(self):
-        self.run_length(1)
+        self.run_length(1, "output.fields={every_U: 5e-3}")
         folder, report = self.run_length(4, "output.fields={every_U: 5e-3}")
         self.assertTrue(report["model"]["from_cache"])
         alone, _ = self.run_length(4, "output.fields={every_U: 5e-3}", cache="")
@@ -342,7 +346,7 @@ class NotTrusted(Cached):
                                   "--quiet", "--set", *SHORT, *PLAIN], env=environment)
                 for k in range(4)]
         self.assertEqual([run.wait(60) for run in runs], [0] * 4)
-        self.assertEqual(self.endings(), [".basis", ".mesh", ".modes", ".shape"])
+        self.assertEqual(self.endings(), [".basis", ".mesh", ".shape"])
         self.assertTrue(self.model(*PLAIN)["from_cache"])
         reports = [json.loads((self.folder / f"side-{k}" / "run.json").read_text())
                    for k in range(4)]

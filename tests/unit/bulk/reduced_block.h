@@ -53,6 +53,7 @@ static inline void reduced_block_build_of(const BlockDef *shape, Materials mater
     double largest = dense_max_abs(block->bulk.load, block->bulk.dof_count);
     block->def = (ReductionDef){.tolerance = tolerance,
                                 .materials = materials,
+                                .modes = true,
                                 .scales = block_scales(&block->mesh, &materials.mean, largest)};
     if (tolerance > 0 && !reduction_build(&block->bulk, block->dofs, block->interface_count,
                                           &block->def, &block->reduced, &err))

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// For an answer x at (b, i) and z at (c, j),
+//
+//     x' ((1 - b) K + b C + i M) z = r_x' z_b + t_x f'z
+//     x' ((1 - c) K + c C + j M) z = r_z' x_b + t_z f'x
+//
+// are two equations for x'K z, x'C z, x'M z. So one product by the mesh is enough, where the points
+// differ. (Without a third term this is how a Loewner matrix is made of samples: Mayo and Antoulas,
+// Linear Algebra Appl. 425, 2007.)
+#include "bulk/answers.h"
+
+#include "base/dense.h"
+#include "base/memory.h"
+#include "base/share.h"
+
+#include <math.h>
+#include <string.h>
+
+// The factor between two inertias, or the part of 1 between two viscosities, from which on two
+// equations are as good as independent.
+static const double FAR = 4;
+
+static void block_destroy(AnswerBlock *block)
+{
+    memory_free(block->field);
+    memory_free(block->motion);
+    memory_free(block->reaction);
+    *block = (AnswerBlock){0};
+}
+
+void answers_destroy(Answers *answers)
+{
+    for (int32_t k = 0; k <= answers->block_count; k++) block_destroy(&answers->blocks[k]);
+    bulk_operator_destroy(&answers->full);
+    memory_free(answers->unit_load);
+    for (int which = 0; which < 2; which++) {
+        memory_free(answers->image[which]);
+        memory_free(answers->work[which]);
+    }
+    *answers = (Answers){0};
+}
+
+bool answers_create(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
+                    const BulkScales *scales, Answers *answers, Error *err)
+{
+    *answers = (Answers){.scales = *scales};
+    TRY(bulk_operator_create(bulk, NULL, interface_dofs, interface_count, &answers->full, err));
+    answers->unit_load = NEW_ARRAY(double, bulk->dof_count, err);
+    for (int which = 0; which < 2; which++) {
+        answers->image[which] = NEW_ARRAY(double, (int64_t)bulk->dof_count *ANSWERS_TOGETHER, err);
+        answers->work[which] = NEW_ARRAY(double, (int64_t)bulk->dof_count *SPARSE_WIDE, err);
+    }
+    if (!error_is_clean(err)) goto cleanup;
+    // Without a load every answer to it is 0, in any unit.
+    double scale = scales->load > 0 ? scales->load : 1;
+    for (int32_t k = 0; k < bulk->dof_count; k++) answers->unit_load[k] = bulk->load[k] / scale;
+cleanup:
+    return error_is_clean(err);
+}
+
+AnswerBlock *answers_next(Answers *answers, StripPoint point, int64_t columns, Error *err)
+{
+    AnswerBlock *block = &answers->blocks[answers->block_count];
+    int64_t dofs = answers->full.dof_count, rows = answers->full.interface_count + 1;
+    answers_drop(answers);
+    if (answers->block_count == ANSWER_BLOCKS_MAX)
+        FAIL(err, ERROR_LIBRARY, "more than %d points to reduce the bulk at", ANSWER_BLOCKS_MAX);
+    *block = (AnswerBlock){.point = point, .first = answers->count, .count = columns};
+    block->field = memory_bytes(dofs * columns * (int64_t)sizeof(double), err);   // all is written
+    block->motion = NEW_ARRAY(double, rows *columns, err);
+    block->reaction = NEW_ARRAY(double, rows *columns, err);
+cleanup:
+    return error_is_clean(err) ? block : NULL;
+}
+
+void answers_keep(Answers *answers)
+{
+    answers->count += answers->blocks[answers->block_count++].count;
+}
+
+void answers_drop(Answers *answers)
+{
+    block_destroy(&answers->blocks[answers->block_count]);
+}
+
+// y = K x / E, C x / eta or M x / (rho L^2) on the full mesh, of `columns` columns.
+static void apply(const Answers *answers, BulkTerm term, DenseView x, double *work, double *y)
+{
+    double scale = term == BULK_STIFFNESS ? answers->scales.stiffness
+                   : term == BULK_DAMPING ? answers->scales.damping
+                                          : answers->scales.mass;
+    bulk_operator_apply_many(&answers->full, term, x.values, x.columns, y, work);
+    for (int64_t k = 0; scale != 1 && k < (int64_t)x.rows * x.columns; k++) y[k] /= scale;
+}
+
+void answers_apply_mass(const Answers *answers, const double *x, double *y)
+{
+    apply(answers, BULK_MASS, (DenseView){x, answers->full.dof_count, 1}, answers->work[0], y);
+}
+
+static DenseView view(const double *values, int64_t rows, int64_t columns)
+{
+    return (DenseView){values, (int32_t)rows, (int32_t)columns};
+}
+
+// The products by the mesh that two points need, as bits of their terms. Where inertia differs it
+// gives M, the point with less of it that of K and C which weighs more there, and the lighter one
+// is multiplied.
+static unsigned needed_products(const Answers *answers, StripPoint old, StripPoint new)
+{
+    bool ascends = old.inertia < new.inertia;
+    StripPoint low = ascends ? old : new, high = ascends ? new : old;
+    unsigned mass = 1u << BULK_MASS;
+    unsigned light = 1u << (low.viscosity < 0.5 ? BULK_DAMPING : BULK_STIFFNESS);
+    if (high.inertia > fmax(FAR * low.inertia, answers->inertia_least)) return light;
+    return fabs(low.viscosity - high.viscosity) * FAR >= 1 ? mass : mass | light;
+}
+
+// What two threads do to each half of the next block's columns.
+typedef struct Multiplication {
+    const Answers *answers;
+    double *const *gram;
+} Multiplication;
+
+// Of the block itself only rows from `from` on: the products are symmetric.
+static void multiply_columns(const Multiplication *all, int32_t which, int64_t from,
+                             int64_t columns)
+{
+    const Answers *answers = all->answers;
+    const AnswerBlock *next = &answers->blocks[answers->block_count];
+    int64_t dofs = answers->full.dof_count, rows = answers->count + next->count;
+    DenseView image = view(answers->image[which], dofs, columns);
+    for (int term = 0; term < BULK_TERMS; term++) {
+        bool imaged = false;
+        for (int32_t k = 0; k <= answers->block_count; k++) {
+            const AnswerBlock *block = &answers->blocks[k];
+            int64_t first = block == next ? from : 0;
+            if (!(needed_products(answers, block->point, next->point) & 1u << term)) continue;
+            if (!imaged)
+                apply(answers, (BulkTerm)term, view(next->field + from * dofs, dofs, columns),
+                      answers->work[which], answers->image[which]);
+            imaged = true;
+            dense_multiply_transposed_rows(
+                view(block->field + first * dofs, dofs, block->count - first), image,
+                all->gram[term] + from * rows + block->first + first, rows);
+        }
+    }
+}
+
+// Pass by pass in turn: the work of a pass falls with its number.
+static void multiply_half(void *context, int32_t which)
+{
+    const Multiplication *all = context;
+    int64_t columns = all->answers->blocks[all->answers->block_count].count;
+    int64_t passes = 2 * ((columns + 2 * ANSWERS_TOGETHER - 1) / (2 * ANSWERS_TOGETHER));
+    for (int64_t pass = which; pass < passes; pass += 2) {
+        int64_t from = columns * pass / passes, to = columns * (pass + 1) / passes;
+        if (to > from) multiply_columns(all, which, from, to - from);
+    }
+}
+
+// Solves the equations at the head for the products that are not `known`; a, b: those at the older
+// and at the new point.
+static void complete_pair(StripPoint old, StripPoint new, unsigned known, double a, double b,
+                          double *const g[BULK_TERMS])
+{
+    const double p[BULK_TERMS] = {1 - old.viscosity, old.viscosity, old.inertia};
+    const double q[BULK_TERMS] = {1 - new.viscosity, new.viscosity, new.inertia};
+    int unknown[BULK_TERMS], count = 0;
+    for (int term = 0; term < BULK_TERMS; term++) {
+        if (known & 1u << term) {
+            a -= p[term] * *g[term];
+            b -= q[term] * *g[term];
+        } else {
+            unknown[count++] = term;
+        }
+    }
+    int y = unknown[0], z = unknown[count - 1];
+    if (count == 1) {
+        *g[y] = p[y] > q[y] ? a / p[y] : b / q[y];
+        return;
+    }
+    double determinant = p[y] * q[z] - p[z] * q[y];
+    *g[y] = (q[z] * a - p[z] * b) / determinant;
+    *g[z] = (p[y] * b - q[y] * a) / determinant;
+}
+
+// The products of a block with the next one that the mesh was not asked for. a, b: [its count *
+// added] work.
+static void complete_block(const Answers *answers, const AnswerBlock *block, double *a, double *b,
+                           double *const gram[BULK_TERMS])
+{
+    const AnswerBlock *next = &answers->blocks[answers->block_count];
+    int64_t m = answers->full.interface_count, rows = answers->count + next->count;
+    unsigned known = needed_products(answers, block->point, next->point);
+    dense_multiply_transposed(view(block->reaction, m + 1, block->count),
+                              view(next->motion, m + 1, next->count), 1, 0, a);
+    dense_multiply_transposed(view(block->motion, m + 1, block->count),
+                              view(next->reaction, m + 1, next->count), 1, 0, b);
+    for (int64_t j = 0; j < next->count; j++) {
+        for (int64_t i = block == next ? j : 0; i < block->count; i++) {
+            int64_t at = j * rows + block->first + i, own = j * block->count + i;
+            double *const g[BULK_TERMS] = {gram[0] + at, gram[1] + at, gram[2] + at};
+            complete_pair(block->point, next->point, known, a[own], b[own], g);
+        }
+    }
+}
+
+static void mirror_own(const Answers *answers, double *gram)
+{
+    const AnswerBlock *next = &answers->blocks[answers->block_count];
+    int64_t rows = answers->count + next->count;
+    for (int64_t j = 0; j < next->count; j++)
+        for (int64_t i = 0; i < j; i++)
+            gram[j * rows + next->first + i] = gram[i * rows + next->first + j];
+}
+
+bool answers_multiply(const Answers *answers, double *const gram[BULK_TERMS], Error *err)
+{
+    const AnswerBlock *next = &answers->blocks[answers->block_count];
+    int64_t dofs = answers->full.dof_count, m = answers->full.interface_count;
+    int64_t rows = answers->count + next->count;
+    Multiplication by_mesh = {answers, gram};
+    double *a = NEW_ARRAY(double, rows * next->count, err);
+    double *b = NEW_ARRAY(double, rows * next->count, err);
+    if (!a || !b) goto cleanup;
+    for (int64_t j = 0; j < next->count; j++)
+        next->motion[j * (m + 1) + m] =
+            dense_dot(next->field + j * dofs, answers->unit_load, (int32_t)dofs);
+    share_in_two(multiply_half, &by_mesh);
+    for (int32_t k = 0; k <= answers->block_count; k++)
+        complete_block(answers, &answers->blocks[k], a, b, gram);
+    for (int term = 0; term < BULK_TERMS; term++) mirror_own(answers, gram[term]);
+cleanup:
+    memory_free(a);
+    memory_free(b);
+    return error_is_clean(err);
+}
+
+// Rows of `c` that belong to a block stand `count` apart.
+void answers_combine(const Answers *answers, double factor, const double *c, int64_t columns,
+                     double *y)
+{
+    int64_t dofs = answers->full.dof_count;
+    for (int32_t k = 0; k < answers->block_count; k++) {
+        const AnswerBlock *block = &answers->blocks[k];
+        dense_multiply_rows(view(block->field, dofs, block->count), c + block->first,
+                            answers->count, columns, factor, y);
+    }
+}
+
+void answers_project(const Answers *answers, BulkTerm term, const double *z, int64_t columns,
+                     double *image, double *product)
+{
+    int64_t dofs = answers->full.dof_count;
+    apply(answers, term, view(z, dofs, columns), answers->work[0], image);
+    for (int32_t k = 0; k < answers->block_count; k++) {
+        const AnswerBlock *block = &answers->blocks[k];
+        dense_multiply_transposed_rows(view(block->field, dofs, block->count),
+                                       view(image, dofs, columns), product + block->first,
+                                       answers->count);
+    }
+}

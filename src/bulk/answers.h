@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Answers of the full mesh at points of the strip of bulk/reduction: columns x with A x = r on the
+// interface and t f inside, f the unit load. A product of one with any other z is known without
+// the mesh: x' A z = r' z_b + t f' z. Used by bulk/growing_basis and bulk/reduction.
+#ifndef AMONTONS_BULK_ANSWERS_H
+#define AMONTONS_BULK_ANSWERS_H
+
+#include "bulk/interface_operator.h"
+#include "bulk/strip.h"
+
+enum {
+    BULK_TERMS = BULK_MASS + 1,
+    ANSWER_BLOCKS_MAX = STRIP_VISITS_MAX + 2,
+    ANSWERS_TOGETHER = 48   // columns that are multiplied at once: their image stays in the cache
+};
+
+// Those at one point.
+typedef struct AnswerBlock {
+    StripPoint point;
+    int64_t first, count;   // columns
+    double *field;   // [dofs] each, x; owned, as those that follow
+    double *motion;   // [m + 1] each, x on the interface, then f'x
+    double *reaction;   // [m + 1] each, r (with t: r less t f there), then t
+} AnswerBlock;
+
+typedef struct Answers {
+    BulkOperator full;   // of the mesh; owned
+    BulkScales scales;
+    double *unit_load;   // [dofs] f; owned
+    double *image[2];   // [dofs * ANSWERS_TOGETHER] work of two threads; owned
+    double *work[2];   // [dofs * SPARSE_WIDE] likewise
+    double inertia_least;   // at which the energy of motion counts; set before the third block
+    int64_t count;   // columns of all blocks
+    int32_t block_count;
+    AnswerBlock blocks[ANSWER_BLOCKS_MAX + 1];   // [block_count], and the one that comes next
+} Answers;
+
+bool answers_create(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
+                    const BulkScales *scales, Answers *answers, Error *err);
+void answers_destroy(Answers *answers);
+
+// Room for `columns` columns, behind all others: a block that counts from answers_keep on.
+AnswerBlock *answers_next(Answers *answers, StripPoint point, int64_t columns, Error *err);
+void answers_keep(Answers *answers);
+void answers_drop(Answers *answers);   // if it was not kept
+
+// gram [BULK_TERMS][all * added]: X' (K, C, M) X_next, X all columns with those of the next block.
+bool answers_multiply(const Answers *answers, double *const gram[BULK_TERMS], Error *err);
+
+// y [dofs * columns] += factor X c, of the columns that are kept; c [count * columns].
+void answers_combine(const Answers *answers, double factor, const double *c, int64_t columns,
+                     double *y);
+// product [count * columns] = X' T z; image [dofs * columns]: T z, too.
+void answers_project(const Answers *answers, BulkTerm term, const double *z, int64_t columns,
+                     double *image, double *product);
+
+// y [dofs] = M x / (rho L^2) on the full mesh.
+void answers_apply_mass(const Answers *answers, const double *x, double *y);
+
+#endif

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The full mesh's interface operators at points that are known beforehand, each with its answer to
+// the load, made one after another in a second thread while the caller works with the one before.
+// Called by bulk/reduction.
+#ifndef AMONTONS_BULK_FACTORS_AHEAD_H
+#define AMONTONS_BULK_FACTORS_AHEAD_H
+
+#include "bulk/interface_operator.h"
+
+typedef struct FactorsAhead FactorsAhead;
+
+typedef struct FactoredPoint {
+    InterfaceOperator *full;
+    double *held;   // [dofs] the answer to the load, the interface held
+    double *pull;   // [interface_count] what is condensed of it
+} FactoredPoint;
+
+typedef struct FactorsAheadDef {
+    const Bulk *bulk;
+    const int32_t *interface_dofs;
+    int32_t interface_count;
+    const double *load;   // [dofs]
+    const OperatorTerms *terms;   // [count] in this order
+    int32_t count;
+} FactorsAheadDef;
+
+// What `def` points to must outlive it.
+bool factors_ahead_create(const FactorsAheadDef *def, FactorsAhead **ahead, Error *err);
+// The next one; the one before is gone.
+bool factors_ahead_next(FactorsAhead *ahead, FactoredPoint *point, Error *err);
+void factors_ahead_destroy(FactorsAhead *ahead);   // NULL is fine
+
+#endif
