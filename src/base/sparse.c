@@ -18,7 +18,7 @@
 int omp_get_max_active_levels(void) __attribute__((weak));
 void omp_set_max_active_levels(int levels) __attribute__((weak));
 
-enum { TOGETHER = 32 };   // columns of one pass over a factor
+enum { TOGETHER = 48 };   // columns of one pass over a factor
 
 // Work space of passes over a factor with many columns, of one thread.
 typedef struct Passage {

@@ -194,20 +194,23 @@ static bool is_reducible(const Scene *scene)
            starts_at_interface(scene);
 }
 
-// Seconds, by n unknowns of the mesh and m of the interface; of set A to 160 x 160 cells. A stage
-// costs about 10 products with some 3 m x 3 m entries when reduced, and passes over the factor's
-// entries, about 5 n log2 n of them, when not. A basis costs dense products of n x m responses.
-static const double REDUCED_STAGE = 16e-9, FULL_STAGE = 14e-9, REDUCTION = 2.4e-9;
+// Seconds on two cores, by n unknowns of the mesh and m of the interface; of set A to 320 x 320
+// cells. A stage costs some products with about 2 m x 2 m entries when reduced, and passes over the
+// factor's entries, about 5 n log2 n of them, when not. A basis costs some factors of the mesh, and
+// products of n x m answers.
+static const double REDUCED_STAGE = 10e-9, FULL_STAGE = 14e-9;
+static const double REDUCTION_FACTORS = 2e-5, REDUCTION_PRODUCTS = 4e-10;
 static const double STAGES = 3000;   // of a run with some slidings; more, and it pays sooner
-static const double REDUCTION_BYTES = 64, REDUCTION_BYTES_MAX = 4e9;   // each n m; in all
+static const double REDUCTION_BYTES = 36, REDUCTION_BYTES_MAX = 6e9;   // each n m; in all
 
 // Building a basis and stepping on it is expected to be done before stepping on the sparse factors
-// would be. From about 240 x 240 cells on it is not.
+// would be, as it is to some 350 x 350 cells, where memory ends it.
 static bool reduction_pays(const Model *model)
 {
     if (model->scene->reduction.use == REDUCE_ALWAYS) return true;
     double m = model->interface.count, n = model->bulk.dof_count;
-    double reduced = REDUCTION * n * m * m + STAGES * REDUCED_STAGE * m * m;
+    double reduced = (REDUCTION_FACTORS + REDUCTION_PRODUCTS * m * m) * n +
+                     STAGES * REDUCED_STAGE * m * m;
     return reduced < STAGES * FULL_STAGE * n * log2(n) &&
            REDUCTION_BYTES * n * m < REDUCTION_BYTES_MAX;
 }

@@ -232,7 +232,8 @@ NOT_A_CHOICE = {
     "model/obtain.c": {
         "REDUCTION_TOLERANCES": "draft and fine: as standard",
         "REDUCED_STAGE": "seconds, measured: whether a reduction pays",
-        "FULL_STAGE": "the same", "REDUCTION": "the same", "STAGES": "of a run",
+        "FULL_STAGE": "the same", "REDUCTION_FACTORS": "the same",
+        "REDUCTION_PRODUCTS": "the same", "STAGES": "of a run",
         "REDUCTION_BYTES": "counted", "REDUCTION_BYTES_MAX": "memory"},
     "study/stability/stability.c": {"POINTS_BEYOND": "shown"},
     "study/stability/why.c": {"TAKES_PART": "words", "EARLIER": "words"},
