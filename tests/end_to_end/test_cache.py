@@ -142,7 +142,7 @@ class SameBits(Cached):
 
     def test_what_another_run_left_does_not_decide(self):
         """Where reducing does not pay `auto` does not take a basis that `always` has made."""
-        wide = [*PLAIN, "mesh.set.nx=40", "time.until.U=1e-4"]
+        wide = [*PLAIN, "mesh.set.nx=80", "time.until.U=1e-4"]
         none, _ = self.run_scene(*wide, cache="")
         _, made = self.run_scene(*wide, "reduction.use=always")
         cached, report = self.run_scene(*wide)
