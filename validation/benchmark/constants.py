@@ -31,7 +31,7 @@ from pathlib import Path
 from constants_listed import CONSTANTS, NOT_A_CHOICE, ROOT, places
 from measured_run import commit, markdown_table
 
-COPIED = ("src", "render", "packaging", "meshes", "validation", "tests", "CMakeLists.txt",
+COPIED = ("src", "python", "render", "packaging", "meshes", "validation", "tests", "CMakeLists.txt",
           "CMakePresets.json")
 PROBLEMS = "test_property_contact_problems"
 TARGETS = ("amontons", "amontons_gmsh", "amontons_hdf5", PROBLEMS)
