@@ -4,10 +4,9 @@
 #include "base/worker.h"
 
 #include "base/memory.h"
+#include "base/thread.h"
 
 #include <locale.h>
-#include <pthread.h>
-#include <signal.h>
 #include <string.h>
 
 struct Worker {
@@ -52,17 +51,6 @@ static void *run(void *self)
     return NULL;
 }
 
-// Signals are for the threads of whoever calls.
-static int start(Worker *worker)
-{
-    sigset_t all, before;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before);
-    int cause = pthread_create(&worker->thread, NULL, run, worker);
-    pthread_sigmask(SIG_SETMASK, &before, NULL);
-    return cause;
-}
-
 bool worker_create(const WorkerDef *def, Worker **out, Error *err)
 {
     *out = NULL;
@@ -76,7 +64,7 @@ bool worker_create(const WorkerDef *def, Worker **out, Error *err)
     }
     pthread_mutex_init(&worker->lock, NULL);
     pthread_cond_init(&worker->changed, NULL);
-    int cause = start(worker);
+    int cause = thread_start(run, worker, &worker->thread);
     if (cause != 0) {
         freelocale(worker->locale);
         memory_free(worker);
