@@ -112,30 +112,25 @@ static void test_too_many(void **state)
 {
     (void)state;
     static const char *words[300];
-    begin("vary: {mesh.set: [{");
-    add_many(65, "p%d: 1, ", "}]}\n");
-    assert_refused(NULL, 0, "more than 64 keys vary");
-    begin("record: [");
-    add_many(65, "results.r%d, ", "]\n");
-    assert_refused(NULL, 0, "a list of at most 64 names");
-    begin("record: [");
-    add_many(64, "results.r%d, ", "]\nrank: {by: mu_M}\n");
-    assert_refused(NULL, 0, "by: more than 64 columns");
-    begin("plot: [");
-    add_many(9, "{x: mu_M, y: l_c, name: p%d}, ", "]\n");
-    assert_refused(NULL, 0, "at most 8 plots");
-    begin("vary: {");
-    add_many(17, "mesh.set.p%d: [1], ", "}\n");
-    assert_refused(NULL, 0, "vary: found a map of 17");
-    begin("vary: {");
-    add_many(7, "mesh.set.p%d: [1, 2, 3, 4, 5, 6, 7, 8, 9, 10], ", "}\n");
-    assert_refused(NULL, 0, "more than 1000000 points");
-    begin("set: {");
-    add_many(1, "mesh.set.p%0100d: 1", "}\n");
-    assert_refused(NULL, 0, "a key of more than");
-    begin("set: {mesh.set: {");
-    add_many(40, "p%d: 1, ", "}}\n");
-    assert_refused(NULL, 0, "mesh.set");
+    static const struct {
+        const char *first;
+        int32_t count;
+        const char *piece, *last, *said;
+    } studies[] = {
+        {"vary: {mesh.set: [{", 65, "p%d: 1, ", "}]}\n", "more than 64 keys vary"},
+        {"record: [", 65, "results.r%d, ", "]\n", "a list of at most 64 names"},
+        {"record: [", 64, "results.r%d, ", "]\nrank: {by: mu_M}\n", "by: more than 64 columns"},
+        {"plot: [", 9, "{x: mu_M, y: l_c, name: p%d}, ", "]\n", "at most 8 plots"},
+        {"vary: {", 17, "mesh.set.p%d: [1], ", "}\n", "vary: found a map of 17"},
+        {"vary: {", 7, "mesh.set.p%d: [1, 2, 3, 4, 5, 6, 7, 8, 9, 10], ", "}\n",
+         "more than 1000000 points"},
+        {"set: {", 1, "mesh.set.p%0100d: 1", "}\n", "a key of more than"},
+        {"set: {mesh.set: {", 40, "p%d: 1, ", "}}\n", "mesh.set"}};
+    for (size_t k = 0; k < sizeof studies / sizeof *studies; k++) {
+        begin(studies[k].first);
+        add_many(studies[k].count, studies[k].piece, studies[k].last);
+        assert_refused(NULL, 0, studies[k].said);
+    }
     begin("");
     for (int32_t k = 0; k < 300; k++) words[k] = "rod.width=1";
     assert_refused(words, 300, "settings by --set");
