@@ -201,6 +201,14 @@ cleanup:
     return NULL;
 }
 
+static void close_passage(Passage *passage)
+{
+    if (!passage->columns && !passage->work) return;
+    cholmod_free_dense(&passage->columns, &passage->common);
+    cholmod_free_dense(&passage->work, &passage->common);
+    cholmod_finish(&passage->common);
+}
+
 // Kept from call to call: memory that is asked for anew comes page by page.
 static bool open_passage(const SparseAnalysis *analysis, Passage *passage, Error *err)
 {
@@ -214,15 +222,8 @@ static bool open_passage(const SparseAnalysis *analysis, Passage *passage, Error
     if (!passage->columns || !passage->work)
         FAIL(err, ERROR_MEMORY, "no memory for %d answers of a factor", TOGETHER);
 cleanup:
+    if (!error_is_clean(err)) close_passage(passage);
     return error_is_clean(err);
-}
-
-static void close_passage(Passage *passage)
-{
-    if (!passage->columns) return;
-    cholmod_free_dense(&passage->columns, &passage->common);
-    cholmod_free_dense(&passage->work, &passage->common);
-    cholmod_finish(&passage->common);
 }
 
 // Also of one half built. Factors made from it must have been destroyed.
