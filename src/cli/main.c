@@ -4,15 +4,20 @@
 #include "cli/options.h"
 
 #include <fcntl.h>
+#include <sched.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 // What a start takes, bytes: what the program and HDF5 are mapped into; paths and printf.
 static const rlim_t ROOM_LEAST = (rlim_t)190 << 20, STACK_LEAST = (rlim_t)256 << 10;
+// A user who may have this many processes is not near the limit.
+static const rlim_t PROCESSES_PLENTY = 1000;
 
 typedef struct Command {
     const char *name;
@@ -127,6 +132,14 @@ static void occupy_standard_streams(void)
         if (fcntl(stream, F_GETFD) < 0 && open("/dev/null", O_RDWR) < 0) _exit(1);
 }
 
+// Ends the program.
+static void refuse_to_start(const char *words, int length)
+{
+    ssize_t written = write(STDERR_FILENO, words, (size_t)length);
+    (void)written;
+    _exit(1);
+}
+
 static void meet_limit(int resource, rlim_t least, const char *what)
 {
     struct rlimit limit;
@@ -135,19 +148,46 @@ static void meet_limit(int resource, rlim_t least, const char *what)
     int length = snprintf(words, sizeof words,
                           "amontons: error: only %lu kB of %s); to start takes %lu kB\n",
                           (unsigned long)limit.rlim_cur >> 10, what, (unsigned long)least >> 10);
-    ssize_t written = write(STDERR_FILENO, words, (size_t)length);
-    (void)written;
-    _exit(1);
+    refuse_to_start(words, length);
+}
+
+// Threads count as processes. OpenBLAS and OSMesa start one for each processor, and end or hang
+// where they cannot; fields have a writer. How many there is room for the system says only when
+// asked for them. (_Fork: no sanitizer listens yet.)
+static void meet_process_limit(void)
+{
+    struct rlimit limit;
+    cpu_set_t allowed;
+    if (getrlimit(RLIMIT_NPROC, &limit) != 0 || limit.rlim_cur >= PROCESSES_PLENTY) return;
+    if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) return;
+    pid_t waiting[2 * CPU_SETSIZE + 1];
+    int count = 0;
+    const int wanted = 2 * CPU_COUNT(&allowed) + 1;
+    for (pid_t child = 1; count < wanted && child > 0; count += child > 0) {
+        child = waiting[count] = _Fork();
+        if (child == 0) prctl(PR_SET_PDEATHSIG, SIGKILL);
+        while (child == 0) pause();
+    }
+    for (int k = 0; k < count; k++) kill(waiting[k], SIGKILL);
+    for (int k = 0; k < count; k++) waitpid(waiting[k], NULL, 0);
+    if (count == wanted) return;
+    char words[160];
+    int length = snprintf(words, sizeof words,
+                          "amontons: error: only %lu processes and threads are allowed a user "
+                          "(ulimit -u); to start takes %d more than there are\n",
+                          (unsigned long)limit.rlim_cur, wanted);
+    refuse_to_start(words, length);
 }
 
 // A file that reaches the limit of sizes (ulimit -f) is an error with a sentence, not a signal.
-// With less room than the libraries take (ulimit -v) OpenBLAS ends the program with its own words
-// before main, or its threads never end, nor does exit(): this runs before any library begins.
+// With less room than the libraries take (ulimit -v, -u) OpenBLAS ends the program with its own
+// words before main, or its threads never end, nor does exit(): this runs before they begin.
 static void meet_limits(void)
 {
     signal(SIGXFSZ, SIG_IGN);
     meet_limit(RLIMIT_AS, ROOM_LEAST, "memory are allowed (ulimit -v");
     meet_limit(RLIMIT_STACK, STACK_LEAST, "stack are allowed (ulimit -s");
+    meet_process_limit();
 }
 
 __attribute__((section(".preinit_array"), used)) static void (*const first)(void) = meet_limits;

@@ -1,16 +1,23 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Python opens a library that was built with the address sanitizer only where its runtime is in the process first."""
+"""Python opens a library that was built with a sanitizer only where its runtime is in the process first."""
 import os
 import re
 import subprocess
 import sys
 
 
+def runtime(file):
+    """The path of the address or thread sanitizer that `file` was built with; "": neither."""
+    plain = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}   # ldd crashes with it
+    needed = subprocess.run(["ldd", file], capture_output=True, text=True, check=True, env=plain).stdout
+    found = re.search(r"/\S*lib[at]san\S*", needed)
+    return found[0] if found else ""
+
+
 def preload(library):
     """The environment to add for a Python that opens `library`; {} where it was built without."""
-    needed = subprocess.run(["ldd", library], capture_output=True, text=True, check=True).stdout
-    runtime = re.findall(r"/\S*libasan\S*", needed)
-    return {"LD_PRELOAD": runtime[0], "ASAN_OPTIONS": "detect_leaks=0"} if runtime else {}
+    first = runtime(library)
+    return {"LD_PRELOAD": first, "ASAN_OPTIONS": "detect_leaks=0"} if first else {}
 
 
 def begin_again_with(library):

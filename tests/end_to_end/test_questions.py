@@ -9,9 +9,12 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from sanitizer_fixture import begin_again_with
+
 SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
 BIN = Path(os.environ.get("AMONTONS_BIN", SOURCE / "build" / "bin"))
 sys.path.insert(0, str(BIN.resolve().parent / "python"))
+begin_again_with(BIN / "libamontons.so")
 from amontons import _structs as structs            # noqa: E402
 from amontons._library import lib, path_or_none     # noqa: E402
 

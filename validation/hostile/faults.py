@@ -31,6 +31,9 @@ import cases
 from cases import ROOT, SCENE, STUDY
 from tries import PROGRAM, SCRATCH, answer_of
 
+sys.path.append(str(ROOT / "tests/end_to_end"))
+from sanitizer_fixture import runtime  # noqa: E402   (a sanitizer wants to be loaded first)
+
 SHIM = Path(os.environ.get("AMONTONS_FAULTS", PROGRAM.parents[1] / "tests/file_faults.so")).resolve()
 OUTPUTS = ["--set", "output.figures=[force]", "--set", "output.fields={every_U: 4e-4}"]
 # What is done, and what must stand before.
@@ -83,7 +86,7 @@ def faults_of(path):
 def call(words, folder, fault=""):
     """The program, with a cache of its own in the folder."""
     env = os.environ | {"AMONTONS_CACHE": str(folder / "cache")}
-    env |= {"LD_PRELOAD": str(SHIM), "FILE_FAULT": fault} if fault else {}
+    env |= {"LD_PRELOAD": f"{runtime(SHIM)} {SHIM}", "FILE_FAULT": fault} if fault else {}
     return subprocess.run([PROGRAM, *words], cwd=folder, env=env, stdin=subprocess.DEVNULL, capture_output=True,
                           text=True, timeout=PATIENCE)
 
