@@ -11,10 +11,10 @@
 static const double TAKES_PART = 0.1;   // in the mode, over the pad that does most
 static const double EARLIER = 1e-3;   // mu, relative: less is the same moment
 
+// There is room for each of the sentences below once.
 __attribute__((format(printf, 2, 3))) static void say(StabilitySummary *summary, const char *format,
                                                       ...)
 {
-    if (summary->why_count == STABILITY_WHY_MAX) return;
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(summary->why[summary->why_count++], STABILITY_WHY_SIZE, format, arguments);
