@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a search for an error bar leaves when it is stopped, and what it says of a bar not met;
+// loads and parameters of its runs. How good its bars are is tested by end_to_end.accuracy.
+#include "run/accuracy_figure.h"
+#include "run/warnings.h"
+
+#include "base/memory.h"
+#include "result_place.h"
+#include "small_scene.h"
+
+#include <signal.h>
+
+static char place[PLACE_SIZE];
+
+// Stops in the run of so many, 0: the first of the first mesh; counts the meshes that were done.
+typedef struct Watch {
+    int32_t runs_left;
+    int32_t mesh, run;
+    int32_t levels;
+    volatile sig_atomic_t stop;
+} Watch;
+
+static void watch_step(const StepView *view, void *context)
+{
+    Watch *watch = context;
+    if (view->mesh == watch->mesh && view->run == watch->run) return;
+    watch->mesh = view->mesh;
+    watch->run = view->run;
+    watch->stop = view->mesh > 0 && watch->runs_left-- == 0;
+}
+
+static void watch_level(const LevelView *view, void *context)
+{
+    ((Watch *)context)->levels = view->level;
+}
+
+static Scene *scene_of(const char *one, const char *other)
+{
+    return small_scene((const char *const[]){
+        "mesh.set.nx=20", "mesh.set.nz=4", "load.pressure=0.006", "time.until.U=0.008",
+        "accuracy.mu=0.001", "accuracy.within=1e-3", one, other, NULL});
+}
+
+// The message of a search that was stopped in its run `runs`.
+static void stop_in(int32_t runs, const char *folder, bool overwrite, Error *err)
+{
+    Scene *scene = scene_of("accuracy.within=0", NULL);
+    RunSummary summary;
+    Watch watch = {.runs_left = runs};
+    RunOptions options = {.folder = folder,
+                          .overwrite = overwrite,
+                          .on_step = watch_step,
+                          .on_level = watch_level,
+                          .context = &watch,
+                          .stop = &watch.stop};
+    int64_t live = memory_counters().live;
+    assert_false(amontons_run(scene, &options, &summary, err));
+    assert_int_equal(err->code, ERROR_INTERRUPT);
+    assert_int_equal(memory_counters().live, live);
+    assert_int_equal(watch.levels, runs / 2);
+    amontons_scene_destroy(scene);
+}
+
+static void test_stopped_in_the_first_run(void **state)
+{
+    (void)state;
+    Error err = {0};
+    stop_in(0, place, false, &err);
+    if (!strstr(err.message, "no run has ended yet, nothing was written"))
+        fail_msg("%s", err.message);
+    assert_false(place_has(place, "figures"));
+}
+
+// mu_M of the first mesh's two runs is kept, but not beside an earlier result.
+static void test_stopped_on_the_second_mesh(void **state)
+{
+    (void)state;
+    static char text[8000];
+    char kept[PLACE_SIZE + 60];
+    Error err = {0};
+    stop_in(2, place, false, &err);
+    snprintf(kept, sizeof kept, "from 1 meshes (%s/figures/accuracy.json); it does not go on",
+             place);
+    if (!strstr(err.message, "so far mu_M = 0.") || !strstr(err.message, kept))
+        fail_msg("%s", err.message);
+    place_read(place, "figures/accuracy.json", text, sizeof text);
+    assert_non_null(strstr(text, "contact nodes"));
+    assert_true(place_has(place, "figures/accuracy.png"));
+    err = (Error){0};
+    stop_in(2, NULL, false, &err);
+    assert_string_equal(err.message, "stopped on mesh 2 of an error bar");   // no files wanted
+}
+
+static void test_stopped_over_an_earlier_result(void **state)
+{
+    (void)state;
+    Error err = {0};
+    RunSummary summary;
+    Scene *scene = small_scene((const char *const[]){"time.until={t: 1}", NULL});
+    RunOptions options = {.folder = place, .overwrite = true};
+    place_remove(place);
+    if (!amontons_run(scene, &options, &summary, &err)) fail_msg("%s", err.message);
+    amontons_scene_destroy(scene);
+    stop_in(2, place, true, &err);
+    assert_non_null(strstr(err.message, "which was not written"));
+    assert_true(place_has(place, "run.json") && place_has(place, "history.h5"));
+    assert_false(place_has(place, "figures/accuracy.json"));
+}
+
+static RunSummary searched(const char *one, const char *other)
+{
+    Error err = {0};
+    RunSummary summary;
+    Scene *scene = scene_of(one, other);
+    if (!amontons_run(scene, &(RunOptions){0}, &summary, &err)) fail_msg("%s", err.message);
+    amontons_scene_destroy(scene);
+    return summary;
+}
+
+// A traction of the same size on the top instead of pressure gives the same block, and runs whose
+// loads are scaled alike.
+static void test_loads_of_the_runs(void **state)
+{
+    (void)state;
+    RunSummary pressed = searched("accuracy.window=0.1", NULL);
+    RunSummary pulled =
+        searched("accuracy.window=0.1", "load={pressure: 0, tractions: [{group: top, z: -0.006}]}");
+    assert_true(pressed.mu_M > 0.2 && pressed.mu_M < 0.4);
+    assert_near("mu_M", pulled.mu_M, pressed.mu_M, 1e-6);
+}
+
+// `refine` of each mesh needs a place among the parameters.
+static void test_no_room_for_refine(void **state)
+{
+    (void)state;
+    char geo[8000] = "", text[4000] = "mesh={file: ", source[600];
+    size_t used = 0, named = strlen(text);
+    for (int32_t k = 0; k < SCENE_LIST_MAX - 4; k++)
+        used += (size_t)snprintf(geo + used, sizeof geo - used, "DefineConstant[a%d = 1];\n", k);
+    snprintf(source, sizeof source, "%s/meshes/block.geo", getenv("AMONTONS_SOURCE"));
+    snprintf(geo + used, sizeof geo - used, "Include \"%s\";\n", source);
+    place_make(place);
+    place_write(place, "many.geo", geo);
+    named += (size_t)snprintf(text + named, sizeof text - named,
+                              "%s/many.geo, set: {nx: 6, nz: 3, length: 1, height: 0.5", place);
+    for (int32_t k = 0; k < SCENE_LIST_MAX - 4; k++)
+        named += (size_t)snprintf(text + named, sizeof text - named, ", a%d: 2", k);
+    snprintf(text + named, sizeof text - named, "}}");
+    Error err = {0};
+    RunSummary summary;
+    Scene *scene = small_scene((const char *const[]){text, "accuracy.mu=0.001", NULL});
+    assert_false(amontons_run(scene, &(RunOptions){0}, &summary, &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+    if (!strstr(err.message, "mesh.set: no room for `refine` beside 32 parameters"))
+        fail_msg("%s", err.message);
+    amontons_scene_destroy(scene);
+}
+
+// --- what is said of a bar by hand --------------------------------------------------------------
+
+// The newest warning about levels of 21, 41, 81 nodes with a bar of 0.03 about 0.3.
+static RunWarnings said_of(Levels *levels)
+{
+    RunWarnings warnings = {0};
+    levels->ended = "no time for more";
+    levels->wanted = 0.01;
+    for (int32_t k = 0; k < levels->count; k++) {
+        Level *level = &levels->list[k];
+        level->contact_nodes = 1 + (20 << k);
+        level->pads = level->run_count = 1;
+        for (int32_t kind = 0; kind < ANSWER_KINDS; kind++) {
+            level->answer[kind].value = 0.3;
+            level->answer[kind].bar = 0.03;
+            level->runs[0].answer[kind].value = 0.3;
+        }
+    }
+    warnings_of_bar(levels, &warnings);
+    assert_int_equal(warnings.count, 1);
+    return warnings;
+}
+
+static void expect(Levels levels, const char *wanted)
+{
+    RunWarnings found = said_of(&levels);
+    if (!strstr(found.text[0], wanted)) fail_msg("%s, not\n%s", found.text[0], wanted);
+}
+
+static void test_what_is_said_of_a_bar(void **state)
+{
+    (void)state;
+    Levels levels = {.count = 3};
+    for (int32_t k = 0; k < 3; k++) levels.list[k].slip_cells = 100;
+    expect(levels, "mu_M is known to 10.0 %, asked for 1.0 % (no time for more)");
+    levels.list[2].slip_cells = 1;
+    expect(levels, "mu_M is known to 10.0 % on cells that do not resolve slip, asked for");
+    levels.list[0].undamped = true;
+    expect(levels, "known to 10.0 % from fewer than three meshes that count, asked for");
+    levels.list[2].answer[0].parts.mesh = NAN;
+    expect(levels, "the mesh's part of it is not known (one mesh: no time for more)");
+    levels.list[2].undamped = true;
+    expect(levels, "not known (cells are too long for slip: no time for more)");
+}
+
+static int begin(void **state)
+{
+    (void)state;
+    place_make(place);
+    return 0;
+}
+
+static int end(void **state)
+{
+    (void)state;
+    place_remove(place);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(test_stopped_in_the_first_run, begin, end),
+        cmocka_unit_test_setup_teardown(test_stopped_on_the_second_mesh, begin, end),
+        cmocka_unit_test_setup_teardown(test_stopped_over_an_earlier_result, begin, end),
+        cmocka_unit_test(test_loads_of_the_runs),
+        cmocka_unit_test_teardown(test_no_room_for_refine, end),
+        cmocka_unit_test(test_what_is_said_of_a_bar),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
