@@ -327,14 +327,13 @@ enum { KEY_COUNT = sizeof keys / sizeof keys[0] };
 _Static_assert((int)KEY_COUNT <= (int)SCENE_KEYS_MAX, "Scene.given is too short");
 
 typedef struct Range {
-    double low, high;
-    bool low_allowed, high_allowed;
+    double low, high;   // high is allowed
+    bool low_allowed;
     const char *words;
 } Range;
 
 static const Range ranges[] = {
-#define X(range, low, low_allowed, high, high_allowed, words)                                      \
-    [range] = {low, high, low_allowed, high_allowed, words},
+#define X(range, low, low_allowed, high, words) [range] = {low, high, low_allowed, words},
     SCENE_RANGES(X)
 #undef X
 };
@@ -409,8 +408,7 @@ bool scene_range_holds(SceneRange range, double value)
     const Range *within = &ranges[range];
     if (!isfinite(value)) return false;
     if (value < within->low || value > within->high) return false;
-    if (value == within->low && !within->low_allowed) return false;
-    return value != within->high || within->high_allowed;
+    return value != within->low || within->low_allowed;
 }
 
 const char *scene_range_words(SceneRange range)

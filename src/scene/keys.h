@@ -27,17 +27,17 @@ typedef enum SceneKeyType {
     KEY_FIELDS,   // output.fields: none, or a map of the keys below it
 } SceneKeyType;
 
-// X(range, low, low itself allowed, high, high itself allowed, in words)
+// X(range, low, low itself allowed, high, which is allowed, in words)
 #define SCENE_RANGES(X)                                                                            \
-    X(RANGE_ANY, -INFINITY, false, INFINITY, false, "a number")                                    \
-    X(RANGE_POSITIVE, 0, false, INFINITY, false, "a number > 0")                                   \
-    X(RANGE_NOT_NEGATIVE, 0, true, INFINITY, false, "a number >= 0")                               \
-    X(RANGE_POISSON, -1, false, 0.5, true, "a number > -1 and <= 0.5")                             \
-    X(RANGE_PART, 0, false, 1, true, "a number > 0 and <= 1")                                      \
-    X(RANGE_PART_OR_ZERO, 0, true, 1, true, "a number from 0 to 1")
+    X(RANGE_ANY, -INFINITY, false, INFINITY, "a number")                                           \
+    X(RANGE_POSITIVE, 0, false, INFINITY, "a number > 0")                                          \
+    X(RANGE_NOT_NEGATIVE, 0, true, INFINITY, "a number >= 0")                                      \
+    X(RANGE_POISSON, -1, false, 0.5, "a number > -1 and <= 0.5")                                   \
+    X(RANGE_PART, 0, false, 1, "a number > 0 and <= 1")                                            \
+    X(RANGE_PART_OR_ZERO, 0, true, 1, "a number from 0 to 1")
 
 typedef enum SceneRange {
-#define X(range, low, low_allowed, high, high_allowed, words) range,
+#define X(range, low, low_allowed, high, words) range,
     SCENE_RANGES(X)
 #undef X
 } SceneRange;

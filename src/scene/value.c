@@ -131,7 +131,7 @@ static bool add_number(const SceneKey *key, const SceneValue *value, Scene *scen
     SceneNumbers *numbers = field_of(key, scene);
     double number = 0;
     TRY(read_number(key, value, scene->units, &number, err));
-    if (!scene_range_holds(key->range, number) || numbers->count == SCENE_NUMBERS_MAX)
+    if (!scene_range_holds(key->range, number))
         report_wrong(key, value, err);
     else
         numbers->value[numbers->count++] = number;
@@ -226,10 +226,7 @@ static bool add_name(const SceneKey *key, const SceneValue *value, Scene *scene,
                        key->name, name);
             goto cleanup;
         }
-    if (names->count == SCENE_LIST_MAX)
-        report_wrong(key, value, err);
-    else
-        memcpy(names->name[names->count++], name, sizeof name);
+    memcpy(names->name[names->count++], name, sizeof name);
 cleanup:
     return error_is_clean(err);
 }

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "scene/scene.h"
 #include "scene/keys.h"
+#include "scene/materials.h"
 #include "scene_of_text.h"
 #include "unit/scene/scene_texts.h"
 
@@ -177,6 +178,65 @@ static void test_override_of_a_part(void **state)
     assert_true(scene.load.pressure == 3000);
 }
 
+// Nothing where a list or map may stand is an empty one, and a region without numbers is one of
+// `material`.
+static void test_what_may_be_empty(void **state)
+{
+    (void)state;
+    Scene scene = read_with(3, "mesh: {file: block.geo, set: }");
+    assert_int_equal(scene.mesh.parameter_count, 0);
+    scene = read_with(0, "groups: {contact: }");
+    assert_int_equal(scene.groups.contact.count, 0);
+    scene = read_with(6, "load: {pressure: 1, supports: , tractions: }");
+    assert_int_equal(scene.load.support_count + scene.load.traction_count, 0);
+    scene = read_with(0, "materials:");
+    assert_int_equal(scene.materials.count, 0);
+    scene = read_with(0, "materials: {pads: , top: {young: 2}}");
+    assert_int_equal(scene.materials.count, 2);
+    assert_string_equal(scene.materials.region[0].group, "pads");
+    assert_true(scene_material_number(&scene, &scene.materials.region[0], MATERIAL_YOUNG) == 1);
+    assert_true(scene_material_number(&scene, &scene.materials.region[1], MATERIAL_YOUNG) == 2);
+}
+
+// By the path that a formula may name.
+static void test_numbers_of_regions(void **state)
+{
+    (void)state;
+    Scene scene = read_with(0, "materials: {pads: {young: 2}}");
+    double number = 0;
+    assert_true(scene_materials_find(&scene, "materials.pads.young", &number) && number == 2);
+    static const char *const unknown[] = {"materials.pads.eta1",  "materials.pads.yung",
+                                          "materials.none.young", "materials.young",
+                                          "materials_pads.young", "material.young"};
+    for (size_t k = 0; k < sizeof unknown / sizeof *unknown; k++)
+        if (scene_materials_find(&scene, unknown[k], &number)) fail_msg("%s", unknown[k]);
+}
+
+// Warned of: weakening where nothing damps, also in one region alone.
+static void test_scenes_without_viscosity(void **state)
+{
+    (void)state;
+    Scene scene = read_with(0, "materials: {pads: {young: 2}}");
+    assert_null(amontons_scene_warning(&scene));
+    scene = read_with(0, "materials: {top: {young: 2}, pads: {eta1: 0}}");
+    assert_non_null(strstr(amontons_scene_warning(&scene), "in one of the regions"));
+    scene = read_with(4, "material: {poisson: 0.3, eta1: 0}");
+    assert_non_null(strstr(amontons_scene_warning(&scene), "material.eta1 is 0"));
+}
+
+// What is refused only together with something else.
+static void test_allowed_together(void **state)
+{
+    (void)state;
+    Scene scene = read_with(5, "friction: {law: coulomb, mu_static: 0.3, mu_kinetic: 0.3}");
+    assert_true(scene.friction.mu_static == 0.3);
+    scene =
+        read_with(4, "material: {poisson: 0.3, plane: strain}\nmaterials: {pads: {poisson: 0.4}}");
+    assert_int_equal(scene.material.plane, PLANE_STRAIN);
+    scene = read_with(4, "material: {poisson: 0.5}\nmaterials: {pads: {poisson: 0.5}}");
+    assert_int_equal(scene.material.plane, PLANE_STRESS);
+}
+
 static void test_si_units(void **state)
 {
     (void)state;
@@ -303,7 +363,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_figure_1),           cmocka_unit_test(test_defaults),
         cmocka_unit_test(test_overrides),          cmocka_unit_test(test_formulas),
-        cmocka_unit_test(test_override_of_a_part), cmocka_unit_test(test_si_units),
+        cmocka_unit_test(test_override_of_a_part), cmocka_unit_test(test_what_may_be_empty),
+        cmocka_unit_test(test_numbers_of_regions), cmocka_unit_test(test_scenes_without_viscosity),
+        cmocka_unit_test(test_allowed_together),   cmocka_unit_test(test_si_units),
         cmocka_unit_test(test_special_cases),      cmocka_unit_test(test_public_face),
         cmocka_unit_test(test_memory_faults),      cmocka_unit_test(test_mutated_scenes),
     };

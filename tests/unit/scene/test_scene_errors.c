@@ -423,8 +423,13 @@ static void test_bad_overrides(void **state)
         {"materials.pads.yung=1", "--set materials.pads.yung:1:", "unknown key"},
         {"rod.program.t=[0, a]", "--set rod.program.t:1:", "found"},
         {"output.figures=force\nslip-map", "--set output.figures:1:", "found"},
+        {"materials.pads=3", "--set materials.pads:1:", "materials"},
         {"a.key.that.is.longer.than.any.key.of.a.scene.may.be.so.that.it.cannot.be.one.at.all.=1",
          "--set a.key", ""},
+        {"a.key.of.a.scene.has.at.most.95.bytes.so.that.one.of.100.and.more.is.no.key=and.what."
+         "looks."
+         "like.one=1",
+         "--set a.key", "unknown key"},
     };
     char path[600];
     snprintf(path, sizeof path, "%s/validation/paper/fig1.yaml", getenv("AMONTONS_SOURCE"));

@@ -61,7 +61,7 @@ static void test_refusals(void **state)
         {"m/", "length"},   {"m s", "velocity"},     {"km/h", "velocity"},   {"pa", "stress"},
         {"Pa", "length"},   {"kk", "length"},        {"k", "length"},        {"m!", "length"},
         {"m m0", "length"}, {"kg/m/m/m", "density"}, {"\xC2\xB5", "length"}, {"m", "1"},
-        {"m..", "length"},  {"mm2", "length"},
+        {"m..", "length"},  {"mm2", "length"},       {"m^-", "length"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
         double value = 1;
