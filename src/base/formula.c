@@ -149,9 +149,7 @@ static void read_name(Reading *reading)
 static void read_unit(Reading *reading)
 {
     char next = next_of(reading);
-    if (reading->depth > DEPTH_MAX) {
-        refuse(reading, "a formula of fewer brackets");
-    } else if (isdigit((unsigned char)next) || next == '.') {
+    if (isdigit((unsigned char)next) || next == '.') {
         double value = 0;
         int32_t length = text_number(reading->at, &value);
         if (length == 0) refuse(reading, "a decimal number");

@@ -58,9 +58,43 @@ static void test_itself(void **state)
     place_remove(place);
 }
 
+// Words that only look like commands are let through, commands in any of the files are not.
+static void test_words(void **state)
+{
+    static const struct {
+        const char *text, *wanted;   // NULL: it is let through
+    } cases[] = {
+        {"Printf(\"all is well\");\nPrinted = 1;\n", NULL},
+        {"Include \"absent.geo\";\n", NULL},   // gmsh cannot open it either
+        {"Include 'calm.geo';\n", NULL},
+        {"\n\nPrint \"x.png\";\n", "a.geo:3: `Print`: gmsh would run a command"},
+        {"Printf(\"x\") >> \"f\";\n", "a.geo:1: `Printf`"},
+        {"Include 'wild.geo';\n", "wild.geo:2: `SystemCall`"},
+        {"Include name;\n", "a.geo:1: includes a file whose name is not written out"},
+    };
+    char place[PLACE_SIZE];
+    (void)state;
+    place_make(place);
+    place_write(place, "calm.geo", "nx = 1;\n");
+    place_write(place, "wild.geo", "\nSystemCall \"touch here\";\n");
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        Error err = {0};
+        place_write(place, "a.geo", cases[k].text);
+        if (cases[k].wanted)
+            expect_refused(place, cases[k].wanted);
+        else if (!geo_commands_refuse(place_path(place, "a.geo"), true, &err))
+            fail_msg("%s", err.message);
+    }
+    FILE *file = fopen(place_path(place, "a.geo"), "w");
+    fwrite("nx = 1;\0SystemCall", 1, 18, file);
+    fclose(file);
+    expect_refused(place, "is no text");
+    place_remove(place);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_pipe), cmocka_unit_test(test_tenfold),
-                                       cmocka_unit_test(test_itself)};
+                                       cmocka_unit_test(test_itself), cmocka_unit_test(test_words)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -93,6 +93,9 @@ static void test_unfinished(void **state)
                                         "DefineConstant[",
                                         "DefineConstant[ a",
                                         "DefineConstant[ a = \"",
+                                        "DefineConstant[ a ",
+                                        "DefineConstant = 3;",
+                                        "DefineConstant( a = {1, 2}",
                                         "/* DefineConstant",
                                         "\"",
                                         "Include"};

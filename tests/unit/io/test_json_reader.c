@@ -84,6 +84,23 @@ static void test_short_escape(void **state)
 }
 
 // An index stands for every item: a list may be shorter at another time.
+// What is nested deeper than any of our files, or ends within a text, is not gone through.
+static void test_depth(void **state)
+{
+    (void)state;
+    char text[200] = "", value[10];
+    double number = 0;
+    for (int k = 0; k < 70; k++) strcat(text, "[");
+    strcat(text, "1");
+    for (int k = 0; k < 70; k++) strcat(text, "]");
+    assert_false(json_is_whole(text));
+    assert_false(json_find_number("{\"a\": [[[", "b", &number));
+    assert_false(json_find_text("{\"a\": \"b", "a", value, sizeof value));
+    assert_false(json_find_text(TEXT, "status", value, 0));
+    assert_true(json_is_whole(" {\r\n\t\"a\" :\t1 }\r\n"));
+    assert_false(json_is_whole("{\"a\": 1} 2"));
+}
+
 static void test_may_hold(void **state)
 {
     (void)state;
@@ -188,9 +205,10 @@ static void test_shorter(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_numbers),  cmocka_unit_test(test_absent),
-        cmocka_unit_test(test_texts),    cmocka_unit_test(test_short_escape),
-        cmocka_unit_test(test_may_hold), cmocka_unit_test(test_keys),
-        cmocka_unit_test(test_damage),   cmocka_unit_test(test_shorter)};
+        cmocka_unit_test(test_numbers), cmocka_unit_test(test_absent),
+        cmocka_unit_test(test_texts),   cmocka_unit_test(test_short_escape),
+        cmocka_unit_test(test_depth),   cmocka_unit_test(test_may_hold),
+        cmocka_unit_test(test_keys),    cmocka_unit_test(test_damage),
+        cmocka_unit_test(test_shorter)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,6 +14,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include <cmocka.h>
 
@@ -394,6 +395,13 @@ static void test_not_a_mesh(void **state)
     read_badly(write_file("junk.geo", "hello world\n", path), NULL, "gmsh failed while reading it",
                "line 1", NULL);
     read_badly(write_file("head.msh", "$MeshFormat\n", path), NULL, "truncated", NULL, NULL);
+    read_badly(write_file("none.msh", "$MeshFormat\nx 0 8\n", path), NULL, "no version", NULL,
+               NULL);
+    read_badly(write_file("talk.msh", "$Comments\nhello\n$EndComments\n", path), NULL,
+               "it has no $MeshFormat", NULL, NULL);
+    snprintf(path, sizeof path, "%.500s/folder.msh", folder);
+    assert_int_equal(mkdir(path, 0700), 0);
+    read_badly(path, NULL, "is not a file", NULL, NULL);
 }
 
 // Cut anywhere, inside a number or between sections, a file is refused.
@@ -481,6 +489,16 @@ static void test_parameters_refused(void **state)
     read_badly(path, &word, "shape must be quad or triangle", "hex", NULL);
     write_file("hand.msh", HEAD_22 NAMES_22 NODES_22 ELEMENTS_22, path);
     read_badly(path, &given, "'nx'", "need a .geo", NULL);
+    static const double refined[] = {3, 0.5, 1 << 20};   // not in halves, coarser, too often
+    for (size_t k = 0; k < sizeof refined / sizeof *refined; k++) {
+        const MeshParameter refine = {"refine", refined[k], ""};
+        read_badly(path, &refine, "refine = ", "it can be 1, 2, 4", NULL);
+    }
+    const MeshParameter worded = {"refine", 0, "much"};
+    read_badly(path, &worded, "'refine'", "need a .geo", NULL);
+    write_file("own.geo", "Point(1) = {0, 0, 0};\n", path);
+    const MeshParameter third = {"refine", 3, ""};
+    read_badly(path, &third, "refine = 3", "unless the .geo has a parameter", NULL);
 }
 
 // Algorithm 8 ends the program; a quad mesher that throws in a thread would too.
