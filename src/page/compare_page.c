@@ -108,7 +108,7 @@ bool compare_page_write(HtmlWriter *html, const char *const *folders, int32_t co
     sheet_part(html, &PARTS[0]);
     numbers_write(html, runs, count);
     sheet_part(html, &PARTS[1]);
-    TRY(scene_differences_write(html, runs, count, err));
+    scene_differences_write(html, runs, count);
     sheet_part(html, &PARTS[2]);
     TRY(write_curves(html, runs, count, err));
     sheet_part(html, &PARTS[3]);

@@ -12,7 +12,7 @@
 enum { KEY_SIZE = 200, VALUE_SIZE = 600, DEPTH_MAX = 6, INDENT = 2 };
 
 // Called for each value that is no map; false ends the walk.
-typedef bool (*KeyFunction)(void *context, const char *path, const char *value, Error *err);
+typedef void (*KeyFunction)(void *context, const char *path, const char *value);
 
 // A value in short, of at most VALUE_SIZE bytes: a text without its quotes, a number to six digits,
 // a list as it stands. Empty lists and null become "".
@@ -38,22 +38,19 @@ static void value_words(const char *json, const char *path, char words[VALUE_SIZ
 }
 
 // All values below `path`, in the order of the text.
-static bool walk(const char *json, const char *path, int32_t depth, KeyFunction each, void *context,
-                 Error *err)
+static void walk(const char *json, const char *path, int32_t depth, KeyFunction each, void *context)
 {
     char key[KEY_SIZE], below[KEY_SIZE], words[VALUE_SIZE], inner[KEY_SIZE];
     for (int32_t k = 0; json_find_key(json, path, k, key, sizeof key); ++k) {
         int length = snprintf(below, sizeof below, "%s.%s", path, key);
         if (length < 0 || length >= (int)sizeof below) continue;
         if (depth < DEPTH_MAX && json_find_key(json, below, 0, inner, sizeof inner)) {
-            TRY(walk(json, below, depth + 1, each, context, err));
+            walk(json, below, depth + 1, each, context);
             continue;
         }
         value_words(json, below, words);
-        if (!each(context, below, words, err)) break;
+        each(context, below, words);
     }
-cleanup:
-    return error_is_clean(err);
 }
 
 // --- what was computed ---------------------------------------------------------------------------
@@ -64,24 +61,21 @@ typedef struct Summary {
     bool begun;
 } Summary;
 
-static bool write_key(void *context, const char *path, const char *value, Error *err)
+static void write_key(void *context, const char *path, const char *value)
 {
     Summary *summary = context;
-    (void)err;
-    if (!*value) return true;
+    if (!*value) return;
     html_markup(summary->html, "%s<span class='key'><b>", summary->begun ? ", " : "");
     html_text(summary->html, path + summary->prefix);
     html_markup(summary->html, "</b> ");
     html_text(summary->html, value);
     html_markup(summary->html, "</span>");
     summary->begun = true;
-    return true;
 }
 
 void scene_summary_write(HtmlWriter *html, const RunSource *run)
 {
     char group[KEY_SIZE], path[KEY_SIZE + 8], inner[KEY_SIZE];
-    Error ignored = {0};
     html_markup(html,
                 "<div class='wide'><table><caption>The scene, all values after defaults, in "
                 "%s units</caption><tbody>\n",
@@ -93,7 +87,7 @@ void scene_summary_write(HtmlWriter *html, const RunSource *run)
         html_markup(html, "<tr><th scope='row'>");
         html_text(html, group);
         html_markup(html, "</th><td>");
-        walk(run->json, path, 0, write_key, &summary, &ignored);
+        walk(run->json, path, 0, write_key, &summary);
         html_markup(html, "</td></tr>\n");
     }
     html_markup(html, "</tbody></table></div>\n");
@@ -109,20 +103,19 @@ typedef struct Differences {
 } Differences;
 
 // A key that an earlier run has, too, has been told with that one.
-static bool write_difference(void *context, const char *path, const char *value, Error *err)
+static void write_difference(void *context, const char *path, const char *value)
 {
     Differences *all = context;
     char words[VALUE_SIZE];
     int32_t length = 0;
     bool differs = false;
-    (void)err;
     for (int32_t k = 0; k < all->of; ++k)
-        if (json_find_raw(all->runs[k].json, path, &length)) return true;
+        if (json_find_raw(all->runs[k].json, path, &length)) return;
     for (int32_t k = 0; k < all->count; ++k) {
         value_words(all->runs[k].json, path, words);
         differs = differs || strcmp(words, value) != 0;
     }
-    if (!differs) return true;
+    if (!differs) return;
     ++all->written;
     html_markup(all->html, "<tr><th scope='row'>");
     html_text(all->html, path + strlen("scene."));
@@ -134,10 +127,9 @@ static bool write_difference(void *context, const char *path, const char *value,
         html_markup(all->html, "</td>");
     }
     html_markup(all->html, "</tr>\n");
-    return true;
 }
 
-bool scene_differences_write(HtmlWriter *html, const RunSource *runs, int32_t count, Error *err)
+void scene_differences_write(HtmlWriter *html, const RunSource *runs, int32_t count)
 {
     Differences all = {.html = html, .runs = runs, .count = count};
     html_markup(html,
@@ -150,13 +142,11 @@ bool scene_differences_write(HtmlWriter *html, const RunSource *runs, int32_t co
     }
     html_markup(html, "</tr></thead><tbody>\n");
     for (all.of = 0; all.of < count; ++all.of)
-        TRY(walk(runs[all.of].json, "scene", 0, write_difference, &all, err));
+        walk(runs[all.of].json, "scene", 0, write_difference, &all);
     if (all.written == 0)
         html_markup(html, "<tr><td colspan='%d'>none: the scenes are the same</td></tr>\n",
                     count + 1);
     html_markup(html, "</tbody></table></div>\n");
-cleanup:
-    return error_is_clean(err);
 }
 
 // --- the scene -----------------------------------------------------------------------------------

@@ -11,7 +11,7 @@
 void scene_summary_write(HtmlWriter *html, const RunSource *run);
 
 // Keys whose values are not the same in all scenes, a column a run.
-bool scene_differences_write(HtmlWriter *html, const RunSource *runs, int32_t count, Error *err);
+void scene_differences_write(HtmlWriter *html, const RunSource *runs, int32_t count);
 
 // The whole scene as text, and as a file to save. What was saved can be run.
 bool scene_text_write(HtmlWriter *html, const RunSource *run, Error *err);

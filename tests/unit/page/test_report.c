@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Pages about results written by hand, which lack what a whole result has: each says what there is,
+// and shows no more. (What a page of a real result holds is looked at by end_to_end.report.)
+#include "amontons.h"
+
+#include "base/memory.h"
+#include "result_place.h"
+
+static char place[PLACE_SIZE];
+
+static char *page_of(const char *const *results, int32_t count)
+{
+    static char text[1 << 18];
+    char file[PLACE_SIZE + 20];
+    Error err = {0};
+    int64_t live = memory_counters().live;
+    snprintf(file, sizeof file, "%s/page.html", place);
+    if (!amontons_report(results, count, file, &err)) fail_msg("%s", err.message);
+    assert_int_equal(memory_counters().live, live);
+    place_read(place, "page.html", text, sizeof text);
+    unlink(file);
+    return text;
+}
+
+static void expect(const char *page, const char *words)
+{
+    if (!strstr(page, words)) fail_msg("not on the page: %s", words);
+}
+
+static void expect_not(const char *page, const char *words)
+{
+    if (strstr(page, words)) fail_msg("on the page: %s", words);
+}
+
+static const char *here(void)
+{
+    return place;
+}
+
+static char *page_here(void)
+{
+    const char *const results[] = {here()};
+    return page_of(results, 1);
+}
+
+static void refuse(const char *const *results, int32_t count, const char *words)
+{
+    char file[PLACE_SIZE + 20];
+    Error err = {0};
+    snprintf(file, sizeof file, "%s/page.html", place);
+    assert_false(amontons_report(results, count, file, &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+    if (!strstr(err.message, words)) fail_msg("%s", err.message);
+    assert_false(place_has(place, "page.html") || place_has(place, "page.html.part"));
+}
+
+static void test_refused(void **state)
+{
+    (void)state;
+    const char *const results[] = {here()};
+    refuse(results, 0, "a report needs a result folder");
+    refuse(results, 1, "not the result of a run or a sweep");
+    place_write(place, "run.json", "{\"status\": \"done\"");
+    refuse(results, 1, "ends before its last bracket");
+    place_write(place, "sweep.csv", "a,b\n1,2\n");
+    refuse(results, 1, "is no table of a sweep");
+    place_write(place, "sweep.csv", "status,b\ndone,2\n");
+    refuse(results, 1, "is no table of a sweep");
+    place_write(place, "page.html.part", "of a process that crashed");
+    refuse(results, 1, "is no table of a sweep");
+}
+
+// A report alone: its numbers, its scene, the film beside it; nothing of a history.
+static void test_run_of_a_report_alone(void **state)
+{
+    (void)state;
+    place_write(place, "run.json",
+                "{\n  \"version\": \"0.0\",\n  \"status\": \"done\",\n  \"scene\": {\n"
+                "    \"title\": \"By <hand>\",\n    \"groups\": {\"top\": [\"a\",\n      \"b\"], "
+                "\"none\": []},\n    \"friction\": {\"law\": \"coulomb\", \"mu_static\": 0.5},\n"
+                "    \"output\": {\"history\": false, \"end\": null}\n  },\n"
+                "  \"results\": {\"mu_M\": -0.25, \"mu_M_error\": 0.003}\n}\n");
+    place_write(place, "b.webm", "film");
+    place_write(place, "c.gif", "GIF89a");
+    const char *page = page_here();
+    expect(page, "By &lt;hand&gt;");
+    expect_not(page, "<hand>");
+    expect(page, "<video controls");
+    expect(page, "data:video/webm;base64,ZmlsbQ==");   // coreutils' base64 of "film"
+    expect(page, "\u22120.250");
+    expect(page, "the mesh\u2019s error is not known");
+    expect(page, "[&quot;a&quot;, &quot;b&quot;]");   // of a list of several lines one
+    expect_not(page, "id='events'");
+}
+
+static void test_run_that_failed(void **state)
+{
+    (void)state;
+    place_write(place, "run.json", "{\"status\": \"failed\", \"message\": \"it broke\"}");
+    const char *page = page_here();
+    expect(page, "it broke");
+    expect(page, "did not slide");
+}
+
+static const char *const TABLE =
+    "point,run,status,load.pressure,mu_M,mu_M_error,alone_error,message,"
+    "warnings\n";
+
+static void write_table(const char *rows)
+{
+    char text[4000];
+    snprintf(text, sizeof text, "%s%s", TABLE, rows);
+    place_write(place, "sweep.csv", text);
+}
+
+// Nothing is done yet: no scene, no numbers of one.
+static void test_sweep_that_has_not_begun(void **state)
+{
+    (void)state;
+    write_table("0,p0,pending,0.003,,,,,\n1,p1,failed,0.006,,,,no <way>,\n");
+    const char *page = page_here();
+    expect(page, "0 of 2 points are done, 1 failed, 1 are not computed yet");
+    expect(page, "<th scope='row'>1</th><td>no &lt;way&gt;</td>");
+    expect_not(page, "That of the first point that is done");
+    expect(page, "<th scope='col'>alone_error</th>");   // of what is not in the table
+    expect_not(page, "<th scope='col'>mu_M_error</th>");
+}
+
+// Each sentence that points warned of stands there once; a figure that is none is told of.
+static void test_sweep_that_is_done(void **state)
+{
+    (void)state;
+    char rows[3000], path[PLACE_SIZE + 20];
+    snprintf(path, sizeof path, "%s/p0", place);
+    assert_int_equal(mkdir(path, 0700), 0);
+    place_write(place, "p0/run.json",
+                "{\"version\": \"0.0\", \"status\": \"done\", \"scene\": {\"title\": \"First\", "
+                "\"accuracy\": {\"mu\": 0.01}}}");
+    snprintf(path, sizeof path, "%s/figures", place);
+    assert_int_equal(mkdir(path, 0700), 0);
+    place_write(place, "figures/ranking.json", "{}");
+    place_write(place, "figures/notes.txt", "");
+    snprintf(rows, sizeof rows,
+             "0,p0,done,0.003,0.3,0.01,,,one // two %01200d\n1,p1,done,0.006,0.4,,,,one\n", 7);
+    write_table(rows);
+    const char *page = page_here();
+    expect(page, "2 runs of an elastic block");
+    expect(page, "(First)");
+    expect(page, "No point failed.");
+    expect_not(page, "points are done");
+    expect_not(page, "leaves out the mesh");   // an error bar was asked for
+    expect(page, "ranking.json");   // why there is no picture
+    expect(page, "0.300&nbsp;\u00b1&nbsp;0.010");
+    expect(page, "two 000");
+}
+
+// Runs that have no history have no curve, and one that failed has no numbers.
+static void test_comparison(void **state)
+{
+    (void)state;
+    char paths[2][PLACE_SIZE + 20];
+    const char *const results[] = {paths[0], paths[1]};
+    for (int k = 0; k < 2; k++) {
+        snprintf(paths[k], sizeof paths[k], "%s/run%d", place, k);
+        assert_int_equal(mkdir(paths[k], 0700), 0);
+    }
+    place_write(place, "run0/run.json", "{\"status\": \"failed\", \"scene\": {\"units\": \"si\"}}");
+    place_write(place, "run1/run.json",
+                "{\"status\": \"done\", \"scene\": {}, \"warnings\": [\"mind <this>\"]}");
+    const char *page = page_of(results, 2);
+    expect(page, "run0 failed: its own report says why");
+    expect(page, "run1: mind &lt;this&gt;");
+    expect(page, "2 of 2 runs kept no history");
+    place_write(place, "run1/sweep.csv", "");
+    refuse(results, 2, "only runs are compared");
+}
+
+static int begin(void **state)
+{
+    (void)state;
+    place_make(place);
+    return 0;
+}
+
+static int end(void **state)
+{
+    (void)state;
+    place_remove(place);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(test_refused, begin, end),
+        cmocka_unit_test_setup_teardown(test_run_of_a_report_alone, begin, end),
+        cmocka_unit_test_setup_teardown(test_run_that_failed, begin, end),
+        cmocka_unit_test_setup_teardown(test_sweep_that_has_not_begun, begin, end),
+        cmocka_unit_test_setup_teardown(test_sweep_that_is_done, begin, end),
+        cmocka_unit_test_setup_teardown(test_comparison, begin, end),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
