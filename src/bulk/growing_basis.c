@@ -2,7 +2,7 @@
 // Modes are combinations V = X T of answers X of the full mesh, and only T is made orthogonal: from
 // products of answers, columns as long as the mesh are multiplied once. What of an answer is
 // orthogonal to the others is a difference of nearly equal energies: where too many digits are lost
-// it is formed by the mesh.
+// new modes are multiplied by the mesh, and all of them where such losses have added up.
 #include "bulk/growing_basis.h"
 
 #include "base/dense.h"
@@ -48,15 +48,18 @@ static bool grow_matrix(double **a, int64_t rows, int64_t columns, int64_t new_r
     return true;
 }
 
-// Work of one extension, by the next block of answers: V of `count` columns.
+// Work of one extension of V, of `count` columns, by others: the next block of answers, or at a
+// renewal modes that were there.
 typedef struct Extension {
     const AnswerBlock *next;
-    int64_t count, added;   // columns of V, of the block
-    double *gram[BULK_TERMS];   // [answers * added] X' (K, C, M) X_new
+    int64_t count, added;   // columns of V, of X_new
+    double *gram[BULK_TERMS];   // [answers * added] X' (K, C, M) X_new, then work
     double *old[BULK_TERMS];   // [count * added] V' (K, C, M) X_new
     double *parts;   // [count * added] what of X_new is in V
     double *left[BULK_TERMS];   // [added^2] of Y = X_new - V parts: Y' (K, C, M) Y
     double *lacking;   // [added] f'Y
+    double largest;   // energy in K of a column of X_new
+    double loss;   // how much larger that is than the energy of what is left of one
     double *rotation;   // [added^2], its last `kept` columns: new modes are Y times these
     int64_t kept;
     double *values, *work;   // [added]; [largest of what follows]
@@ -76,14 +79,14 @@ static void extension_destroy(Extension *x)
     memory_free(x->work);
 }
 
-static bool extension_create(const GrowingBasis *basis, Extension *x, Error *err)
+// answers: with those of the next block.
+static bool extension_create(int64_t answers, int64_t count, int64_t added, Extension *x,
+                             Error *err)
 {
-    const AnswerBlock *next = &basis->answers.blocks[basis->answers.block_count];
-    int64_t count = basis->reduced->count, added = next->count, all = next->first + added;
     int64_t eigen_work = dense_eigen_work((int32_t)added);
-    *x = (Extension){.next = next, .count = count, .added = added};
+    *x = (Extension){.count = count, .added = added};
     for (int term = 0; term < BULK_TERMS; term++) {
-        x->gram[term] = NEW_ARRAY(double, all *added, err);
+        x->gram[term] = NEW_ARRAY(double, answers *added, err);
         x->old[term] = NEW_ARRAY(double, count *added, err);
         x->left[term] = NEW_ARRAY(double, added *added, err);
     }
@@ -91,8 +94,18 @@ static bool extension_create(const GrowingBasis *basis, Extension *x, Error *err
     x->lacking = NEW_ARRAY(double, added, err);
     x->rotation = NEW_ARRAY(double, added *added, err);
     x->values = NEW_ARRAY(double, added, err);
-    x->work = NEW_ARRAY(double, all *added > eigen_work ? all * added : eigen_work, err);
+    x->work = NEW_ARRAY(double, answers *added > eigen_work ? answers * added : eigen_work, err);
     return error_is_clean(err);
+}
+
+// That by the next block.
+static bool extension_begin(const GrowingBasis *basis, Extension *x, Error *err)
+{
+    const AnswerBlock *next = &basis->answers.blocks[basis->answers.block_count];
+    bool done =
+        extension_create(next->first + next->count, basis->reduced->count, next->count, x, err);
+    x->next = next;
+    return done;
 }
 
 static DenseView view(const double *values, int64_t rows, int64_t columns)
@@ -118,6 +131,7 @@ static void project(const GrowingBasis *basis, Extension *x)
     for (int64_t j = 0; j < added; j++) {
         memcpy(x->parts + j * count, motion + j * (m + 1), (size_t)m * sizeof *motion);
         x->lacking[j] = motion[j * (m + 1) + m];
+        x->largest = fmax(x->largest, x->left[BULK_STIFFNESS][j * added + j]);
     }
 }
 
@@ -143,77 +157,33 @@ static void take_out(const GrowingBasis *basis, Extension *x)
     dense_apply_transposed(parts, reduced->load, -1, 1, x->lacking);
 }
 
-// Forms Y by the mesh, and all products with it.
-static bool form_rest(const GrowingBasis *basis, Extension *x, Error *err)
+// The rotation that makes Y orthonormal in K, of those columns that are not rounding.
+static bool orthonormalise(Extension *x, Error *err)
 {
-    const Answers *answers = &basis->answers;
-    int64_t dofs = basis->reduced->full_dofs, m = basis->reduced->interface_count;
-    int64_t added = x->added, count = x->count, first = x->next->first;
-    double *rest = NEW_ARRAY(double, dofs *added, err),
-           *image = NEW_ARRAY(double, dofs *added, err);
-    if (!rest || !image) goto cleanup;
-    memcpy(rest, x->next->field, (size_t)(dofs * added) * sizeof *rest);
-    dense_multiply(view(basis->mix, first, count), view(x->parts, count, added), 1, 0, x->work);
-    answers_combine(answers, -1, x->work, added, rest);
-    for (int64_t j = 0; j < added; j++)
-        for (int64_t i = 0; i < m; i++) rest[j * dofs + answers->full.interface_dofs[i]] = 0;
-    for (int term = 0; term < BULK_TERMS; term++) {
-        answers_project(answers, (BulkTerm)term, rest, added, image, x->work);
-        dense_multiply_transposed(view(basis->mix, first, count), view(x->work, first, added), 1, 0,
-                                  x->old[term]);
-        dense_multiply_transposed(view(rest, dofs, added), view(image, dofs, added), 1, 0,
-                                  x->left[term]);
-    }
-    dense_apply_transposed(view(rest, dofs, added), answers->unit_load, 1, 0, x->lacking);
-cleanup:
-    memory_free(rest);
-    memory_free(image);
-    return error_is_clean(err);
-}
-
-// Where products of answers are too rough, what is left is formed, and rounding taken out of it.
-static bool refine(const GrowingBasis *basis, Extension *x, Error *err)
-{
-    int64_t entries = x->count * x->added;
-    double *before = NEW_ARRAY(double, entries, err);
-    if (!before) goto cleanup;
-    memcpy(before, x->parts, (size_t)entries * sizeof *before);
-    TRY(form_rest(basis, x, err));
-    memset(x->parts, 0, (size_t)entries * sizeof *before);   // nothing of the static modes
-    take_out(basis, x);
-    for (int64_t k = 0; k < entries; k++) x->parts[k] += before[k];
-cleanup:
-    memory_free(before);
-    return error_is_clean(err);
-}
-
-// The rotation that makes Y orthonormal in K, of those columns that are not rounding. *loss: how
-// much larger an answer's energy is than that of what is left of it, at most.
-static bool orthonormalise(Extension *x, double *loss, Error *err)
-{
-    int64_t added = x->added, answers = x->next->first + added;
-    double largest = 0;
-    for (int64_t j = 0; j < added; j++)
-        largest = fmax(largest, x->gram[BULK_STIFFNESS][j * answers + x->next->first + j]);
+    int64_t added = x->added;
     memcpy(x->rotation, x->left[BULK_STIFFNESS], (size_t)(added * added) * sizeof(double));
     if (!dense_eigen(x->rotation, (int32_t)added, x->values, x->work))
         FAIL(err, ERROR_LIBRARY, "LAPACK: the responses of the interior are not independent");
-    *loss = 1;
     for (x->kept = 0; x->kept < added; x->kept++) {
         int64_t j = added - 1 - x->kept;
-        if (!(x->values[j] > DEPENDENT * largest)) break;
+        if (!(x->values[j] > DEPENDENT * x->largest)) break;
         for (int64_t i = 0; i < added; i++) x->rotation[j * added + i] /= sqrt(x->values[j]);
-        *loss = largest / x->values[j];
+        x->loss = x->largest / x->values[j];
     }
 cleanup:
     return error_is_clean(err);
+}
+
+static DenseView rotation_kept(const Extension *x)
+{
+    return view(x->rotation + (x->added - x->kept) * x->added, x->added, x->kept);
 }
 
 // *matrix := V'TV with the modes that were added.
 static bool extend_square(BulkTerm term, double **matrix, Extension *x, Error *err)
 {
     int64_t count = x->count, added = x->added, kept = x->kept, size = count + kept;
-    DenseView rotation = view(x->rotation + (added - kept) * added, added, kept);
+    DenseView rotation = rotation_kept(x);
     if (!grow_matrix(matrix, count, count, size, size, err)) return false;
     dense_multiply(view(x->old[term], count, added), rotation, 1, 0, x->work);
     for (int64_t j = 0; j < kept; j++)
@@ -231,17 +201,22 @@ static bool extend_square(BulkTerm term, double **matrix, Extension *x, Error *e
     return true;
 }
 
-// New columns of T: [-T parts; 1] R. Those of the load: R' f'Y.
+static bool extend_load(ReducedBulk *reduced, const Extension *x, Error *err)
+{
+    int64_t count = x->count;
+    double *load = memory_resize(reduced->load, count, count + x->kept, sizeof *load, err);
+    if (!load) return false;
+    reduced->load = load;
+    dense_apply_transposed(rotation_kept(x), x->lacking, 1, 0, load + count);
+    return true;
+}
+
+// New columns of T: [-T parts; 1] R.
 static bool extend_mix(GrowingBasis *basis, Extension *x, Error *err)
 {
-    ReducedBulk *reduced = basis->reduced;
     int64_t added = x->added, count = x->count, kept = x->kept, first = x->next->first;
     int64_t answers = first + added;
-    DenseView rotation = view(x->rotation + (added - kept) * added, added, kept);
-    double *load = memory_resize(reduced->load, count, count + kept, sizeof *load, err);
-    if (!load) goto cleanup;
-    reduced->load = load;
-    dense_apply_transposed(rotation, x->lacking, 1, 0, load + count);
+    DenseView rotation = rotation_kept(x);
     dense_multiply(view(x->parts, count, added), rotation, 1, 0, x->work);
     double *taken = x->gram[0];
     dense_multiply(view(basis->mix, first, count), view(x->work, count, kept), 1, 0, taken);
@@ -255,26 +230,95 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool basis_extend(GrowingBasis *basis, Error *err)
+static bool take_up(GrowingBasis *basis, Extension *x, Error *err)
 {
     ReducedBulk *reduced = basis->reduced;
+    TRY(orthonormalise(x, err));
+    TRY(extend_square(BULK_DAMPING, &reduced->damping, x, err));
+    TRY(extend_square(BULK_MASS, &reduced->mass, x, err));
+    TRY(extend_load(reduced, x, err));
+    reduced->count += (int32_t)x->kept;
+    reduced->interior_count = reduced->count - reduced->interface_count;
+cleanup:
+    return error_is_clean(err);
+}
+
+// Products by the mesh of some of the modes from V on, with all: columns of old, left and lacking.
+static bool multiply_modes(const GrowingBasis *basis, int64_t from, int64_t columns, Extension *x,
+                           Error *err)
+{
+    const Answers *answers = &basis->answers;
+    int64_t dofs = basis->reduced->full_dofs, m = basis->reduced->interface_count;
+    int64_t count = x->count, size = count + x->added;
+    double *field = NEW_ARRAY(double, dofs *columns, err);
+    double *image = NEW_ARRAY(double, dofs *columns, err);
+    if (!field || !image) goto cleanup;
+    answers_combine(answers, 1, basis->mix + (count + from) * answers->count, columns, field);
+    for (int64_t j = 0; j < columns; j++)
+        for (int64_t i = 0; i < m; i++) field[j * dofs + answers->full.interface_dofs[i]] = 0;
+    for (int term = 0; term < BULK_TERMS; term++) {
+        double *product = x->gram[0], *of_modes = x->gram[1];
+        answers_project(answers, (BulkTerm)term, field, columns, image, product);
+        dense_multiply_transposed(view(basis->mix, answers->count, size),
+                                  view(product, answers->count, columns), 1, 0, of_modes);
+        for (int64_t j = 0; j < columns; j++) {
+            const double *column = of_modes + j * size;
+            memcpy(x->old[term] + (from + j) * count, column, (size_t)count * sizeof *column);
+            memcpy(x->left[term] + (from + j) * x->added, column + count,
+                   (size_t)x->added * sizeof *column);
+        }
+    }
+    dense_apply_transposed(view(field, dofs, columns), answers->unit_load, 1, 0, x->lacking + from);
+cleanup:
+    memory_free(field);
+    memory_free(image);
+    return error_is_clean(err);
+}
+
+// Rows and columns beyond the first `kept` go.
+static void cut_square(double *matrix, int64_t size, int64_t kept)
+{
+    for (int64_t j = 1; j < kept; j++)
+        memmove(matrix + j * kept, matrix + j * size, (size_t)kept * sizeof *matrix);
+}
+
+bool basis_renew(GrowingBasis *basis, int32_t first, Error *err)
+{
+    ReducedBulk *reduced = basis->reduced;
+    int64_t count = first, answers = basis->answers.count, added = reduced->count - count;
     Extension x = {0};
-    double loss = 1;
-    TRY(extension_create(basis, &x, err));
+    TRY(extension_create(answers, count, added, &x, err));
+    for (int64_t from = 0, columns = 0; from < added; from += columns) {
+        columns = added - from < ANSWERS_TOGETHER ? added - from : ANSWERS_TOGETHER;
+        TRY(multiply_modes(basis, from, columns, &x, err));
+    }
+    for (int64_t j = 0; j < added; j++)
+        x.largest = fmax(x.largest, x.left[BULK_STIFFNESS][j * added + j]);
+    cut_square(reduced->damping, reduced->count, count);
+    cut_square(reduced->mass, reduced->count, count);
+    reduced->count = first;
+    take_out(basis, &x);
+    TRY(take_up(basis, &x, err));
+    double *modes = basis->mix + count * answers;
+    dense_multiply(view(basis->mix, answers, count), view(x.parts, count, added), -1, 1, modes);
+    dense_multiply(view(modes, answers, added), rotation_kept(&x), 1, 0, x.work);
+    memcpy(modes, x.work, (size_t)(answers * x.kept) * sizeof *modes);
+cleanup:
+    extension_destroy(&x);
+    return error_is_clean(err);
+}
+
+bool basis_extend(GrowingBasis *basis, Error *err)
+{
+    Extension x = {0};
+    TRY(extension_begin(basis, &x, err));
     TRY(answers_multiply(&basis->answers, x.gram, err));
     project(basis, &x);
     take_out(basis, &x);
-    TRY(orthonormalise(&x, &loss, err));
-    if (loss > basis->loss_max) {
-        TRY(refine(basis, &x, err));
-        TRY(orthonormalise(&x, &loss, err));
-    }
-    TRY(extend_square(BULK_DAMPING, &reduced->damping, &x, err));
-    TRY(extend_square(BULK_MASS, &reduced->mass, &x, err));
+    TRY(take_up(basis, &x, err));
     TRY(extend_mix(basis, &x, err));
-    reduced->interior_count += (int32_t)x.kept;
-    reduced->count += (int32_t)x.kept;
     answers_keep(&basis->answers);
+    if (x.loss > basis->loss_max) TRY(basis_renew(basis, (int32_t)x.count, err));
 cleanup:
     extension_destroy(&x);
     return error_is_clean(err);
@@ -286,7 +330,7 @@ static bool take_motions(GrowingBasis *basis, Error *err)
     ReducedBulk *reduced = basis->reduced;
     int64_t m = reduced->interface_count;
     Extension x = {0};
-    TRY(extension_create(basis, &x, err));
+    TRY(extension_begin(basis, &x, err));
     TRY(answers_multiply(&basis->answers, x.gram, err));
     reduced->mass = NEW_ARRAY(double, m *m, err);
     reduced->damping = NEW_ARRAY(double, m *m, err);
@@ -365,7 +409,7 @@ static void fill_column(const ReducedBulk *reduced, const double *factor, int64_
 
 // With A_qq = L L' and Z = L^-1 [A_qb  load_q]: S = A_bb - Z_b' Z_b, the energy is Z_f' Z_f.
 bool basis_condense(const GrowingBasis *basis, const double *factor, double *schur, double *energy,
-                    Error *err)
+                    bool *definite, Error *err)
 {
     const ReducedBulk *reduced = basis->reduced;
     int64_t m = reduced->interface_count, r = reduced->interior_count;
@@ -382,8 +426,7 @@ bool basis_condense(const GrowingBasis *basis, const double *factor, double *sch
     }
     dense_add_scaled(k, reduced->stiffness, (int32_t)(m * m), schur);
     memcpy(z + m * r, reduced->load + m, (size_t)r * sizeof *z);
-    if (!dense_cholesky(interior, (int32_t)r))
-        FAIL(err, ERROR_COMPUTE, "the interior of the reduced bulk is not positive definite");
+    if (!(*definite = dense_cholesky(interior, (int32_t)r))) goto cleanup;
     dense_lower_divide(interior, (int32_t)r, (int32_t)(m + 1), z);
     DenseView motions = {z, (int32_t)r, (int32_t)m};
     dense_multiply_transposed(motions, motions, -1, 1, schur);

@@ -10,7 +10,7 @@
 typedef struct GrowingBasis {
     ReducedBulk *reduced;   // not owned; its modes come last
     Answers answers;   // owned
-    double loss_max;   // of digits, from which on what is left of an answer is formed by the mesh
+    double loss_max;   // of digits, from which on new modes are multiplied by the mesh
     double *mix;   // [answers.count * reduced->count] modes = answers * mix; owned
 } GrowingBasis;
 
@@ -25,10 +25,15 @@ bool basis_start(GrowingBasis *basis, InterfaceOperator *statics, Error *err);
 // Adds what of the next block of answers is K-orthogonal to all modes to Phi, orthonormal in K.
 bool basis_extend(GrowingBasis *basis, Error *err);
 
+// Multiplies modes from `first` on (not the static ones) by the mesh and makes them orthonormal
+// again: rounding that products of answers brought in goes.
+bool basis_renew(GrowingBasis *basis, int32_t first, Error *err);
+
 // The basis's own answers with A the sum of factor[term] times K/E, C/eta, M/(rho L^2): schur
-// [interface^2], and the energy of that to the unit load, the interface at rest.
+// [interface^2], and the energy of that to the unit load, the interface at rest. *definite: false,
+// and nothing else, where rounding left A of the interior with a negative eigenvalue.
 bool basis_condense(const GrowingBasis *basis, const double *factor, double *schur, double *energy,
-                    Error *err);
+                    bool *definite, Error *err);
 
 // Fills reduced->modes, [dofs * count].
 bool basis_write_modes(GrowingBasis *basis, Error *err);

@@ -6,8 +6,8 @@
 // Levels of inertia that the basis is built at, a factor of LEVEL_RATIO apart at most, from
 // LEVEL_LOWEST times the slowest mode of the interior, below which it follows like a spring, to
 // that of one element. Then those between two of them are treated likewise, so that two levels are
-// a factor of some 30 apart. (Factors from 7 to 1000 give bases of the same error; of 1e6 not.)
-static const double LEVEL_RATIO = 1000, LEVEL_LOWEST = 0.1, LEVEL_BEYOND = 1e6;
+// a factor of 10 apart. (Factors from 7 to 1000 give bases of the same error; of 1e6 not.)
+static const double LEVEL_RATIO = 100, LEVEL_LOWEST = 0.1, LEVEL_BEYOND = 1e6;
 
 // K and C are isotropic, so the static answer at a viscosity depends on the quotients of A's areal
 // and shear moduli alone, of all regions. At a viscosity v each is its elastic value times

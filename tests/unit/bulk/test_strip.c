@@ -49,7 +49,7 @@ static void test_one_material(void **state)
     for (int32_t k = 0; k < top; k++) {
         double ratio = errors.inertia[k + 1] / errors.inertia[k];
         assert_near("alike", ratio, pow(4e4 / 0.36, 1.0 / top), 1e-9 * ratio);
-        assert_true(ratio <= sqrt(1000) * 1.000001);
+        assert_true(ratio <= 10 * 1.000001);
     }
     for (int32_t k = 0; k <= top; k++)
         assert_true(visits_of(&strip, k, 0) == 1 && visits_of(&strip, k, 1) == 1);
@@ -72,7 +72,7 @@ static void test_unlike_damping(void **state)
     double k_volume = 2 / (2 * (1 - 0.3)), k_shear = 2 / (2 * (1 + 0.3));
     double c_volume = 0.2 / 2 + 4, c_shear = 0.2 / 2, before = 0, unit = 2 / 4.2;
     int32_t found = 0;
-    assert_true(errors.inertia[0] < 1);
+    assert_near("lowest", errors.inertia[0], 100.0 / 100, 1e-12);   // 0.1 * 50 would be above
     for (int32_t k = 0; k < strip.count; k++) {
         StripVisit visit = strip.visits[k];
         if (visit.level != errors.count - 2) continue;
