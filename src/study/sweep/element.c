@@ -86,7 +86,8 @@ static bool find(const char *text, const char *list, int32_t index, char *value,
 static bool read_settings(const char *text, ElementSettings *settings, Error *err)
 {
     double count = 0;
-    if (!json_find_number(text, "set_count", &count) || count > STUDY_SETTINGS_MAX)
+    bool found = json_find_number(text, "set_count", &count);
+    if (!found || !(count >= 0 && count <= STUDY_SETTINGS_MAX))
         FAIL(err, ERROR_INPUT, "no list of elements as a sweep writes it");
     settings->count = (int32_t)count;
     for (int32_t k = 0; k < settings->count; k++) {
@@ -122,11 +123,11 @@ static bool read_point(const char *text, int32_t element, Sweep *sweep, int32_t 
     char path[40];
     double number = -1;
     snprintf(path, sizeof path, "points.%d", element);
-    if (!json_find_number(text, path, &number))
+    if (!json_find_number(text, path, &number) || !(number >= 0))
         FAIL(err, ERROR_INPUT, "the list of elements has no element %d", element);
-    *point = (int32_t)number;
-    if (*point >= sweep->study.point_count)
+    if (number >= sweep->study.point_count)
         FAIL(err, ERROR_INPUT, "%s has fewer points than when the sweep began", sweep->study.path);
+    *point = (int32_t)number;
     TRY((sweep->points = NEW_ARRAY(SweepPoint, sweep->study.point_count, err)));
     snprintf(path, sizeof path, "accuracies.%d", element);
     json_find_number(text, path, &sweep->points[*point].accuracy);

@@ -116,7 +116,15 @@ static void test_element(void **state)
         const char *from, *to, *says;
     } wrong[] = {
         {"\"points\": [0", "\"points\": [99", "has fewer points than when"},
+        {"\"points\": [0", "\"points\": [-7", "has no element 0"},
+        {"\"points\": [0", "\"points\": [null", "has no element 0"},
         {"set_count\": 0", "set_count\": 1", "lacks setting 0"},
+        {"set_count\": 0", "set_count\": -1", "no list of elements"},
+        {"set_count\": 0", "set_count\": null", "no list of elements"},
+        {"set_count\": 0", "set_count\": 999999", "no list of elements"},
+        {"\"directory\"", "\"place\"", "no list of elements"},
+        {"\"study\"", "\"file\"", "no list of elements"},
+        {"\"folder\"", "\"result\"", "no list of elements"},
         {"\"set_count\"", "\"count\"", "no list of elements"},
         {"\"directory\": \"/", "\"directory\": \"/nowhere/", "cannot go to /nowhere/"},
         {"\"hashes\": [\"", "\"hashes\": [\"f", "was changed after the sweep began"},
@@ -132,6 +140,46 @@ static void test_element(void **state)
         assert_false(amontons_sweep_element(place_path(place, "changed.json"), 0, &err));
         assert_says(err.message, wrong[k].says);
     }
+    assert_int_equal(chdir(here), 0);
+}
+
+// A share of a sweep without folders of points, as the sweep wrote it and changed since.
+static void test_share(void **state)
+{
+    (void)state;
+    Error err = {0};
+    char list[PLACE_SIZE + 40], here[4000], text[4000], first[2000];
+    assert_non_null(getcwd(here, sizeof here));
+    place_read(place, "study.yaml", first, sizeof first);
+    const char *set = strstr(first, "set: {") + strlen("set: {");
+    snprintf(text, sizeof text, "%.*soutput.history: false, output.fields: none, %skeep: table\n",
+             (int)(set - first), first, set);
+    place_write(place, "study.yaml", text);
+    snprintf(list, sizeof list, "%s/list.json", place);
+    snprintf(text, sizeof text,
+             "{\"directory\": \"%s\", \"study\": \"%s\", \"folder\": \"%s\", \"set_count\": 0, "
+             "\"set\": [], \"first\": 0}",
+             place, study, folder);
+    place_write(place, "list.json", text);
+    static const struct {
+        const char *share, *says;
+    } wrong[] = {
+        {"99 97e1\n", "fewer points than when the sweep began"},
+        {"-1 97e1\n", "fewer points than when the sweep began"},
+        {"0\n", "fewer points than when the sweep began"},
+        {"1 97e10000000000000000000000000000", "was changed after the sweep began"},
+    };
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        err = (Error){0};
+        place_write(place, "out/slurm/share-0.points", wrong[k].share);
+        assert_false(amontons_sweep_element(list, 0, &err));
+        assert_int_equal(err.code, ERROR_INPUT);
+        assert_says(err.message, wrong[k].says);
+    }
+    err = (Error){0};
+    place_write(place, "out/slurm/share-0.points", "");
+    if (!amontons_sweep_element(list, 0, &err)) fail_msg("%s", err.message);   // nothing to do
+    place_write(place, "study.yaml", first);
     assert_int_equal(chdir(here), 0);
 }
 
@@ -163,10 +211,9 @@ static int end(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ends),
-        cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_silence),
-        cmocka_unit_test(test_element),
+        cmocka_unit_test(test_ends),    cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_silence), cmocka_unit_test(test_element),
+        cmocka_unit_test(test_share),
     };
     return cmocka_run_group_tests(tests, begin, end);
 }
