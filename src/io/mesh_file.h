@@ -41,7 +41,11 @@ typedef struct MeshGroup {
     // group: which of the two an element belongs to is not known
 } MeshGroup;
 
+// Who made it: gmsh now, gmsh before (io/mesh_cache), or io/plain_block.
+typedef enum MeshOrigin { MESH_OF_GMSH, MESH_OF_CACHE, MESH_OF_ROWS } MeshOrigin;
+
 typedef struct MeshFile {
+    MeshOrigin origin;
     int32_t node_count;
     double *position;   // [node_count * 2] (x, z): gmsh's x and y; length; owned
     int64_t *node_number;   // [node_count] gmsh's node tags, for messages; owned

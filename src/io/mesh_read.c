@@ -11,6 +11,7 @@
 #include "io/geo_parameters.h"
 #include "io/mesh_apart.h"
 #include "io/mesh_cache.h"
+#include "io/plain_block.h"
 
 #include <errno.h>
 #include <math.h>
@@ -200,9 +201,14 @@ bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t p
             path, given.list[0].name);
     request.parameters = given.list;
     request.parameter_count = given.count;
+    TRY(plain_block_make(path, parameters, parameter_count, mesh, &found, err));
+    if (found) goto cleanup;
     TRY(mesh_cache_key(path, parameters, parameter_count, key, err));
     TRY(mesh_cache_load(key, mesh, &found, err));
-    if (!found) TRY(read_anew(&request, version, key, mesh, err));
+    if (found)
+        mesh->origin = MESH_OF_CACHE;
+    else
+        TRY(read_anew(&request, version, key, mesh, err));
 cleanup:
     memory_free(given.list);
     return error_is_clean(err);

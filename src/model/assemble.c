@@ -41,6 +41,7 @@ bool model_read_mesh(Model *model, Error *err)
                                scene->mesh.parameter_count, &file, err);
     done = done && check_memory(scene, file.node_count, err);
     TRY(scene_blame(scene, "mesh.file", done, err));
+    model->mesh_origin = file.origin;
     TRY(mesh_build(&file, scene->mesh.file, &model->mesh, err));
     const Mesh *mesh = &model->mesh;
     model->length = mesh->x_max - mesh->x_min;

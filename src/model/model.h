@@ -32,6 +32,7 @@ typedef struct Model {
     double length, height;   // L, H of the block, length
     double middle;   // x of its middle, length
     int32_t elements, full_dofs;   // of the mesh
+    MeshOrigin mesh_origin;   // where it was read
     ObservationScales scales;   // what forces, times and velocities are measured with
     bool from_cache;   // the basis was: nothing of the full mesh was factored
     char cache_note[CACHE_NOTE_SIZE];   // why a cached basis was not used or kept; empty: nothing

@@ -132,7 +132,7 @@ static bool draw_sweep(Error *err)
 // A mesh that no cache holds.
 static bool look_at_mesh(Error *err)
 {
-    static const char *const settings[] = {"nx=4", "nz=2", "length=2"};
+    static const char *const settings[] = {"nx=4", "nz=2", "grade_z=2"};
     char path[4 * PLACE_SIZE], picture[PLACE_SIZE + 20];
     snprintf(path, sizeof path, "%s/meshes/block.geo", getenv("AMONTONS_SOURCE"));
     snprintf(picture, sizeof picture, "%s/mesh.svg", place);
