@@ -297,14 +297,10 @@ class Run(InFolder):
     def test_signals_end_the_run_in_order(self):
         for number in (signal.SIGINT, signal.SIGTERM):
             result = self.folder / number.name
-            run = subprocess.Popen([PROGRAM, "run", FIG1, *COARSE, *PLAIN, "--set", "time.until.U=100",
-                                    "-o", result], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                   text=True)
-            history = result / "history.h5.part"
-            limit = time.monotonic() + 60
-            while not history.exists() and time.monotonic() < limit:
+            run = subprocess.Popen([PROGRAM, "run", FIG1, *COARSE, *PLAIN, "--set", "time.until.U=100", "--checkpoint",
+                                    "0.02s", "-o", result], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            while not (result / "checkpoint.bin").exists() and run.poll() is None:   # it steps
                 time.sleep(0.02)
-            time.sleep(0.3)
             run.send_signal(number)
             _, shown = run.communicate(timeout=60)
             self.assertEqual(run.returncode, 1, shown)
