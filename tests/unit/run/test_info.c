@@ -14,6 +14,9 @@
 #include <unistd.h>
 #include <cmocka.h>
 
+enum { EVENTS_MAX = 600 };
+
+static const double THREE[] = {0, 1, 2};   // one of each kind
 static char folder[] = "/tmp/info-test-XXXXXX";
 
 static void write_text(const char *name, const char *text)
@@ -26,12 +29,13 @@ static void write_text(const char *name, const char *text)
     assert_int_equal(fclose(file), 0);
 }
 
-// Three states at two contact nodes, and one event of each kind.
-static void write_history(void)
+// Three states at two contact nodes, and events of these kinds, `count` or none.
+static void write_history(const double *kinds, int32_t count)
 {
     static const double x[] = {0, 1}, pad[] = {0, 0};
     static const double rod[] = {0, 0.25, 0.5}, mu[] = {0, 0.375, 0.125};
-    static const double kinds[] = {0, 1, 2}, numbers[] = {0.1, 0.2, 0.3};
+    double numbers[EVENTS_MAX];
+    for (int32_t k = 0; k < count; k++) numbers[k] = (k + 1) / 10.;
     ResultHead head = {.title = "By hand",
                        .units = "normalised",
                        .version = "0",
@@ -43,8 +47,8 @@ static void write_history(void)
     array_file_append(file, result_series_name(SERIES_ROD), rod, 3, &err);
     array_file_append(file, result_series_name(SERIES_MU), mu, 3, &err);
     for (int32_t table = EVENTS_KIND; table < RESULT_TABLES_COUNT; table++)
-        result_file_write_table(file, (ResultTable)table, table == EVENTS_KIND ? kinds : numbers, 3,
-                                &err);
+        result_file_write_table(file, (ResultTable)table, table == EVENTS_KIND ? kinds : numbers,
+                                count, &err);
     if (!array_file_close(file, &err)) fail_msg("%s", err.message);
 }
 
@@ -97,8 +101,15 @@ static void test_result(void **state)
     static const char *const failed[] = {"status             failed",
                                          "failure            computation failed",
                                          "message            the ledger does not close", NULL};
-    write_history();
+    write_history(THREE, 3);
     assert_info_holds(folder, unfinished);
+    static const char *const killed[] = {"no run.json", "checkpoint.bin: `run --resume` goes on",
+                                         NULL};
+    write_text("checkpoint.bin", "");
+    assert_info_holds(folder, killed);
+    char checkpoint[200];
+    snprintf(checkpoint, sizeof checkpoint, "%s/checkpoint.bin", folder);
+    unlink(checkpoint);
     write_text("run.json", "{\"status\": \"failed\", \"failure\": \"computation failed\", "
                            "\"message\": \"the ledger does not close\"}");
     assert_info_holds(folder, failed);
@@ -114,6 +125,56 @@ static void test_result(void **state)
         assert_info_holds(path, whole);   // its folder
     }
     assert_faults_are_clean(folder);
+}
+
+// Kinds that no version wrote, more events than are shown, and none.
+static void test_events(void **state)
+{
+    (void)state;
+    double kinds[EVENTS_MAX] = {-1, 7};
+    static const char *const odd[] = {
+        "  unknown                 0.1", "  unknown                 0.2",
+        "  quasi-static            0.3", "  ... and 400 more\n", NULL};
+    write_history(kinds, EVENTS_MAX);
+    assert_info_holds(folder, odd);
+    write_history(kinds, 0);
+    static const char *const none[] = {"3 states at 2 contact nodes", NULL};
+    assert_info_holds(folder, none);
+    write_history(THREE, 3);
+}
+
+// By the file's name alone in the folder where it lies; and what makes no sense there.
+static void test_where_one_stands(void **state)
+{
+    (void)state;
+    static const char *const said[] = {"3 states at 2 contact nodes", NULL};
+    char here[4000];
+    Error err = {0};
+    FILE *out = fopen("/dev/null", "w");
+    assert_non_null(getcwd(here, sizeof here));
+    assert_int_equal(chdir(folder), 0);
+    assert_info_holds("history.h5", said);
+    InfoOptions picture = {.picture = "x.png"};
+    assert_false(amontons_info(".", &picture, out, &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+    assert_non_null(strstr(err.message, "is a result folder"));
+    static const char *const setting[] = {"nx=3"};
+    InfoOptions set = {.overrides = setting, .override_count = 1};
+    err = (Error){0};
+    assert_false(amontons_info(".", &set, out, &err));
+    write_text("s.yml", "title: By hand\nmesh: {file: b.geo}\nmaterial: {poisson: 0.3}\n"
+                        "friction: {law: coulomb, mu_static: 0.5}\nload: {pressure: 0.01}\n"
+                        "rod: {velocity: 1e-4}\ntime: {until: {U: 0.1}}\n");
+    static const char *const scene[] = {"material.poisson             0.3\n", NULL};
+    assert_info_holds("s.yml", scene);
+    unlink("s.yml");
+    err = (Error){0};
+    fclose(out);
+    assert_non_null(out = fopen("/dev/full", "w"));
+    assert_false(amontons_info(".", NULL, out, &err));
+    assert_int_equal(err.code, ERROR_FILE);
+    fclose(out);
+    assert_int_equal(chdir(here), 0);
 }
 
 static void test_scene(void **state)
@@ -206,6 +267,7 @@ int main(void)
     assert_non_null(mkdtemp(folder));
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_result),      cmocka_unit_test(test_long_result),
+        cmocka_unit_test(test_events),      cmocka_unit_test(test_where_one_stands),
         cmocka_unit_test(test_scene),       cmocka_unit_test(test_broken_results),
         cmocka_unit_test(test_odd_folders),
     };

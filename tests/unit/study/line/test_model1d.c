@@ -207,6 +207,7 @@ static void test_refusals(void **state)
         {"contact.gap='0.001*x'", "lies on a flat substrate"},
         {"load.supports=[{group: leading, direction: x}]", "load.supports"},
         {"mesh.set.crown=0.01", "that are not flat"},
+        {"mesh={file: ../../meshes/grooves.geo, set: {}}", "contact curves"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
         Error err = {0};
@@ -228,6 +229,12 @@ static void test_refusals(void **state)
     assert_false(amontons_model1d(scene, &plain, &nothing, &refused));
     assert_non_null(strstr(refused.message, "rod.velocity must be above 0"));
     scene->rod.velocity = velocity;
+    int32_t kind = scene->rod.kind;
+    scene->rod.kind = ROD_NONE;
+    refused = (Error){0};
+    assert_false(amontons_model1d(scene, &plain, &nothing, &refused));
+    assert_non_null(strstr(refused.message, "driven by a rod"));
+    scene->rod.kind = kind;
     scene->time.until_U = 0;
     refused = (Error){0};
     assert_false(amontons_model1d(scene, &plain, &nothing, &refused));
@@ -244,6 +251,7 @@ static void test_refusals(void **state)
     scene = read_scene(NULL, 0);
     Model1dOptions wrong[] = {{.alpha = 0, .nodes = 81},
                               {.alpha = -1, .nodes = 81},
+                              {.alpha = 11, .nodes = 81},
                               {.alpha = NAN, .nodes = 81},
                               {.alpha = 0.2, .nodes = 2},
                               {.alpha = 0.2, .nodes = 2001}};

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What is drawn on a terminal and what is written into a log, byte by byte.
+#include "cli/progress.h"
+
+#include "near.h"
+
+#include <fcntl.h>
+#include <math.h>
+#include <stdlib.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+// Standard error, while it is something else.
+typedef struct Stage {
+    int kept, ours;
+    char text[4000];
+} Stage;
+
+// A terminal of so many columns (-1: of a size that it does not know); 0: a pipe.
+static void begin(Stage *stage, int columns)
+{
+    int ends[2];
+    *stage = (Stage){.kept = dup(STDERR_FILENO)};
+    if (columns == 0) {
+        assert_int_equal(pipe(ends), 0);
+    } else {
+        ends[0] = posix_openpt(O_RDWR | O_NOCTTY);
+        assert_true(ends[0] >= 0 && grantpt(ends[0]) == 0 && unlockpt(ends[0]) == 0);
+        ends[1] = open(ptsname(ends[0]), O_RDWR | O_NOCTTY);
+        struct winsize size = {.ws_row = 24, .ws_col = (unsigned short)(columns > 0 ? columns : 0)};
+        assert_int_equal(ioctl(ends[1], TIOCSWINSZ, &size), 0);
+    }
+    dup2(ends[1], STDERR_FILENO);
+    close(ends[1]);
+    stage->ours = ends[0];
+    fcntl(stage->ours, F_SETFL, O_NONBLOCK);
+}
+
+// All that was written since.
+static const char *said(Stage *stage)
+{
+    size_t used = 0;
+    fflush(stderr);
+    for (ssize_t got;
+         (got = read(stage->ours, stage->text + used, sizeof stage->text - 1 - used)) > 0;)
+        used += (size_t)got;
+    stage->text[used] = 0;
+    return stage->text;
+}
+
+static void end(Stage *stage)
+{
+    fflush(stderr);
+    dup2(stage->kept, STDERR_FILENO);
+    close(stage->kept);
+    close(stage->ours);
+}
+
+static void assert_said(Stage *stage, const char *wanted)
+{
+    char text[4000];
+    snprintf(text, sizeof text, "%s", said(stage));
+    if (strcmp(text, wanted) == 0) return;
+    end(stage);
+    fail_msg("said `%s`, not `%s`", text, wanted);
+}
+
+static void test_parts_in_a_log(void **state)
+{
+    (void)state;
+    Stage stage;
+    begin(&stage, 0);
+    Progress progress = progress_begin(false);
+    progress_stage("meshing", &progress);   // over before anybody reads it
+    progress_part(&progress, 0.05, "of the film");
+    assert_said(&stage, "");
+    progress_part(&progress, 0.31, "of the film");
+    assert_said(&stage, " 30 %  of the film\n");
+    progress_part(&progress, 0.35, "of the film");
+    progress_end(&progress);
+    assert_said(&stage, "");
+    end(&stage);
+}
+
+static void test_parts_on_a_terminal(void **state)
+{
+    (void)state;
+    Stage stage;
+    begin(&stage, 60);
+    Progress progress = progress_begin(false);
+    assert_said(&stage, "preparing ...");
+    progress_stage("meshing", &progress);
+    assert_said(&stage, "\rmeshing ...\033[K");
+    progress_part(&progress, 0.5, "of the film");
+    const char *drawn = said(&stage);
+    bool right = *drawn == '\r' && strstr(drawn, " 50 %  of the film");
+    progress_part(&progress, 0.51, "of the film");   // sooner than the eye sees
+    assert_said(&stage, "");
+    progress_stage("relaxing", &progress);   // the bar has its place
+    assert_said(&stage, "");
+    progress_end(&progress);
+    assert_said(&stage, "\r\033[K");
+    progress_end(&progress);
+    assert_said(&stage, "");
+    end(&stage);
+    assert_true(right);
+}
+
+static void test_quiet(void **state)
+{
+    (void)state;
+    Stage stage;
+    begin(&stage, 60);
+    Progress progress = progress_begin(true);
+    StepView view = {.fraction = 0.5, .step_size = 1};
+    progress_stage("meshing", &progress);
+    progress_part(&progress, 0.5, "of the film");
+    progress_step(&view, &progress);
+    progress_end(&progress);
+    assert_said(&stage, "");
+    end(&stage);
+}
+
+// A run behind an error bar: by the size that the terminal has, or 80 columns; in a log nothing.
+static void test_runs_of_a_mesh(void **state)
+{
+    (void)state;
+    Stage stage;
+    StepView view = {.mesh = 2, .run = 1, .U = 0.00123, .mu = 0.2034, .events = 1};
+    begin(&stage, -1);
+    Progress progress = {.style = PROGRESS_BAR};
+    progress_step(&view, &progress);
+    assert_said(&stage, "\rmesh 2, run 1  U 0.00123  mu 0.2034  1 event\033[K");
+    end(&stage);
+    begin(&stage, 30);
+    view.events = 2;
+    progress = (Progress){.style = PROGRESS_BAR};
+    progress_step(&view, &progress);
+    assert_said(&stage, "\rmesh 2, run 1  U 0.00123  mu \033[K");
+    end(&stage);
+    begin(&stage, 0);
+    progress = progress_begin(false);
+    progress_step(&view, &progress);
+    assert_said(&stage, "");
+    end(&stage);
+}
+
+static void test_time_left(void **state)
+{
+    (void)state;
+    static const struct {
+        double seconds;
+        const char *text;
+    } cases[] = {{0, "0:00"},
+                 {59.6, "1:00"},
+                 {65, "1:05"},
+                 {3599.4, "59:59"},
+                 {3723, "1:02:03"},
+                 {1e9, "1000:00:00"},
+                 {INFINITY, "1000:00:00"},
+                 {NAN, "-:--"}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char text[32];
+        progress_format_left(cases[k].seconds, text, sizeof text);
+        assert_string_equal(text, cases[k].text);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_parts_in_a_log), cmocka_unit_test(test_parts_on_a_terminal),
+        cmocka_unit_test(test_quiet),          cmocka_unit_test(test_runs_of_a_mesh),
+        cmocka_unit_test(test_time_left),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
