@@ -13,10 +13,9 @@
 #include <stdio.h>
 #include <string.h>
 
-// A name a line; freed by the caller. NULL: without names, or memory is short.
+// A name a line; freed by the caller. NULL: memory is short.
 static char *join_pad_names(const Interface *interface, Error *err)
 {
-    if (!interface->pad_name) return NULL;
     char *text = memory_array((int64_t)interface->pad_count * GROUP_NAME_SIZE + 1, 1, err);
     for (int32_t p = 0, used = 0; text && p < interface->pad_count; p++)
         used += snprintf(text + used, GROUP_NAME_SIZE + 1, "%s%s", p > 0 ? "\n" : "",

@@ -131,7 +131,7 @@ static void note_slip(const Simulation *simulation, int32_t first, RunSummary *s
     const Interface *interface = &simulation->model.interface;
     summary->slip_length = least ? least->slip_length : NAN;
     summary->slip_cells = least ? least->slip_cells : NAN;
-    if (least && interface->pad_count > 1 && interface->pad_name)
+    if (least && interface->pad_count > 1)
         snprintf(summary->slip_pad, sizeof summary->slip_pad, "%s",
                  interface->pad_name[least->pad]);
 }

@@ -84,7 +84,7 @@ void warnings_of_slip(const Scene *scene, const Interface *interface, const Even
 {
     char where[GROUP_NAME_SIZE + 32] = "the contact";
     if (!least || least->slip_cells >= SLIP_CELLS_ENOUGH) return;
-    if (interface->pad_count > 1 && interface->pad_name)
+    if (interface->pad_count > 1)
         snprintf(where, sizeof where, "pad \"%s\"", interface->pad_name[least->pad]);
     if (least->slip_cells == 0) {
         warnings_add(warnings,

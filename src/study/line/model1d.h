@@ -27,8 +27,8 @@ typedef struct Model1d {
     double density;
     double elastic_x, elastic_shear;   // E_1, E_2, stress
     double viscous_x, viscous_shear;   // eta_t, eta_s, stress * time
-    double pressure;   // P, stress
-    double velocity;   // V, velocity
+    double pressure;   // P, stress, above 0
+    double velocity;   // V, velocity, above 0
     double young, speed;   // E, stress, and sqrt(E_1/rho), velocity: scales
     FrictionLaw law;
 } Model1d;

@@ -98,7 +98,7 @@ static bool runs_away(const Model1d *model, const Model1dRates *rates)
 static bool runs_away_at_speed(const Model1d *model, const Model1dRates *rates)
 {
     if (rates->real > 0) return true;
-    if (!(rates->rightmost.re > 0) || !(model->velocity > 0)) return false;
+    if (!(rates->rightmost.re > 0)) return false;
     double ratio = model->law.critical_velocity / model->velocity;
     return M_PI * rates->rightmost.re / rates->rightmost.im > log(ratio);
 }

@@ -127,12 +127,11 @@ static double resistance_left(const Model1d *model, int32_t n, bool critical, do
 static double find_loss(const Model1d *model, int32_t n, bool critical)
 {
     double low = model->length, high = model->length;
-    if (!(friction_slope(&model->law, 0) < 0) || !(model->pressure > 0)) return NAN;
+    if (!(friction_slope(&model->law, 0) < 0)) return NAN;
     while (resistance_left(model, n, critical, low) <= 0) low /= 2;
     while (resistance_left(model, n, critical, high) > 0) high *= 2;
     while (high - low > 1e-15 * high) {
         double middle = 0.5 * (low + high);
-        if (middle <= low || middle >= high) break;
         *(resistance_left(model, n, critical, middle) > 0 ? &low : &high) = middle;
     }
     return 0.5 * (low + high);
@@ -152,7 +151,7 @@ double model1d_l_c_small(const Model1d *model)
 {
     double k = M_PI / 2, slope = -friction_slope(&model->law, 0);
     double layer = model->alpha * model->height;
-    if (!(slope > 0) || !(model->pressure > 0)) return NAN;
+    if (!(slope > 0)) return NAN;
     return cbrt(model->viscous_x * k * k * layer * model->length /
                 (slope * model->pressure * (1 - 1 / (k * k))));
 }
