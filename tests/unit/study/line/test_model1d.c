@@ -248,13 +248,15 @@ static void test_refusals(void **state)
     assert_int_equal(unknown.code, ERROR_INPUT);
     assert_non_null(strstr(unknown.message, "`unknown`"));
     amontons_scene_destroy(scene);
-    scene = read_scene(NULL, 0);
-    Model1dOptions wrong[] = {{.alpha = 0, .nodes = 81},
-                              {.alpha = -1, .nodes = 81},
-                              {.alpha = 11, .nodes = 81},
-                              {.alpha = NAN, .nodes = 81},
-                              {.alpha = 0.2, .nodes = 2},
-                              {.alpha = 0.2, .nodes = 2001}};
+}
+
+static void test_wrong_options(void **state)
+{
+    (void)state;
+    Scene *scene = read_scene(NULL, 0);
+    Model1dOptions wrong[] = {{.alpha = 0, .nodes = 81},  {.alpha = -1, .nodes = 81},
+                              {.alpha = 11, .nodes = 81}, {.alpha = NAN, .nodes = 81},
+                              {.alpha = 0.2, .nodes = 2}, {.alpha = 0.2, .nodes = 2001}};
     for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++) {
         Error err = {0};
         Model1dSummary summary;
@@ -301,7 +303,8 @@ int main(void)
         cmocka_unit_test(test_against_theory), cmocka_unit_test(test_tolerance),
         cmocka_unit_test(test_no_instability), cmocka_unit_test(test_callbacks),
         cmocka_unit_test(test_plane_strain),   cmocka_unit_test(test_units),
-        cmocka_unit_test(test_refusals),       cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_refusals),       cmocka_unit_test(test_wrong_options),
+        cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
