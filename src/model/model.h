@@ -10,6 +10,7 @@
 #include "contact/friction_law.h"
 #include "contact/rod.h"
 #include "io/cache_file.h"
+#include "model/choice.h"
 #include "record/observation.h"
 #include "scene/scene.h"
 
@@ -34,6 +35,8 @@ typedef struct Model {
     int32_t elements, full_dofs;   // of the mesh
     MeshOrigin mesh_origin;   // where it was read
     ObservationScales scales;   // what forces, times and velocities are measured with
+    ChoiceSizes choice;   // what reduction.use: auto goes by
+    ExpectedCost expected;
     bool from_cache;   // the basis was: nothing of the full mesh was factored
     char cache_note[CACHE_NOTE_SIZE];   // why a cached basis was not used or kept; empty: nothing
     double seconds_mesh, seconds_reduce;   // wall time to read the mesh; for all the rest, s

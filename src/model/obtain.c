@@ -190,29 +190,45 @@ static bool is_viscous(const Scene *scene)
 static bool is_reducible(const Scene *scene)
 {
     bool implicit = scene->time.scheme != SCHEME_EXPLICIT;   // explicit steps are those of the mesh
-    return scene->reduction.use != REDUCE_NEVER && implicit && is_viscous(scene) &&
-           starts_at_interface(scene);
+    bool allowed = scene->reduction.use != REDUCE_NEVER && scene->reduction.decided != REDUCE_NEVER;
+    return allowed && implicit && is_viscous(scene) && starts_at_interface(scene);
 }
 
-// Seconds on two cores, by n unknowns of the mesh and m of the interface; of set A to 320 x 320
-// cells. A stage costs some products with about 2 m x 2 m entries when reduced, and passes over the
-// factor's entries, about 5 n log2 n of them, when not. A basis costs some factors of the mesh, and
-// products of n x m answers.
-static const double REDUCED_STAGE = 10e-9, FULL_STAGE = 14e-9;
-static const double REDUCTION_FACTORS = 2e-5, REDUCTION_PRODUCTS = 4e-10;
-static const double STAGES = 3000;   // of a run with some slidings; more, and it pays sooner
-static const double REDUCTION_BYTES = 36, REDUCTION_BYTES_MAX = 6e9;   // each n m; in all
+// Of the pushed face alone, force over E: fitted with the stages of model/choice.
+static const double FACE_YIELD = 0.5;
 
-// Building a basis and stepping on it is expected to be done before stepping on the sparse factors
-// would be, as it is to some 350 x 350 cells, where memory ends it.
+// What the rod moves for each unit of mu: the block is compressed by a force that falls along it,
+// as a bar on friction; its face and the machine yield too. Length.
+static double yield_per_mu(const Model *model)
+{
+    double force = model->scales.load, machine = model_machine(model).stiffness;
+    double bar = 0.5 * model->length / model->height;
+    double yield = force * (bar + FACE_YIELD) / model->materials.mean.young;
+    return machine > 0 ? yield + force / machine : yield;
+}
+
+// Sets what the run is expected to cost. held: the basis is in the cache.
+static bool expect(Model *model, bool held, Error *err)
+{
+    const Scene *scene = model->scene;
+    Processor processor;
+    TRY(processor_kept(&processor, model->cache_note, err));
+    model->choice =
+        (ChoiceSizes){.unknowns = model->full_dofs,
+                      .interface = model->interface.count,
+                      .stages = choice_stages(scene, yield_per_mu(model)),
+                      .runs = scene->reduction.cache ? fmax(scene->reduction.runs, 1) : 1,
+                      .held = held};
+    model->expected = choice_expect(&model->choice, &processor);
+cleanup:
+    return error_is_clean(err);
+}
+
 static bool reduction_pays(const Model *model)
 {
-    if (model->scene->reduction.use == REDUCE_ALWAYS) return true;
-    double m = model->interface.count, n = model->bulk.dof_count;
-    double reduced = (REDUCTION_FACTORS + REDUCTION_PRODUCTS * m * m) * n +
-                     STAGES * REDUCED_STAGE * m * m;
-    return reduced < STAGES * FULL_STAGE * n * log2(n) &&
-           REDUCTION_BYTES * n * m < REDUCTION_BYTES_MAX;
+    const Scene *scene = model->scene;
+    bool is_asked = scene->reduction.use == REDUCE_AUTO && scene->reduction.decided == REDUCE_AUTO;
+    return !is_asked || choice_reduces(&model->choice, &model->expected);
 }
 
 // A pushing rod comes from behind: on the leading face it would have to stand inside the block.
@@ -233,6 +249,7 @@ static bool make_operator(Model *model, const char *key, Error *err)
 {
     const Interface *interface = &model->interface;
     TRY(model_hold_supports(model, err));
+    TRY(expect(model, false, err));
     if (is_reducible(model->scene) && reduction_pays(model))
         TRY(reduce_bulk(model, key, err));
     else
@@ -316,7 +333,7 @@ bool model_obtain(const Scene *scene, const StageNotice *notice, Model *model, E
     // What a scene may ask of a shape is checked here, wherever the shape comes from.
     TRY(check_rod(scene, found ? shape.sizes.rod_reach : rod_reach(model), err));
     if (found)
-        TRY(adopt_shape(model, &shape, err));
+        TRY(adopt_shape(model, &shape, err) && expect(model, true, err));
     else
         TRY(make_operator(model, key, err));
     model->system.machine = model_machine(model);

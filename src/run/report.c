@@ -61,6 +61,19 @@ static void write_timing(JsonWriter *json, const Model *model, const RunTiming *
     json_end(json);
 }
 
+// What `reduction.use: auto` chose by, processor seconds.
+static void write_expected(JsonWriter *json, const Model *model)
+{
+    const ExpectedCost *expected = &model->expected;
+    json_begin_object(json, "expected_s");
+    json_number(json, "reduction", expected->reduction);
+    json_number(json, "reduced", expected->reduced);
+    json_number(json, "full", expected->full);
+    json_integer(json, "stages", (int64_t)model->choice.stages);
+    json_integer(json, "runs", (int64_t)model->choice.runs);
+    json_end(json);
+}
+
 static void write_model(JsonWriter *json, const Model *model, int64_t relaxation_steps)
 {
     WaveSpeeds speeds = material_speeds(&model->materials.list[model->contact_region]);
@@ -71,6 +84,7 @@ static void write_model(JsonWriter *json, const Model *model, int64_t relaxation
     json_integer(json, "full_dofs", model->full_dofs);
     json_integer(json, "reduced_dofs", model->system.dof_count);
     json_boolean(json, "from_cache", model->from_cache);
+    write_expected(json, model);
     json_number(json, "length", model->length);
     json_number(json, "height", model->height);
     json_begin_object(json, "wave_speeds");

@@ -2,7 +2,7 @@
 // The list is gone through three times: to measure, to write, and later to read (base/archive). In
 // front of it stands what it is and of what, behind it a checksum:
 //
-//     "amontons-state 1"  version  identity  time  { parts of the state }  checksum
+//     "amontons-state 2, reduced"  version  identity  time  { parts of the state }  checksum
 //
 // What can be made again from the scene is not saved: mesh, matrices, the rungs' factors. What
 // depends on rounding in the past is: factors that the next step may use again, the order of sweeps
@@ -22,7 +22,7 @@
 #include <unistd.h>
 
 // A new number where the list changes its order or meaning.
-static const char FORMAT[] = "amontons-state 1";
+static const char *const FORMATS[] = {"amontons-state 2, full mesh", "amontons-state 2, reduced"};
 enum { WORD_SIZE = 32, CHECKSUM_SIZE = HASH_TEXT_SIZE - 1 };
 
 // --- of what ------------------------------------------------------------------------------------
@@ -68,10 +68,10 @@ static bool archive_head(Simulation *simulation, Archive *archive, double *time,
 {
     char format[WORD_SIZE + 1], version[WORD_SIZE + 1], identity[WORD_SIZE + 1];
     TRY(find_identity(simulation, err));
-    pass_word(archive, FORMAT, format);
+    pass_word(archive, FORMATS[simulation->model.reduced.count > 0], format);
     pass_word(archive, AMONTONS_VERSION, version);
     pass_word(archive, simulation->identity, identity);
-    if (archive->failed || strcmp(format, FORMAT) != 0)
+    if (archive->failed || (strcmp(format, FORMATS[0]) != 0 && strcmp(format, FORMATS[1]) != 0))
         FAIL(err, ERROR_INPUT, "it is not a saved state as this version writes it");
     if (strcmp(version, AMONTONS_VERSION) != 0)
         FAIL(err, ERROR_INPUT, "it was saved by version %s, this is %s", version, AMONTONS_VERSION);
@@ -240,6 +240,17 @@ static bool open_archive(const SavedState *state, Archive *archive, Error *err)
     *archive = archive_read(state->bytes, size);
 cleanup:
     return error_is_clean(err);
+}
+
+SceneReduce saved_state_reduction(const SavedState *state)
+{
+    char format[WORD_SIZE + 1] = "";
+    Archive archive = archive_read(state->bytes, state->size);
+    archive_text(&archive, format, sizeof format);
+    if (archive.failed) return REDUCE_AUTO;
+    return strcmp(format, FORMATS[1]) == 0   ? REDUCE_ALWAYS
+           : strcmp(format, FORMATS[0]) == 0 ? REDUCE_NEVER
+                                             : REDUCE_AUTO;
 }
 
 bool saved_state_fits(Simulation *simulation, const SavedState *state, double *time, Error *err)

@@ -183,6 +183,7 @@ static bool accept(Simulation *simulation, SavedState *state, Error *err)
     if (options->resume && !options->folder)
         FAIL(err, ERROR_INPUT, "a run without a result folder leaves nothing to go on from");
     if (options->resume) TRY(checkpoint_read(options->folder, state, err));
+    if (options->resume) simulation->scene.reduction.decided = saved_state_reduction(state);
 cleanup:
     return error_is_clean(err);
 }

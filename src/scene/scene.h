@@ -103,6 +103,9 @@ typedef struct Scene {
         SceneReduce use;
         double tolerance;   // of the interior basis, relative
         bool cache;   // keep the basis on disk for the next run of the shape
+        SceneReduce decided;   // not a key: what `auto` chose before the run was cut off;
+            // REDUCE_AUTO: nothing yet
+        int32_t runs;   // not a key: of a sweep that step on one basis; 0: this one
     } reduction;
     struct {
         bool history;

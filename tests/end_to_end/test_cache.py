@@ -211,6 +211,58 @@ class SameBits(Cached):
         self.assertEqual(len(self.files()), count)
 
 
+class Choice(Cached):
+    """What `auto` chooses: of 40 x 40 cells a run to before the first sliding is stepped on the full
+    mesh, one with slidings is reduced."""
+    BRIEF, LONG = "time.until.U=0.0005", "time.until.U=0.003"
+    MESH = ["mesh.set.nx=40", "mesh.set.nz=40", "output.figures=[]", *PLAIN]
+
+    def is_reduced(self, *words, **where):
+        folder, report = self.run_scene(*words, settings=self.MESH, **where)
+        model = report["model"]
+        self.assertGreater(model["expected_s"]["reduction"], 0)   # whatever the cache holds
+        return folder, model["reduced_dofs"] < model["full_dofs"]
+
+    def call(self, command, file, folder, *words):
+        done = subprocess.run([BIN / "amontons", command, file, "-o", folder, "--quiet", *words],
+                              env=dict(os.environ, AMONTONS_CACHE=str(self.cache)),
+                              capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_length_of_the_run(self):
+        """And a run that is gone on with stays what it was."""
+        folder, reduced = self.is_reduced(self.BRIEF)
+        self.assertFalse(reduced)
+        self.assertEqual(self.endings(), [".mesh"])
+        self.call("run", SCENE, folder, "--extend", "U=0.003", "--set", *self.MESH)
+        extended = json.loads((folder / "run.json").read_text())["model"]
+        self.assertEqual(extended["reduced_dofs"], extended["full_dofs"])
+        self.assertTrue(self.is_reduced(self.LONG)[1])
+        # What auto itself has left counts: the basis is there.
+        again, reduced = self.is_reduced(self.BRIEF)
+        self.assertTrue(reduced)
+        # And the full one of before goes on as such, basis or not.
+        self.call("run", SCENE, folder, "--extend", "U=0.0031", "--set", *self.MESH)
+        extended = json.loads((folder / "run.json").read_text())["model"]
+        self.assertEqual(extended["reduced_dofs"], extended["full_dofs"])
+
+    def test_sweep(self):
+        """Eight points of one block are reduced, each of eight blocks is not."""
+        head = f"scene: {SCENE}\nset: {{{self.BRIEF.replace('=', ': ')}, mesh.set.nx: 40, mesh.set.nz: 40}}\n"
+        varied = {"one": "load.pressure: {linear: [0.003, 0.0031], points: 8}",
+                  "each": "material.poisson: {linear: [0.3, 0.31], points: 2}"}
+        for name, vary in varied.items():
+            study = self.folder / f"{name}.yaml"
+            study.write_text(f"{head}vary:\n  {vary}\nrecord: [reduced_dofs]\n")
+            self.call("sweep", study, self.folder / name, "-j", "1")
+            models = [json.loads(path.read_text())["model"]
+                      for path in (self.folder / name / "points").glob("*/run.json")]
+            self.assertEqual(len(models), 8 if name == "one" else 2)
+            for model in models:
+                self.assertEqual(model["reduced_dofs"] < model["full_dofs"], name == "one")
+                self.assertEqual(model["expected_s"]["runs"], 8 if name == "one" else 1)
+
+
 class OneBasis(Cached):
     """Blocks of one shape, whatever their length, step on one basis: made once."""
     LENGTHS = (0.25, 1, 4)

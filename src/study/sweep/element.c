@@ -3,7 +3,8 @@
 // has to pass through a shell:
 //
 //     {"directory": ..., "study": ..., "folder": ..., "set_count": 1, "set": ["rod.kind=push"],
-//      "first": 0, "points": [3, 7], "accuracies": [0, 0.005], "hashes": ["97e1...", "62f1..."]}
+//      "first": 0, "points": [3, 7], "accuracies": [0, 0.005], "runs": [2, 2],
+//      "hashes": ["97e1...", "62f1..."]}
 //
 // Element e computes points[e], with `keep: table` the share first + e. Its scene is made anew and
 // must have the hash that it had when the sweep began: a study that was changed meanwhile would
@@ -53,6 +54,9 @@ bool elements_write(const Sweep *sweep, const char *path, const int32_t *points,
     json_end(json);
     json_begin_list(json, "accuracies");
     for (int32_t k = 0; k < count; k++) json_number(json, NULL, sweep->points[points[k]].accuracy);
+    json_end(json);
+    json_begin_list(json, "runs");
+    for (int32_t k = 0; k < count; k++) json_integer(json, NULL, sweep->points[points[k]].runs);
     json_end(json);
     json_begin_list(json, "hashes");
     for (int32_t k = 0; k < count; k++) json_text(json, NULL, sweep->points[points[k]].hash);
@@ -131,6 +135,8 @@ static bool read_point(const char *text, int32_t element, Sweep *sweep, int32_t 
     TRY((sweep->points = NEW_ARRAY(SweepPoint, sweep->study.point_count, err)));
     snprintf(path, sizeof path, "accuracies.%d", element);
     json_find_number(text, path, &sweep->points[*point].accuracy);
+    snprintf(path, sizeof path, "runs.%d", element);
+    if (json_find_number(text, path, &number)) sweep->points[*point].runs = (int32_t)number;
     find(text, "hashes", element, sweep->points[*point].hash, HASH_TEXT_SIZE);
 cleanup:
     return error_is_clean(err);

@@ -114,6 +114,7 @@ bool point_scene(const Sweep *sweep, int32_t point, Scene *scene, Error *err)
 {
     double accuracy = sweep->points[point].accuracy;
     TRY(study_point_scene(&sweep->study, point, scene, err));
+    scene->reduction.runs = sweep->points[point].runs;
     if (accuracy > 0) scene->accuracy.mu = accuracy;
 cleanup:
     return error_is_clean(err);

@@ -28,6 +28,7 @@ typedef struct SweepPoint {
     int32_t baseline;   // the point that `rank` measures it against; -1: none
     bool reused;   // was finished when the sweep began
     ReportPlace place;   // of its report, with `keep: table`
+    int32_t runs;   // points that step on the same basis, this one too (study/sweep/sharing)
     double accuracy;   // accuracy.mu that its rank called for; 0: as the study has it
     bool settled;   // a smaller accuracy is of no use
     double seconds;   // in this sweep
@@ -54,7 +55,7 @@ typedef struct PointMesh {
     char path[SCENE_TEXT_SIZE];
 } PointMesh;
 
-// The scene of a point as it is to be computed: the study's, with the point's accuracy.
+// The scene of a point as it is to be computed: the study's, with the point's accuracy and runs.
 bool point_scene(const Sweep *sweep, int32_t point, Scene *scene, Error *err);
 // A name for all that decides what a point comes to: version, mesh file, every key but the title.
 bool point_hash(const Scene *scene, PointMesh *mesh, char hash[HASH_TEXT_SIZE], Error *err);

@@ -29,7 +29,8 @@ bool share_write(const Sweep *sweep, int32_t share, const int32_t *points, int32
     FILE *file = fopen(path, "w");
     if (!file) FAIL(err, ERROR_FILE, "cannot write %s: %s", path, strerror(errno));
     for (int32_t k = share; k < count; k += step)
-        fprintf(file, "%d %s\n", points[k], sweep->points[points[k]].hash);
+        fprintf(file, "%d %s %d\n", points[k], sweep->points[points[k]].hash,
+                sweep->points[points[k]].runs);
     if (fclose(file) != 0) FAIL(err, ERROR_FILE, "cannot write %s: %s", path, strerror(errno));
 cleanup:
     return error_is_clean(err);
@@ -50,6 +51,7 @@ static bool add_point(Sweep *sweep, char **line, PointMesh *mesh, Scene *scene, 
     TRY(point_hash(scene, mesh, at->hash, err));
     if (strncmp(hash + 1, at->hash, HASH_TEXT_SIZE - 1) != 0)
         FAIL(err, ERROR_INPUT, "the study, its scene or a mesh was changed after the sweep began");
+    at->runs = (int32_t)strtol(hash + HASH_TEXT_SIZE, NULL, 10);
     at->same_as = (int32_t)point;
     *line = strchr(hash, '\n');
     *line = *line ? *line + 1 : hash + strlen(hash);

@@ -11,6 +11,7 @@
 #include "study/sweep/pool.h"
 #include "study/sweep/refine.h"
 #include "study/sweep/share.h"
+#include "study/sweep/sharing.h"
 #include "study/sweep/slurm.h"
 #include "study/sweep/study_point.h"
 #include "study/sweep/study_read.h"
@@ -143,13 +144,16 @@ cleanup:
 static bool plan_points(Sweep *sweep, Error *err)
 {
     PointMesh mesh = {0};
+    Sharing sharing = {0};
     Scene *scene = NEW_ARRAY(Scene, 1, err);
     TRY(scene);
     TRY((sweep->points = NEW_ARRAY(SweepPoint, sweep->study.point_count, err)));
+    TRY(sharing_create(sweep->study.point_count, &sharing, err));
     for (int32_t k = 0; k < sweep->study.point_count; k++) {
         SweepPoint *point = &sweep->points[k];
         TRY(point_scene(sweep, k, scene, err));
         TRY(point_hash(scene, &mesh, point->hash, err));
+        TRY(sharing_note(scene, &mesh, &sharing, err));
         if (sweep->study.keep_table) TRY(check_table(sweep, scene, err));
         if (sweep->study.rank.refine > 0 && !(scene->accuracy.mu > 0))
             FAIL(err, ERROR_INPUT,
@@ -157,9 +161,11 @@ static bool plan_points(Sweep *sweep, Error *err)
                  "`set: {accuracy.mu: 3%%}`",
                  sweep->study.path);
     }
+    TRY(sharing_count(&sharing, sweep->points, err));
     TRY(points_find_same(sweep, err));
     TRY(find_baselines(sweep, &mesh, scene, err));
 cleanup:
+    sharing_destroy(&sharing);
     memory_free(scene);
     return error_is_clean(err);
 }

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Whether reducing pays: what a run is expected to cost on a reduced block and on the full mesh, by
+// counts alone, so that the same scene is always stepped in the same way. Called by model/obtain.
+#ifndef AMONTONS_MODEL_CHOICE_H
+#define AMONTONS_MODEL_CHOICE_H
+
+#include "model/processor.h"
+#include "scene/scene.h"
+
+typedef struct ChoiceSizes {
+    double unknowns;   // of the mesh
+    double interface;   // of those on floor and rod
+    double stages;   // of the run
+    double runs;   // that the basis will serve, this one too
+    bool held;   // the basis is in the cache
+} ChoiceSizes;
+
+// Processor seconds of what the two ways do not share: meshing, contact and output cost the same.
+typedef struct ExpectedCost {
+    double reduction;   // building the basis, where it is not held
+    double reduced;   // factors and stages on it
+    double full;   // factors and stages on the mesh
+} ExpectedCost;
+
+ExpectedCost choice_expect(const ChoiceSizes *sizes, const Processor *processor);
+
+// A basis that is held costs nothing; the runs that share one share its cost. Never beyond the memory that a basis may take.
+bool choice_reduces(const ChoiceSizes *sizes, const ExpectedCost *cost);
+
+// How many stages a run to the scene's end will take, about. way: of the rod for each unit of mu,
+// until the block and the machine yield no more, length.
+double choice_stages(const Scene *scene, double way);
+
+#endif
