@@ -24,7 +24,8 @@ typedef struct ExpectedCost {
 
 ExpectedCost choice_expect(const ChoiceSizes *sizes, const Processor *processor);
 
-// A basis that is held costs nothing; the runs that share one share its cost. Never beyond the memory that a basis may take.
+// A basis that is held costs nothing; the runs that share one share its cost. Never beyond the
+// memory that a basis may take.
 bool choice_reduces(const ChoiceSizes *sizes, const ExpectedCost *cost);
 
 // How many stages a run to the scene's end will take, about. way: of the rod for each unit of mu,

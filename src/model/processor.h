@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // How fast this machine is at what model/choice weighs against each other: measured when somebody
-// asks for it (`amontons cache --measure`), kept in the cache's folder, and never measured by a run:
-// a run's choice must not depend on what else the machine was doing.
+// asks for it (`amontons cache --measure`), kept in the cache's folder, and never measured by a
+// run: a run's choice must not depend on what else the machine was doing.
 //
 //     CACHE/processor.speed     (io/cache_file says where CACHE is)
 #ifndef AMONTONS_MODEL_PROCESSOR_H

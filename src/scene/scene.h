@@ -65,8 +65,7 @@ typedef struct Scene {
         SceneProgram program;   // of all loads
     } load;
     struct {
-        double velocity;
-        double stiffness;   // of the spring between drive and rod; 0, not given: rigid
+        double velocity, stiffness;   // of the spring between drive and rod; 0, not given: rigid
         double displacement;   // of the rod in `amontons static`
         double height, width;   // of the strip's centre, and its extent; 0: H/2 and 0.1 H
         SceneRodKind kind;
@@ -100,12 +99,10 @@ typedef struct Scene {
         double window;   // of pressures, relative width
     } accuracy;
     struct {
-        SceneReduce use;
+        SceneReduce use, decided;   // decided: no key; by a run that goes on; REDUCE_AUTO: not yet
         double tolerance;   // of the interior basis, relative
         bool cache;   // keep the basis on disk for the next run of the shape
-        SceneReduce decided;   // not a key: what `auto` chose before the run was cut off;
-            // REDUCE_AUTO: nothing yet
-        int32_t runs;   // not a key: of a sweep that step on one basis; 0: this one
+        int32_t runs;   // no key: of a sweep, those that step on this basis; 0: no sweep
     } reduction;
     struct {
         bool history;

@@ -16,6 +16,8 @@ there. choice.md in FOLDER, or --page FILE, gets the table, and what the constan
 src/model/choice.c are by these pairs (least squares of the relative error)."""
 import argparse
 import json
+import math
+import re
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -124,11 +126,123 @@ def measure_pairs(shapes, path):
     return read_pairs(path)
 
 
-if __name__ == "__main__":
+# --- the table ----------------------------------------------------------------------------------
+
+def least(pairs, use):
+    """One way's run, with the least of its processor times."""
+    return min((pair[use] for pair in pairs), key=lambda one: one["cpu"])
+
+
+def takes(reduced, full):
+    """As src/model/choice.c: without a cache, for one run."""
+    expected = full["expected"]
+    small = expected["reduction"] < NOT_WORTH_ASKING
+    return ("reduced" if small or expected["reduction"] + expected["reduced"] < expected["full"]
+            else "full")
+
+
+def table_of(shapes, done):
+    rows, losses = [], []
+    for number, shape in enumerate(shapes, 1):
+        pairs = done[key_of(shape)]
+        ran = {use: least(pairs, use) for use in USES}
+        taken = takes(**ran)
+        cpu = {use: ran[use]["cpu"] for use in USES}
+        better = min(cpu, key=cpu.get)
+        losses.append(cpu[taken] / cpu[better] - 1)
+        expected = ran["full"]["expected"]
+        rows.append([number, shape.what, f"{shape.way:g}", ran["full"]["n"],
+                     f"{expected['stages']} ({ran['full']['stages']})",
+                     f"{expected['reduction'] + expected['reduced']:.2f} ({cpu['reduced']:.2f})",
+                     f"{expected['full']:.2f} ({cpu['full']:.2f})", taken,
+                     f"{100 * losses[-1]:.0f} %" if losses[-1] > 0 else ""])
+    head = ["", "shape", "U", "unknowns", "stages", "reduced, s", "full, s", "`auto` takes",
+            "slower than the better by"]
+    good = sum(loss <= LOSS for loss in losses)
+    return (markdown_table(head, rows)
+            + f"\n\n{good} of {len(losses)} within {100 * LOSS:.0f} % of the better choice; the "
+            f"largest loss is {100 * max(losses):.0f} %.")
+
+
+# --- the constants ------------------------------------------------------------------------------
+
+NAMES = ("FULL_FACTOR", "FULL_STAGE", "FULL_BORDER", "REDUCTION_ANSWERS", "REDUCTION_PRODUCTS",
+         "REDUCED_RUNG", "REDUCED_STAGE")
+SOURCE = (ROOT / "src/model/choice.c").read_text()
+
+
+def in_source(name):
+    return float(re.search(rf"\b{name} = ([-+.\de]+)", SOURCE)[1])
+
+
+NOT_WORTH_ASKING = in_source("NOT_WORTH_ASKING")
+
+
+def terms(use, ran):
+    """What each constant is multiplied by, as in choice_expect, and 1 for what both ways share."""
+    n, m, stages, rungs = ran["n"], ran["m"], ran["stages"], in_source("RUNGS")
+    full = [rungs * n**1.5, stages * n * math.log2(n), stages * m**2, 0, 0, 0, 0]
+    reduced = [0, 0, 0, n * m, n * m**2, rungs * m**3, stages * m**2]
+    return (full if use == "full" else reduced) + [1]
+
+
+def fit(done):
+    """Least squares of the relative errors, none of the constants below 0."""
+    ran = [(use, least(pairs, use)) for pairs in done.values() for use in USES]
+    matrix = numpy.array([terms(use, one) for use, one in ran])
+    matrix /= numpy.array([[one["cpu"]] for _, one in ran])
+    kept = list(range(matrix.shape[1]))
+    while True:
+        found = numpy.linalg.lstsq(matrix[:, kept], numpy.ones(len(ran)), rcond=None)[0]
+        if (found >= 0).all():
+            break
+        kept.pop(int(numpy.argmin(found * matrix[:, kept].max(axis=0))))
+    values = numpy.zeros(matrix.shape[1])
+    values[kept] = found
+    return values, float(numpy.sqrt(numpy.mean((matrix @ values - 1) ** 2)))
+
+
+def table_of_constants(done):
+    values, error = fit(done)
+    rows = [[f"`{name}`", f"{in_source(name):.3g}", f"{value:.2g}" if value > 0 else "not seen"]
+            for name, value in zip(NAMES, values)]
+    return (markdown_table(["s", "in the source", "by these pairs"], rows)
+            + f"\n\nWhat both ways share, gmsh above all: {values[-1]:.2f} s. The fit is off by "
+            f"{100 * error:.0f} % (rms).")
+
+
+PAGE = """# How `reduction.use: auto` chooses
+
+Thirty shapes, each stepped both ways from nothing, in pairs: processor seconds (user and system) of the whole
+run, gmsh and all, the least of {pairs}. What is expected stands before what was measured in brackets; the seconds expected
+leave out what both ways share. Stages are those to the end of the run.
+
+{table}
+
+## Constants of `src/model/choice.c`
+
+{constants}
+
+`validation/benchmark/choice.py`, version {version}; two cores that were shared with other work.
+"""
+
+
+def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--only", type=int, nargs="*", help="shapes by number, from 1")
+    parser.add_argument("--page", type=Path, help="write the table into this file as well")
     parser.add_argument("-o", "--output", type=Path, default=ROOT / "results/choice")
     options = parser.parse_args()
     options.output.mkdir(parents=True, exist_ok=True)
     chosen = [SHAPES[k - 1] for k in options.only] if options.only else SHAPES
-    measure_pairs(chosen, options.output / "choice.jsonl")
+    done = measure_pairs(chosen, options.output / "choice.jsonl")
+    done = {key_of(shape): done[key_of(shape)] for shape in chosen}
+    page = PAGE.format(pairs=PAIRS, table=table_of(chosen, done),
+                       constants=table_of_constants(done), version=commit())
+    for path in filter(None, (options.output / "choice.md", options.page)):
+        path.write_text(page)
+    print(f"{options.output}/choice.md")
+
+
+if __name__ == "__main__":
+    main()

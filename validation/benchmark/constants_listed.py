@@ -232,10 +232,21 @@ NOT_A_CHOICE = {
         "standard_middle": "the rod's default place", "standard_width": "the rod's default"},
     "model/obtain.c": {
         "REDUCTION_TOLERANCES": "draft and fine: as standard",
-        "REDUCED_STAGE": "seconds, measured: whether a reduction pays",
-        "FULL_STAGE": "the same", "REDUCTION_FACTORS": "the same",
-        "REDUCTION_PRODUCTS": "the same", "STAGES": "of a run",
+        "FACE_YIELD": "stages of a run, validation/benchmark/choice.py"},
+    "model/choice.c": {
+        "FULL_FACTOR": "s, fitted by validation/benchmark/choice.py: whether a reduction pays",
+        "FULL_STAGE": "the same", "FULL_BORDER": "the same", "REDUCTION_ANSWERS": "the same",
+        "REDUCTION_PRODUCTS": "the same", "REDUCED_RUNG": "the same", "REDUCED_STAGE": "the same",
+        "RUNGS": "the same, counted", "STAGES_REST": "the same, counted",
+        "STAGES_SLIDING": "the same, counted", "STAGES_STEP": "of SDIRK2",
+        "PERIODIC_SLIDINGS": "the same, counted",
+        "NOT_WORTH_ASKING": "s that may be lost; choice.py",
         "REDUCTION_BYTES": "counted", "REDUCTION_BYTES_MAX": "memory"},
+    "model/processor.c": {
+        "SIDE": "a lattice that takes 10 ms", "NODES": "of it", "NEIGHBOURS": "of a node",
+        "TURNS": "0.1 s in all", "PASSES": "the same",
+        "FACTOR_SECONDS": "measured where the constants of model/choice.c were",
+        "PASS_SECONDS": "the same", "FARTHEST": "no machine"},
     "study/stability/stability.c": {"POINTS_BEYOND": "shown"},
     "study/stability/why.c": {"TAKES_PART": "words", "EARLIER": "words"},
 }

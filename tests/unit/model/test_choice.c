@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What reduction.use: auto goes by: what must hold of any machine and any constants that make sense.
+// What reduction.use: auto goes by: what must hold of any machine, and any constants that make
+// sense.
 #include "model/choice.h"
 
 #include "near.h"
