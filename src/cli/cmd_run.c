@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // `amontons run`: one simulation, with progress while it goes on and its answers at the end.
+#include "amontons_simulation.h"
 #include "cli/closing.h"
 #include "cli/commands.h"
 #include "cli/progress.h"
@@ -70,7 +71,7 @@ static double seconds_of(const char *word)
 // The words of the command line that become values of the scene or of the run.
 typedef struct RunWords {
     const char *to, *within, *extend, *checkpoint;   // NULL: not given
-    bool resume, profile;
+    bool resume, profile, dry;
     char settings[3][SETTING_SIZE];
 } RunWords;
 
@@ -151,6 +152,27 @@ static int run_scene(const Scene *scene, const SceneWords *words, const RunWords
     return 0;
 }
 
+static int show_forecast(const Scene *scene)
+{
+    Error err = {0};
+    RunForecast cost;
+    if (!amontons_forecast(scene, &cost, &err)) return report_error(&err);
+    double total = cost.mesh + cost.reduction + cost.steps;
+    printf("%d elements, %d contact nodes, %d unknowns\n", cost.elements, cost.contact_nodes,
+           cost.unknowns);
+    printf("about %.2g s of processor time, without pictures and fields:\n", total);
+    printf("  %-10s %9.2f s\n", "mesh", cost.mesh);
+    printf("  %-10s %9.2f s%s\n", "reduction", cost.reduction,
+           cost.held      ? "   in the cache"
+           : cost.reduced ? ""
+                          : "   none: stepped on the full mesh");
+    printf("  %-10s %9.2f s   some %.0f stages, if nothing ends it before time.until\n", "steps",
+           cost.steps, cost.stages);
+    printf("%s it would be about %.2g s\n", cost.reduced ? "On the full mesh" : "Reduced",
+           cost.mesh + cost.otherwise);
+    return 0;
+}
+
 // Without -o the folder is named after the scene, and made in the current folder.
 int command_run(int argc, char **argv)
 {
@@ -167,6 +189,8 @@ int command_run(int argc, char **argv)
         {"resume", 0, NULL, "Go on with the run in DIR that was cut off", .flag = &run.resume},
         {"extend", 0, "END", "Go on with the run in DIR beyond its end, to U=0.02 or t=500",
          .word = &run.extend},
+        {"dry-run", 0, NULL, "Make the mesh, say what the run would cost, and end",
+         .flag = &run.dry},
         {"checkpoint", 0, "TIME", "Between two checkpoints (10s)", .word = &run.checkpoint},
         {"profile", 0, NULL, "Print at the end where the time went, and what was skipped and why",
          .flag = &run.profile},
@@ -177,7 +201,7 @@ int command_run(int argc, char **argv)
     if (status != 0) return status;
     default_folder(words.scene, "-result", folder, sizeof folder);
     if (!words.folder) words.folder = folder;
-    status = run_scene(scene, &words, &run);
+    status = run.dry ? show_forecast(scene) : run_scene(scene, &words, &run);
     amontons_scene_destroy(scene);
     return status;
 }

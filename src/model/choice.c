@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The exponents are those of the algorithms: with n unknowns on a mesh of two dimensions, of which
-// m lie on the interface, a sparse factor has about n log n entries and takes n^1.5 operations; a
-// basis takes some factors and products of n x m answers; it has some 3 m unknowns, a stage passes
-// through a dense matrix of them, a rung factors one. The seconds before them were fitted to
-// processor times of thirty shapes by validation/benchmark/choice.py.
+// With n unknowns on the mesh, m of them on the interface: a sparse factor of a mesh of two
+// dimensions takes n^1.5 operations; of the n log n entries that a pass goes through, more come from
+// far memory on larger meshes, which makes n^1.5 of them, too. A basis takes some factors and
+// products of n x m answers; a stage on it, and the contact problem of either way, passes through
+// matrices of some m x m. The seconds before them were fitted to processor times of thirty shapes
+// by validation/benchmark/choice.py.
 #include "model/choice.h"
 
 #include "model/step_rule.h"
@@ -11,19 +12,18 @@
 #include <math.h>
 
 // s, each for one of what its comment says.
-static const double FULL_FACTOR = 1.45e-8;   // rung and n^1.5
-static const double FULL_STAGE = 1.25e-8;   // stage and n log2 n: a pass down and one up
-static const double FULL_BORDER = 3e-9;   // stage and m^2, on the mesh
-static const double REDUCTION_ANSWERS = 3.1e-7;   // n m
-static const double REDUCTION_PRODUCTS = 3e-10;   // n m^2
-static const double REDUCED_RUNG = 8e-10;   // rung and m^3
-static const double REDUCED_STAGE = 1.3e-9;   // stage and m^2
+static const double FULL_FACTOR = 1.5e-8;   // rung and n^1.5
+static const double FULL_STAGE = 1.5e-9;   // stage and n^1.5
+static const double FULL_BORDER = 9e-9;   // stage and m^2
+static const double REDUCTION_FACTORS = 5.9e-5;   // n
+static const double REDUCTION_PRODUCTS = 1e-9;   // n m^2
+static const double REDUCED_STAGE = 5.7e-9;   // stage and m^2
 
 static const double RUNGS = 11;   // used by a run with a sliding
 
 // Below that a basis is built in any case: what it might cost now the next run of the shape saves;
 // s.
-static const double NOT_WORTH_ASKING = 0.05;
+static const double NOT_WORTH_ASKING = 0.06;
 
 // Bytes of memory for each entry of n x m, and in all.
 static const double REDUCTION_BYTES = 36, REDUCTION_BYTES_MAX = 6e9;
@@ -35,14 +35,14 @@ static const double PERIODIC_SLIDINGS = 8;   // after which a run that waits for
 
 ExpectedCost choice_expect(const ChoiceSizes *sizes, const Processor *processor)
 {
-    double n = sizes->unknowns, m = sizes->interface, stages = sizes->stages;
-    double factors = FULL_FACTOR * RUNGS * pow(n, 1.5) * processor->factor;
-    double passes = (FULL_STAGE * n * log2(n) + FULL_BORDER * m * m) * processor->pass;
-    double rungs = REDUCED_RUNG * RUNGS * m * m * m * processor->factor;
-    double reduction = (REDUCTION_ANSWERS + REDUCTION_PRODUCTS * m) * n * m * processor->factor;
+    double n = sizes->unknowns, square = sizes->interface * sizes->interface;
+    double factor = FULL_FACTOR * pow(n, 1.5) * processor->factor;
+    double pass = (FULL_STAGE * pow(n, 1.5) + FULL_BORDER * square) * processor->pass;
+    double reduction = (REDUCTION_FACTORS + REDUCTION_PRODUCTS * square) * n * processor->factor;
+    double stage = REDUCED_STAGE * square * processor->pass;
     return (ExpectedCost){.reduction = reduction,
-                          .reduced = rungs + stages * REDUCED_STAGE * m * m * processor->pass,
-                          .full = factors + stages * passes};
+                          .reduced = sizes->stages * stage,
+                          .full = RUNGS * factor + sizes->stages * pass};
 }
 
 bool choice_reduces(const ChoiceSizes *sizes, const ExpectedCost *cost)

@@ -15,7 +15,7 @@ typedef struct ChoiceSizes {
     bool held;   // the basis is in the cache
 } ChoiceSizes;
 
-// Processor seconds of what the two ways do not share: meshing, contact and output cost the same.
+// Processor seconds; meshing and output come to either way.
 typedef struct ExpectedCost {
     double reduction;   // building the basis, where it is not held
     double reduced;   // factors and stages on it

@@ -37,6 +37,7 @@ typedef struct Model {
     ObservationScales scales;   // what forces, times and velocities are measured with
     ChoiceSizes choice;   // what reduction.use: auto goes by
     ExpectedCost expected;
+    bool is_reduced;   // what was chosen
     bool from_cache;   // the basis was: nothing of the full mesh was factored
     char cache_note[CACHE_NOTE_SIZE];   // why a cached basis was not used or kept; empty: nothing
     double seconds_mesh, seconds_reduce;   // wall time to read the mesh; for all the rest, s

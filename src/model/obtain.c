@@ -79,6 +79,7 @@ static bool adopt_shape(Model *model, Shape *shape, Error *err)
     memcpy(model->materials.area, shape->sizes.region_area, sizeof shape->sizes.region_area);
     materials_find_mean(&model->materials);
     model->reduced.scales = bulk_scales(model, load);
+    model->is_reduced = true;
     return model_set_load(model, shape->sizes.load_resultant, err) &&
            bulk_operator_reduce(&model->reduced, shape->rotation,
                                 shape->sizes.area * model->materials.mean.density, &model->system,
@@ -194,17 +195,20 @@ static bool is_reducible(const Scene *scene)
     return allowed && implicit && is_viscous(scene) && starts_at_interface(scene);
 }
 
-// Of the pushed face alone, force over E: fitted with the stages of model/choice.
-static const double FACE_YIELD = 0.5;
+// Force and h/L over E: less than the 3.2 of a block that is held below, fitted with model/choice.
+static const double SHEAR_YIELD = 2;
 
-// What the rod moves for each unit of mu: the block is compressed by a force that falls along it,
-// as a bar on friction; its face and the machine yield too. Length.
+// What the rod moves for each unit of mu, length: the block is compressed by a force that falls
+// along it, as a bar on friction; below the rod it is sheared and, as a beam that stands on the
+// floor, bent; the machine yields too.
 static double yield_per_mu(const Model *model)
 {
     double force = model->scales.load, machine = model_machine(model).stiffness;
-    double bar = 0.5 * model->length / model->height;
-    double yield = force * (bar + FACE_YIELD) / model->materials.mean.young;
-    return machine > 0 ? yield + force / machine : yield;
+    double length = model->length, height = model->height, middle, width;
+    model_rod_strip(model->scene, height, &middle, &width);
+    double slender = middle / length;
+    double yield = 0.5 * length / height + SHEAR_YIELD * slender + 4 * pow(slender, 3);
+    return force * (yield / model->materials.mean.young + (machine > 0 ? 1 / machine : 0));
 }
 
 // Sets what the run is expected to cost. held: the basis is in the cache.
@@ -244,13 +248,22 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Of the assembled bulk.
+static bool choose(Model *model, Error *err)
+{
+    TRY(model_hold_supports(model, err));
+    TRY(expect(model, false, err));
+    model->is_reduced = is_reducible(model->scene) && reduction_pays(model);
+cleanup:
+    return error_is_clean(err);
+}
+
 // The assembled bulk becomes the operator; key: where the cache keeps the shape.
 static bool make_operator(Model *model, const char *key, Error *err)
 {
     const Interface *interface = &model->interface;
-    TRY(model_hold_supports(model, err));
-    TRY(expect(model, false, err));
-    if (is_reducible(model->scene) && reduction_pays(model))
+    TRY(choose(model, err));
+    if (model->is_reduced)
         TRY(reduce_bulk(model, key, err));
     else
         TRY(bulk_operator_create(&model->bulk, model->mesh.position, interface->dofs,
@@ -311,6 +324,24 @@ static void set_scales(Model *model)
     // Nothing gives a velocity: that with which the load would deform the block in that time.
     if (!(model->scales.slip_velocity > 0))
         model->scales.slip_velocity = model->scales.load / material->young / model->scales.time;
+}
+
+bool model_forecast(const Scene *scene, Model *model, Error *err)
+{
+    char key[HASH_TEXT_SIZE];
+    Shape shape = {0};
+    bool found = false;
+    *model = model_of(scene);
+    TRY(find_key(model, key, err));
+    TRY(find_shape(model, key, &shape, &found, err));
+    if (!found || wants_mesh(scene)) TRY(model_read_mesh(model, err));
+    if (found)
+        TRY(adopt_shape(model, &shape, err) && expect(model, true, err));
+    else
+        TRY(model_build_bulk(model, err) && choose(model, err));
+cleanup:
+    shape_destroy(&shape);
+    return error_is_clean(err);
 }
 
 // Three ways, the shortest that is open: shape and basis from the cache; meshed and assembled, the

@@ -3,6 +3,7 @@
 whatever stands in the cache, a run never fails for it."""
 import json
 import os
+import re
 import shutil
 import subprocess
 import tempfile
@@ -214,7 +215,7 @@ class SameBits(Cached):
 class Choice(Cached):
     """What `auto` chooses: of 40 x 40 cells a run to before the first sliding is stepped on the full
     mesh, one with slidings is reduced."""
-    BRIEF, LONG = "time.until.U=0.0005", "time.until.U=0.003"
+    BRIEF, LONG = "time.until.U=0.0005", "time.until.U=0.005"
     MESH = ["mesh.set.nx=40", "mesh.set.nz=40", "output.figures=[]", *PLAIN]
 
     def is_reduced(self, *words, **where):
@@ -245,6 +246,32 @@ class Choice(Cached):
         self.call("run", SCENE, folder, "--extend", "U=0.0031", "--set", *self.MESH)
         extended = json.loads((folder / "run.json").read_text())["model"]
         self.assertEqual(extended["reduced_dofs"], extended["full_dofs"])
+
+    def forecast(self, *words):
+        done = subprocess.run([BIN / "amontons", "run", SCENE, "--dry-run", "-o", self.folder / "dry",
+                               "--set", *self.MESH, *words], capture_output=True, text=True,
+                              env=dict(os.environ, AMONTONS_CACHE=str(self.cache)), timeout=60)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertFalse((self.folder / "dry").exists())
+        seconds = {name: float(re.search(rf"{name} +([\d.]+)", done.stdout)[1])
+                   for name in ("about", "mesh", "reduction", "steps")}
+        parts = seconds["mesh"] + seconds["reduction"] + seconds["steps"]
+        self.assertAlmostEqual(seconds["about"], parts, delta=0.02 + 0.05 * parts)
+        return done.stdout, seconds
+
+    def test_dry_run(self):
+        """It says what would be chosen, makes nothing but the mesh, and knows what the cache holds."""
+        said, brief = self.forecast(self.BRIEF)
+        self.assertIn("1600 elements, 41 contact nodes, 3362 unknowns", said)
+        self.assertIn("none: stepped on the full mesh", said)
+        self.assertEqual(brief["reduction"], 0)
+        _, longer = self.forecast(self.LONG)
+        self.assertEqual(self.endings(), [".mesh"])
+        self.assertGreater(longer["reduction"], 0)
+        self.is_reduced(self.LONG)
+        said, held = self.forecast(self.LONG)
+        self.assertIn("in the cache", said)
+        self.assertEqual((held["reduction"], held["steps"]), (0, longer["steps"]))
 
     def test_sweep(self):
         """Eight points of one block are reduced, each of eight blocks is not."""

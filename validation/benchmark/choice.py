@@ -9,22 +9,23 @@ from before the first sliding to dozens of them. A pair is a cold run with `alwa
 `never`, without any cache or output, one right after the other; three pairs a shape, the least
 of each counts. Times are processor seconds of the whole process, user and system, which
 other work on the machine changes little: the second core that a reduction uses counts as much as the
-first. What `auto` takes is what the program itself expects (`model.expected_s` of run.json).
+first. What `auto` expects and takes is asked of the program (`--dry-run`).
 
 A pair leaves a line in FOLDER/choice.jsonl (default results/choice); a call that was ended goes on
 there. choice.md in FOLDER, or --page FILE, gets the table, and what the constants of
 src/model/choice.c are by these pairs (least squares of the relative error)."""
 import argparse
 import json
-import math
+import os
 import re
+import subprocess
 import sys
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy
 
-from measured_run import ROOT, commit, markdown_table, run
+from measured_run import PROGRAM, ROOT, commit, markdown_table, run
 
 PAIRS = 3
 LIMIT = 400                      # processor s of a run
@@ -89,7 +90,7 @@ def measure(shape, use):
         sys.exit(f"{shape.what}: status {ended.status}: {ended.said[-300:]}")
     model = ended.report["model"]
     return {"cpu": ended.seconds, "memory": ended.memory, "phases": ended.phases,
-            "expected": model.get("expected_s"), "n": model["full_dofs"],
+            "n": model["full_dofs"],
             "m": 2 * (model["contact_nodes"] + model["rod_nodes"]),
             "unknowns": model["reduced_dofs"], "steps": ended.report["steps"]["accepted"],
             "stages": ended.phases["bulk"][1]}
@@ -128,17 +129,24 @@ def measure_pairs(shapes, path):
 
 # --- the table ----------------------------------------------------------------------------------
 
+def forecast(shape):
+    """What the program, as it is now, expects and takes: stages, and seconds of either way without
+    what they share."""
+    words = [PROGRAM, "run", shape.scene, "--dry-run", "--set", *shape.settings]
+    said = subprocess.run(words, capture_output=True, text=True, check=True,
+                          env=os.environ | {"AMONTONS_CACHE": ""}).stdout
+    number = {name: float(re.search(rf"{name} +([-+.\de]+)", said)[1])
+              for name in ("mesh", "reduction", "steps", "some", "would be about")}
+    taken = "full" if "stepped on the full mesh" in said else "reduced"
+    other = "full" if taken == "reduced" else "reduced"
+    return {"takes": taken, "stages": round(number["some"]),
+            taken: number["reduction"] + number["steps"],
+            other: number["would be about"] - number["mesh"]}
+
+
 def least(pairs, use):
     """One way's run, with the least of its processor times."""
     return min((pair[use] for pair in pairs), key=lambda one: one["cpu"])
-
-
-def takes(reduced, full):
-    """As src/model/choice.c: without a cache, for one run."""
-    expected = full["expected"]
-    small = expected["reduction"] < NOT_WORTH_ASKING
-    return ("reduced" if small or expected["reduction"] + expected["reduced"] < expected["full"]
-            else "full")
 
 
 def table_of(shapes, done):
@@ -146,15 +154,14 @@ def table_of(shapes, done):
     for number, shape in enumerate(shapes, 1):
         pairs = done[key_of(shape)]
         ran = {use: least(pairs, use) for use in USES}
-        taken = takes(**ran)
+        wanted = forecast(shape)
+        taken = wanted["takes"]
         cpu = {use: ran[use]["cpu"] for use in USES}
         better = min(cpu, key=cpu.get)
         losses.append(cpu[taken] / cpu[better] - 1)
-        expected = ran["full"]["expected"]
-        rows.append([number, shape.what, f"{shape.way:g}", ran["full"]["n"],
-                     f"{expected['stages']} ({ran['full']['stages']})",
-                     f"{expected['reduction'] + expected['reduced']:.2f} ({cpu['reduced']:.2f})",
-                     f"{expected['full']:.2f} ({cpu['full']:.2f})", taken,
+        stages = f"{wanted['stages']} ({ran['full']['stages']})"
+        seconds = [f"{wanted[use]:.2f} ({cpu[use]:.2f})" for use in USES]
+        rows.append([number, shape.what, f"{shape.way:g}", ran["full"]["n"], stages, *seconds, taken,
                      f"{100 * losses[-1]:.0f} %" if losses[-1] > 0 else ""])
     head = ["", "shape", "U", "unknowns", "stages", "reduced, s", "full, s", "`auto` takes",
             "slower than the better by"]
@@ -166,8 +173,8 @@ def table_of(shapes, done):
 
 # --- the constants ------------------------------------------------------------------------------
 
-NAMES = ("FULL_FACTOR", "FULL_STAGE", "FULL_BORDER", "REDUCTION_ANSWERS", "REDUCTION_PRODUCTS",
-         "REDUCED_RUNG", "REDUCED_STAGE")
+NAMES = ("FULL_FACTOR", "FULL_STAGE", "FULL_BORDER", "REDUCTION_FACTORS", "REDUCTION_PRODUCTS",
+         "REDUCED_STAGE")
 SOURCE = (ROOT / "src/model/choice.c").read_text()
 
 
@@ -175,14 +182,11 @@ def in_source(name):
     return float(re.search(rf"\b{name} = ([-+.\de]+)", SOURCE)[1])
 
 
-NOT_WORTH_ASKING = in_source("NOT_WORTH_ASKING")
-
-
 def terms(use, ran):
-    """What each constant is multiplied by, as in choice_expect, and 1 for what both ways share."""
-    n, m, stages, rungs = ran["n"], ran["m"], ran["stages"], in_source("RUNGS")
-    full = [rungs * n**1.5, stages * n * math.log2(n), stages * m**2, 0, 0, 0, 0]
-    reduced = [0, 0, 0, n * m, n * m**2, rungs * m**3, stages * m**2]
+    """What each constant is multiplied by, and 1 for what both ways share."""
+    n, m, stages = ran["n"], ran["m"], ran["stages"]
+    full = [in_source("RUNGS") * n**1.5, stages * n**1.5, stages * m**2, 0, 0, 0]
+    reduced = [0, 0, 0, n, n * m**2, stages * m**2]
     return (full if use == "full" else reduced) + [1]
 
 
@@ -215,7 +219,7 @@ PAGE = """# How `reduction.use: auto` chooses
 
 Thirty shapes, each stepped both ways from nothing, in pairs: processor seconds (user and system) of the whole
 run, gmsh and all, the least of {pairs}. What is expected stands before what was measured in brackets; the seconds expected
-leave out what both ways share. Stages are those to the end of the run.
+leave out what both ways share, gmsh above all. Stages are those to the end of the run.
 
 {table}
 

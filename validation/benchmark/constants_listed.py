@@ -232,12 +232,11 @@ NOT_A_CHOICE = {
         "standard_middle": "the rod's default place", "standard_width": "the rod's default"},
     "model/obtain.c": {
         "REDUCTION_TOLERANCES": "draft and fine: as standard",
-        "FACE_YIELD": "stages of a run, validation/benchmark/choice.py"},
+        "SHEAR_YIELD": "stages of a run, validation/benchmark/choice.py"},
     "model/choice.c": {
         "FULL_FACTOR": "s, fitted by validation/benchmark/choice.py: whether a reduction pays",
-        "FULL_STAGE": "the same", "FULL_BORDER": "the same", "REDUCTION_ANSWERS": "the same",
-        "REDUCTION_PRODUCTS": "the same", "REDUCED_RUNG": "the same", "REDUCED_STAGE": "the same",
-        "RUNGS": "the same, counted", "STAGES_REST": "the same, counted",
+        "FULL_STAGE": "the same", "FULL_BORDER": "the same", "REDUCTION_FACTORS": "the same",
+        "REDUCTION_PRODUCTS": "the same", "REDUCED_STAGE": "the same", "RUNGS": "the same, counted", "STAGES_REST": "the same, counted",
         "STAGES_SLIDING": "the same, counted", "STAGES_STEP": "of SDIRK2",
         "PERIODIC_SLIDINGS": "the same, counted",
         "NOT_WORTH_ASKING": "s that may be lost; choice.py",
