@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // With n unknowns on the mesh, m of them on the interface: a sparse factor of a mesh of two
 // dimensions takes n^1.5 operations. Of the n log n entries that a pass goes through more come from
-// far memory where the mesh is larger: n^1.5 fits them, too. A basis takes some factors and products
-// of n x m answers; a stage on it, and the contact problem of either way, passes through matrices of
-// some m x m. The seconds before them were fitted to processor times of thirty shapes by
-// validation/benchmark/choice.py.
+// far memory where the mesh is larger: n^1.5 fits them, too. A basis takes some factors and
+// products of n x m answers; a stage on it, and the contact problem of either way, passes through
+// matrices of some m x m. The seconds before them were fitted to processor times of thirty shapes
+// by validation/benchmark/choice.py.
 #include "model/choice.h"
 
 #include "model/step_rule.h"
