@@ -234,7 +234,7 @@ class Choice(Cached):
         """And a run that is gone on with stays what it was."""
         folder, reduced = self.is_reduced(self.BRIEF)
         self.assertFalse(reduced)
-        self.assertEqual(self.endings(), [".mesh"])
+        self.assertEqual(self.endings(), [])
         self.call("run", SCENE, folder, "--extend", "U=0.003", "--set", *self.MESH)
         extended = json.loads((folder / "run.json").read_text())["model"]
         self.assertEqual(extended["reduced_dofs"], extended["full_dofs"])
@@ -266,12 +266,37 @@ class Choice(Cached):
         self.assertIn("none: stepped on the full mesh", said)
         self.assertEqual(brief["reduction"], 0)
         _, longer = self.forecast(self.LONG)
-        self.assertEqual(self.endings(), [".mesh"])
+        self.assertEqual(self.endings(), [])
         self.assertGreater(longer["reduction"], 0)
         self.is_reduced(self.LONG)
         said, held = self.forecast(self.LONG)
         self.assertIn("in the cache", said)
         self.assertEqual((held["reduction"], held["steps"]), (0, longer["steps"]))
+
+    def cache_command(self, *words, cache=None):
+        return subprocess.run([BIN / "amontons", "cache", *words], capture_output=True, text=True,
+                              env=dict(os.environ, AMONTONS_CACHE=str(cache or self.cache)))
+
+    def test_measured(self):
+        """Kept until it is measured again, whatever is cleaned; a damaged file is not believed."""
+        said = self.cache_command("--measure")
+        self.assertEqual((said.returncode, said.stderr), (0, ""))
+        self.assertIn("kept for reduction.use: auto", said.stdout)
+        self.cache_command("--clean")
+        kept = self.cache / "processor.speed"
+        usual = self.model(*PLAIN, cache="")["expected_s"]
+        model = self.model(*PLAIN)
+        self.assertIsNone(model["cache_note"])
+        # In powers of the root of 2, whatever the machine.
+        rungs = 2 * np.log2(model["expected_s"]["reduction"] / usual["reduction"])
+        self.assertAlmostEqual(rungs, round(rungs), delta=1e-9)
+        kept.write_bytes(kept.read_bytes()[:-1])
+        model = self.model(*PLAIN)
+        self.assertIn("measure again", model["cache_note"])
+        self.assertEqual(model["expected_s"], usual)
+        self.assertEqual(self.cache_command("--measure", "--clean").returncode, 2)
+        nowhere = self.cache_command("--measure", cache="/proc/self/none")
+        self.assertEqual((nowhere.returncode, nowhere.stdout), (1, ""))
 
     def test_sweep(self):
         """Eight points of one block are reduced, each of eight blocks is not."""
@@ -417,7 +442,7 @@ class NotTrusted(Cached):
         note = json.loads((folder / "run.json").read_text())["model"]["cache_note"]
         self.assertIn("is not kept for the next run", note)
         self.assertIn("File too large", note)
-        self.assertEqual(self.endings(), [".mesh"])   # some kilobytes: there was room
+        self.assertEqual(self.endings(), [])   # some kilobytes: there was room
 
     def test_side_by_side(self):
         """Four first runs at once: all go well, one builds the basis and the others read it, one
