@@ -110,7 +110,6 @@ bool mesh_apart_read(const MeshRawRequest *request, MeshRaw *raw, Error *err)
                       .read = read_by_gmsh,
                       .context = (void *)request};
     *raw = (MeshRaw){0};
-    // Loaded in the parent, which hands it on: most of what a small mesh costs is done once.
     TRY(module_function("gmsh", "amontons_gmsh_read", err));
     TRY(apart_read(&work, &reply, err));
     TRY(take_raw(&reply, raw, err));
