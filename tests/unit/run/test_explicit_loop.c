@@ -103,6 +103,12 @@ static void test_counting(void **state)
     assert_int_equal(run_scene(longer).counters.accepted, summary.counters.accepted);
     assert_int_equal(run_scene(shorter).counters.accepted, 100000);
     assert_int_equal(summary.counters.rejected, 0);
+    Error err = {0};
+    Scene *scene = read_scene((const char *[4]){"time.until={t: 1e20}", "time.scheme=explicit"});
+    assert_false(amontons_run(scene, &(RunOptions){0}, &summary, &err));
+    assert_int_equal(err.code, ERROR_COMPUTE);
+    if (!strstr(err.message, "cannot be counted")) fail_msg("%s", err.message);
+    amontons_scene_destroy(scene);
 }
 
 static void test_memory(void **state)

@@ -267,6 +267,49 @@ static void test_interrupted(void **state)
     place_remove(place);
 }
 
+// Without checkpoints nothing is said of going on; without a folder there is nothing to go on from.
+static void test_without_checkpoints(void **state)
+{
+    (void)state;
+    Error err = {0};
+    RunSummary summary;
+    char place[PLACE_SIZE];
+    place_make(place);
+    memset(&track, 0, sizeof track);
+    track.stop_after = 5;
+    RunOptions options = {.folder = place,
+                          .checkpoint_every = -1,
+                          .on_step = keep_view,
+                          .context = &track,
+                          .stop = &track.stop};
+    Scene *scene = small_scene((const char *const[]){NULL});
+    assert_false(amontons_run(scene, &options, &summary, &err));
+    assert_int_equal(err.code, ERROR_INTERRUPT);
+    assert_null(strstr(err.message, "--resume"));
+    assert_false(place_has(place, "checkpoint.bin"));
+    err = (Error){0};
+    assert_false(amontons_run(scene, &(RunOptions){.resume = true}, &summary, &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+    assert_non_null(strstr(err.message, "leaves nothing to go on from"));
+    amontons_scene_destroy(scene);
+    place_remove(place);
+}
+
+// A scene that was warned of is told so again when its energy does not close.
+static void test_failed_as_warned(void **state)
+{
+    (void)state;
+    Error err = {0};
+    RunSummary summary;
+    Scene *scene = small_scene((const char *const[]){
+        "time.energy_tolerance=1e-14", "material={poisson: 0.34, eta1: 0, eta2: 1}", NULL});
+    assert_false(amontons_run(scene, &(RunOptions){0}, &summary, &err));
+    assert_int_equal(err.code, ERROR_COMPUTE);
+    if (!strstr(err.message, "ill-posed, or not resolved, as the run was warned"))
+        fail_msg("%s", err.message);
+    amontons_scene_destroy(scene);
+}
+
 // A ledger that cannot close to the digits asked for ends the run with an error, and a report.
 static void test_failed(void **state)
 {
@@ -291,11 +334,17 @@ static void test_failed(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_same_bits_twice), cmocka_unit_test(test_balances),
-        cmocka_unit_test(test_views),           cmocka_unit_test(test_reduced_and_full_agree),
-        cmocka_unit_test(test_allocations),     cmocka_unit_test(test_no_folder_writes_nothing),
-        cmocka_unit_test(test_results),         cmocka_unit_test(test_interrupted),
+        cmocka_unit_test(test_same_bits_twice),
+        cmocka_unit_test(test_balances),
+        cmocka_unit_test(test_views),
+        cmocka_unit_test(test_reduced_and_full_agree),
+        cmocka_unit_test(test_allocations),
+        cmocka_unit_test(test_no_folder_writes_nothing),
+        cmocka_unit_test(test_results),
+        cmocka_unit_test(test_interrupted),
         cmocka_unit_test(test_failed),
+        cmocka_unit_test(test_without_checkpoints),
+        cmocka_unit_test(test_failed_as_warned),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -167,6 +167,44 @@ static void test_mu_is_over_the_load_that_acts(void **state)
     assert_true(end(&steered).energy_error < 1e-3);
 }
 
+// A rod of its own speed ends a run at the scene's U; one that stands ends it at t alone.
+static void test_ends(void **state)
+{
+    (void)state;
+    Steered twice = begin((const char *const[]){"time.until={U: 0.002}", NULL});
+    set_velocity(&twice, 2 * V);
+    while (!twice.finished) step(&twice);
+    assert_near("U", twice.view.U, 0.002, 1e-6);
+    assert_near("t", twice.view.t, 100, 0.05);
+    end(&twice);
+    Steered stopped = begin((const char *const[]){"time.until={U: 0.002, t: 300}", NULL});
+    set_velocity(&stopped, 0);
+    while (!stopped.finished) step(&stopped);
+    assert_near("t", stopped.view.t, 300, 0.05);
+    assert_near("U", stopped.view.U, 0, 0);
+    end(&stopped);
+}
+
+// A state of a steered run, put into a scene that ends elsewhere: there, by the rod's speed now.
+static void test_end_of_another_scene(void **state)
+{
+    (void)state;
+    Error err = {0};
+    SavedState saved = {0};
+    Steered first = begin((const char *const[]){"time.until={U: 0.004}", NULL});
+    Steered other = begin((const char *const[]){"time.until={U: 0.002}", NULL});
+    set_velocity(&first, 2 * V);
+    for (int32_t k = 0; k < 10; k++) step(&first);
+    assert_true(amontons_simulation_save(first.simulation, &saved, &err));
+    if (!amontons_simulation_restore(other.simulation, &saved, &err)) fail_msg("%s", err.message);
+    while (!other.finished) step(&other);
+    assert_near("U", other.view.U, 0.002, 1e-6);
+    assert_near("t", other.view.t, 100, 0.05);
+    amontons_state_free(&saved);
+    end(&first);
+    end(&other);
+}
+
 static void test_what_is_refused(void **state)
 {
     (void)state;
@@ -214,6 +252,8 @@ int main(void)
         cmocka_unit_test(test_energy_of_a_jump),
         cmocka_unit_test(test_pressure_of_a_block_without_friction),
         cmocka_unit_test(test_mu_is_over_the_load_that_acts),
+        cmocka_unit_test(test_ends),
+        cmocka_unit_test(test_end_of_another_scene),
         cmocka_unit_test(test_what_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

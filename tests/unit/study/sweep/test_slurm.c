@@ -55,6 +55,14 @@ static void test_ends(void **state)
     assert_failures("the Slurm job ended as CANCELLED,",
                     "the Slurm job ended as TIMEOUT (TimeLimit): slurmstepd: too late");
     assert_false(place_has(place, "out/slurm/running"));
+
+    fake_slurm_says(place, "scontrol", "MaxArraySize = few\nExitCode=none\n", "0");   // no numbers
+    place_write(place, "queue", "1 0 FAILED None\n1 1 NODE_FAIL None\n");
+    place_write(place, "out/slurm/1_0.out", "\n\n");
+    place_write(place, "out/slurm/1_1.out", "no end of line");
+    assert_true(sweep("", &summary, &err));
+    assert_failures("the Slurm job ended as FAILED,",
+                    "the Slurm job ended as NODE_FAIL: no end of line");
 }
 
 static void test_refused(void **state)

@@ -76,6 +76,13 @@ static void test_words(void **state)
         {"plot: {x: mu_M}\n", "plot: `y` must be given"},
         {"plot: {x: mu_M, y: l_c, name: ranking}\n", "but not `ranking`"},
         {"plot: {x: mu_M, y: l_c, name: ''}\n", "name: found ``"},
+        {"plot: {x: mu_M, y: l_c, name: a_b-c.png}\n", "a name of letters, digits, - and _"},
+        {"vary: {load.pressure: {linear: [1, 2], log: [1, 2], points: 3}}\n", "allowed: a list"},
+        {"vary: {load.pressure: [1]}\nset: {load: {pressure: 2}}\n", "again by `vary`"},
+        {"vary: {materials.pads.young: [1]}\nset: {materials: {pads: {young: 2}}}\n",
+         "again by `vary`"},
+        {"vary: {load.pressure: [1]}\ncases: [{load.pressure: = 2 * rod.width}]\n",
+         "again by `vary`"},
         {"plot: {x: mu_M, y: l_c, with: ['']}\n", "with: found ``"},
         {"plot: {x: mu_M, y: l_c, with: [a, b, c, d, e, f, g]}\n", "at most 6 folders of sweeps"},
         {"vary: {rod.kind: [push]}\nplot: {x: mu_M, y: l_c, color: mu_hold, series: rod.kind}\n",
@@ -125,7 +132,13 @@ static void test_too_many(void **state)
         {"vary: {", 7, "mesh.set.p%d: [1, 2, 3, 4, 5, 6, 7, 8, 9, 10], ", "}\n",
          "more than 1000000 points"},
         {"set: {", 1, "mesh.set.p%0100d: 1", "}\n", "a key of more than"},
-        {"set: {mesh.set: {", 40, "p%d: 1, ", "}}\n", "mesh.set"}};
+        {"set: {mesh.set: {", 40, "p%d: 1, ", "}}\n", "mesh.set"},
+        {"vary: {load.pressure: [1]}\nset: {", 33, "mesh.set.p%d: = 1 + 1, ", "}\n",
+         "more than 32 formulas for a point"},
+        {"vary: {load.pressure: [1]}\nset: {", 201, "mesh.set.p%d: 1, ", "}\n",
+         "more than 200 settings for a point"},
+        {"record: [results.", 60, "%03d", "]\n", "record: "},
+        {"plot: {x: mu_M, y: ", 300, "l%d", "}\n", "not too long"}};
     for (size_t k = 0; k < sizeof studies / sizeof *studies; k++) {
         begin(studies[k].first);
         add_many(studies[k].count, studies[k].piece, studies[k].last);
