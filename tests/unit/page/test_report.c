@@ -4,7 +4,10 @@
 #include "amontons.h"
 
 #include "base/memory.h"
+#include "io/result_file.h"
 #include "result_place.h"
+
+enum { EVENTS_MAX = 400 };
 
 static char place[PLACE_SIZE];
 
@@ -175,6 +178,80 @@ static void test_comparison(void **state)
     refuse(results, 2, "only runs are compared");
 }
 
+// Three states at two nodes and `count` events of these kinds, the last at U = 0.1 count.
+static void write_history(const char *name, const char *units, const double *kinds, int32_t count)
+{
+    static const double x[] = {0, 1}, pad[] = {0, 0};
+    static const double rod[] = {0, 0.25, 0.5}, mu[] = {0, 0.375, 0.125};
+    double numbers[EVENTS_MAX];
+    char folder[PLACE_SIZE + 20];
+    ResultHead head = {.title = "By hand",
+                       .units = units,
+                       .version = "0",
+                       .contact_count = 2,
+                       .nodes = {[NODES_X] = x, [NODES_WEIGHT] = x, [NODES_PAD] = pad}};
+    Error err = {0};
+    for (int32_t k = 0; k < count; k++) numbers[k] = (k + 1) / 10.;
+    snprintf(folder, sizeof folder, "%s/%s", place, name);
+    ArrayFile *file = result_file_create(folder, &head, &err);
+    if (!file) fail_msg("%s", err.message);
+    array_file_append(file, result_series_name(SERIES_TIME), rod, 3, &err);
+    array_file_append(file, result_series_name(SERIES_ROD), rod, 3, &err);
+    array_file_append(file, result_series_name(SERIES_MU), mu, 3, &err);
+    for (int32_t table = EVENTS_KIND; table < RESULT_TABLES_COUNT; table++)
+        result_file_write_table(file, (ResultTable)table, table == EVENTS_KIND ? kinds : numbers,
+                                count, &err);
+    if (!array_file_close(file, &err)) fail_msg("%s", err.message);
+}
+
+// The last 300 of them, and kinds that no version wrote by no name.
+static void test_many_events(void **state)
+{
+    (void)state;
+    double kinds[EVENTS_MAX] = {0};
+    kinds[EVENTS_MAX - 1] = -1;
+    kinds[EVENTS_MAX - 2] = 7;
+    kinds[EVENTS_MAX - 3] = 2;
+    write_history("", "normalised", kinds, EVENTS_MAX);
+    place_write(place, "run.json", "{\"status\": \"done\", \"scene\": {}}");
+    const char *page = page_here();
+    expect(page, "The last 300 of 400; all are in run.json.");
+    expect(page, ">101</td><td>quasi-static<");
+    expect_not(page, ">100</td><td>quasi-static<");
+    expect(page, ">398</td><td>leading rapid<");
+    expect(page, ">399</td><td>unknown<");
+    expect(page, ">400</td><td>unknown<");
+}
+
+static void test_without_events(void **state)
+{
+    (void)state;
+    write_history("", "normalised", NULL, 0);
+    expect(page_here(), "Events are known at the end of a run.");   // no run.json
+    place_write(place, "run.json", "{\"status\": \"done\", \"scene\": {}}");
+    expect(page_here(), "None in this run.");
+}
+
+// Metres and lengths over L have no axis in common.
+static void test_units_that_differ(void **state)
+{
+    (void)state;
+    char paths[2][PLACE_SIZE + 20];
+    const char *const results[] = {paths[0], paths[1]};
+    for (int k = 0; k < 2; k++) {
+        char name[8], report[20];
+        snprintf(name, sizeof name, "run%d", k);
+        snprintf(paths[k], sizeof paths[k], "%s/%s", place, name);
+        assert_int_equal(mkdir(paths[k], 0700), 0);
+        write_history(name, k ? "si" : "normalised", NULL, 0);
+        snprintf(report, sizeof report, "%s/run.json", name);
+        place_write(place, report,
+                    k ? "{\"status\": \"done\", \"scene\": {\"units\": \"si\"}}"
+                      : "{\"status\": \"done\", \"scene\": {\"units\": \"normalised\"}}");
+    }
+    expect(page_of(results, 2), "their curves have no common axis");
+}
+
 static int begin(void **state)
 {
     (void)state;
@@ -198,6 +275,9 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_sweep_that_has_not_begun, begin, end),
         cmocka_unit_test_setup_teardown(test_sweep_that_is_done, begin, end),
         cmocka_unit_test_setup_teardown(test_comparison, begin, end),
+        cmocka_unit_test_setup_teardown(test_many_events, begin, end),
+        cmocka_unit_test_setup_teardown(test_without_events, begin, end),
+        cmocka_unit_test_setup_teardown(test_units_that_differ, begin, end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
