@@ -67,6 +67,11 @@ static void other_line_ends_are_read(void **state)
     assert_true(csv_value(&table, 0, 1) == 2);
     assert_true(csv_value(&table, 1, 1) == 4);
     csv_destroy(&table);
+    assert_true(read_text("x,y\r1,2x\r", &table, &err));
+    assert_int_equal(table.rows, 1);
+    assert_true(csv_value(&table, 0, 0) == 1);
+    assert_true(isnan(csv_value(&table, 0, 1)));   // no number, though it begins with one
+    csv_destroy(&table);
 }
 
 static void wrong_tables_are_told(void **state)

@@ -2,9 +2,13 @@
 // Which folders a run may have, and what it takes away from an earlier one.
 #include "run/result_folder.h"
 
+#include "amontons.h"
 #include "base/text.h"
 
 #include "result_place.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
 
 static char place[PLACE_SIZE];
 
@@ -251,6 +255,25 @@ static void test_one_computation_at_a_time(void **state)
     assert_true(prepare(place, true, &err));
 }
 
+// Somebody holds it who has not said who that is; and a process that a signal is about to end takes
+// its own lock along.
+static void test_locks(void **state)
+{
+    (void)state;
+    Error err = {0};
+    ResultFolder own;
+    place_write(place, "amontons.lock", "");
+    int other = open(place_path(place, "amontons.lock"), O_RDWR);
+    assert_int_equal(flock(other, LOCK_EX), 0);
+    expect_error(place, true, ERROR_INPUT, "(its process is not known)");
+    close(other);
+    assert_true(result_folder_claim(place, true, &own, &err));
+    assert_true(place_has(place, "amontons.lock"));
+    amontons_let_go();
+    assert_false(place_has(place, "amontons.lock"));
+    result_folder_release(&own);
+}
+
 static void test_impossible_folders(void **state)
 {
     (void)state;
@@ -286,6 +309,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_a_stopped_search_may_begin_anew, setup, teardown),
         cmocka_unit_test_setup_teardown(test_cleared_late_and_not_through_links, setup, teardown),
         cmocka_unit_test_setup_teardown(test_one_computation_at_a_time, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_locks, setup, teardown),
         cmocka_unit_test_setup_teardown(test_impossible_folders, setup, teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
