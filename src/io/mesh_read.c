@@ -201,7 +201,8 @@ bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t p
             path, given.list[0].name);
     request.parameters = given.list;
     request.parameter_count = given.count;
-    TRY(plain_block_make(path, parameters, parameter_count, mesh, &found, err));
+    if (request.generate)
+        TRY(plain_block_make(path, parameters, parameter_count, mesh, &found, err));
     if (found) goto cleanup;
     TRY(mesh_cache_key(path, parameters, parameter_count, key, err));
     TRY(mesh_cache_load(key, mesh, &found, err));

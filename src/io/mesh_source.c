@@ -66,17 +66,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool mesh_source_is(const char *path, const char *bytes, size_t size, bool *is, Error *err)
-{
-    char *found = NULL;
-    int32_t found_size = 0;
-    TRY(text_file_read(path, MESH_BYTES_MAX, &found, &found_size, err));
-    *is = (size_t)found_size == size && memcmp(found, bytes, size) == 0 && !has_options(path);
-cleanup:
-    memory_free(found);
-    return error_is_clean(err);
-}
-
 void mesh_file_hash(const MeshFile *mesh, Hash *hash)
 {
     size_t nodes = (size_t)mesh->node_count, elements = (size_t)mesh->element_count;

@@ -15,9 +15,6 @@
 bool mesh_source_hash(const char *path, const MeshParameter *parameters, int32_t parameter_count,
                       Hash *hash, bool *whole, Error *err);
 
-// *is: the file has these bytes, and gmsh would read no options beside it.
-bool mesh_source_is(const char *path, const char *bytes, size_t size, bool *is, Error *err);
-
 // What was made of it: nodes, elements, groups.
 void mesh_file_hash(const MeshFile *mesh, Hash *hash);
 

@@ -11,13 +11,16 @@
 
 #include "base/memory.h"
 #include "io/mesh_source.h"
-#include "block_geo.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 static const double EXTENT_MIN = 1e-6, EXTENT_MAX = 1e6, CELLS_MAX = 1e7;
+
+// The meshes/block.geo that this file knows, by mesh_source_hash. One that was edited is meshed by
+// gmsh, and the test io.plain_block fails with its hash: written here, the test compares again.
+static const char BLOCK_GEO[] = "662d0bfffc337430667dbc9046a0caa3";
 
 // --- what is asked for --------------------------------------------------------------------------
 
@@ -337,13 +340,25 @@ cleanup:
     return error_is_clean(err);
 }
 
+static bool is_block_geo(const char *path, bool *is, Error *err)
+{
+    char text[HASH_TEXT_SIZE];
+    Hash hash = hash_start();
+    bool whole = false;
+    TRY(mesh_source_hash(path, NULL, 0, &hash, &whole, err));
+    hash_write(&hash, text);
+    *is = whole && strcmp(text, BLOCK_GEO) == 0;
+cleanup:
+    return error_is_clean(err);
+}
+
 bool plain_block_make(const char *path, const MeshParameter *parameters, int32_t parameter_count,
                       MeshFile *mesh, bool *made, Error *err)
 {
     PlainBlock block;
     *made = false;
     if (!read_parameters(parameters, parameter_count, &block)) return true;
-    TRY(mesh_source_is(path, block_geo, sizeof block_geo - 1, made, err));
+    TRY(is_block_geo(path, made, err));
     if (*made) TRY(make_block(&block, mesh, err));
 cleanup:
     return error_is_clean(err);

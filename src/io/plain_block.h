@@ -9,8 +9,8 @@
 
 #include <stdbool.h>
 
-// *made: false where `path` has other bytes than meshes/block.geo had when this was built, or where
-// `parameters` ask for more than sizes and numbers of cells, or for what cannot be: that is gmsh's.
+// *made: false where `path` has not the bytes of meshes/block.geo, or where `parameters` ask for
+// more than sizes and numbers of cells, or for what cannot be: that is gmsh's.
 bool plain_block_make(const char *path, const MeshParameter *parameters, int32_t parameter_count,
                       MeshFile *mesh, bool *made, Error *err);
 

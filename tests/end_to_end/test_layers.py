@@ -32,9 +32,8 @@ def allowed(folder, include):
         return folder in ("render", "")   # what render/render.h is asked
     if include == "amontons_friction.h":
         return folder in ("contact", "")   # what a plug-in and contact/friction_plugin share
-    generated = {"block_geo.h": "io", "build_record.h": "run", "page_resources.h": "page"}
-    if include in generated:
-        return layer == generated[include]
+    if include in ("build_record.h", "page_resources.h"):
+        return layer == {"b": "run", "p": "page"}[include[0]]   # generated
     if include in (*PUBLIC, "render/render.h") and layer in BELOW_SCENE:
         return False
     if folder == "":

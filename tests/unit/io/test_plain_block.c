@@ -4,6 +4,7 @@
 #include "io/plain_block.h"
 
 #include "base/memory.h"
+#include "io/mesh_source.h"
 #include "result_place.h"
 
 enum { PATH_SIZE = 2 * PLACE_SIZE, PARAMETERS_MAX = 6 };
@@ -94,6 +95,21 @@ static void compare_with_gmsh(const MeshParameter *parameters, int32_t count)
     {                                                                                              \
         .name = of, .text = is                                                                     \
     }
+
+static void test_known_file(void **state)
+{
+    (void)state;
+    char text[HASH_TEXT_SIZE];
+    Hash hash = hash_start();
+    Error err = {0};
+    MeshFile mesh;
+    bool whole = false;
+    assert_true(mesh_source_hash(ours, NULL, 0, &hash, &whole, &err));
+    hash_write(&hash, text);
+    if (!make(ours, NULL, 0, &mesh))
+        fail_msg("meshes/block.geo was edited: BLOCK_GEO becomes %s once the others agree", text);
+    mesh_file_destroy(&mesh);
+}
 
 // Sizes with and without an end in binary; a cell, a row, a column; more cells than gmsh has parts
 // of a curve; blocks so small that gmsh finds its plane by other points, or by singular values.
@@ -199,9 +215,11 @@ static void test_read_without_gmsh(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_read_without_gmsh), cmocka_unit_test(test_gmshs_own),
-        cmocka_unit_test(test_left_to_gmsh), cmocka_unit_test(test_left_to_gmsh_by_its_file),
-        cmocka_unit_test(test_without_memory)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_known_file),
+                                       cmocka_unit_test(test_read_without_gmsh),
+                                       cmocka_unit_test(test_gmshs_own),
+                                       cmocka_unit_test(test_left_to_gmsh),
+                                       cmocka_unit_test(test_left_to_gmsh_by_its_file),
+                                       cmocka_unit_test(test_without_memory)};
     return cmocka_run_group_tests(tests, make_copy, remove_copy);
 }

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # cmake -D OUTPUT=... -D FILES=a;b -P: writes each file into the header OUTPUT as an array of bytes that ends with a
 # zero, and its SHA-256.
-set(text "// Made by packaging/file_bytes.cmake.\n")
+set(text "// Made from src/page/.\n")
 foreach(file ${FILES})
     get_filename_component(name ${file} NAME)
     string(REPLACE "." "_" name ${name})
