@@ -11,7 +11,7 @@
 enum {
     BULK_TERMS = BULK_MASS + 1,
     ANSWER_BLOCKS_MAX = STRIP_VISITS_MAX + 2,
-    ANSWERS_TOGETHER = 48   // columns that are multiplied at once: their image stays in the cache
+    ANSWERS_TOGETHER = 96   // columns that are multiplied at once: their image stays in the cache
 };
 
 // Those at one point.

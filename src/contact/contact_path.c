@@ -14,22 +14,21 @@
 
 #include "base/dense.h"
 #include "base/memory.h"
-#include "contact/contact_equations.h"
+#include "contact/path_bounds.h"
 
 #include <math.h>
 #include <string.h>
 
 static const double NEAR = 1e-10;   // of the scales: on the path, on a bound
 static const double ASIDE = 0.5;   // of a step: Newton may lead so far from its tangent
+static const double ABOVE = 1e4;   // of the scale of velocity: no step presses that far down
 static const double RAY = 1e6;   // of tau at the start: beyond, the path does not come back
 enum {
     STEPS_EACH = 200,   // steps for each unknown; with friction 5 on 12 pads 170 were needed
     CORRECTIONS = 8,   // Newton steps back onto the path
     TRIALS = 60,   // points tried in a step
-    STARTS = 200,   // pressures, and statuses of rod nodes, tried at the start
-    CONDITIONS = 4   // of a node, at most
+    STARTS = 200   // pressures, and statuses of rod nodes, tried at the start
 };
-enum { ALL = -1, NOWHERE = -2 };   // in place of a node
 
 // The matrix has one row and column more than the interface, for tau.
 bool contact_path_create(const Interface *interface, ContactPath *path, Error *err)
@@ -66,30 +65,14 @@ void contact_path_destroy(ContactPath *path)
     *path = (ContactPath){0};
 }
 
-// A point of the path and all that stays the same along it. Nothing is owned.
-typedef struct Trace {
-    ContactPath *path;
-    ContactEquations system;   // of problem and at; free: all that is not held
-    ContactScales scales;   // by g alone: reactions are not known before the start
-    double tau;   // velocity
-    double tau_rate;   // along the tangent
-} Trace;
-
-// A bound: condition `kind` of contact node `node`, or of rod node `node` - contact_count, or (ALL)
-// tau = 0.
-typedef struct Bound {
-    int32_t node, kind;
-    double distance;   // along the tangent
-} Bound;
-
-static void add_free(Trace *trace, int32_t unknown)
+static void add_free(PathTrace *trace, int32_t unknown)
 {
     trace->path->place[unknown] = trace->system.free_count;
     trace->path->free[trace->system.free_count++] = unknown;
 }
 
 // Lists what is free and puts what is held in its place.
-static void arrange(Trace *trace)
+static void arrange(PathTrace *trace)
 {
     const ContactProblem *problem = trace->system.problem;
     const Interface *interface = problem->interface;
@@ -108,7 +91,7 @@ static void arrange(Trace *trace)
 }
 
 // r = S v - g + tau d
-static void find_reaction(Trace *trace)
+static void find_reaction(PathTrace *trace)
 {
     contact_react(&trace->system);
     dense_add_scaled(trace->tau, trace->path->lift, trace->path->count, trace->system.at->reaction);
@@ -117,7 +100,7 @@ static void find_reaction(Trace *trace)
 // Factors [J E_tau; last].
 // Size free_count + 1, column after column; `last` is its lowest row [free_count + 1]. false:
 // singular, as at a point where two paths meet.
-static bool factor(Trace *trace, const double *last)
+static bool factor(PathTrace *trace, const double *last)
 {
     ContactPath *path = trace->path;
     int32_t free_count = trace->system.free_count, size = free_count + 1;
@@ -130,7 +113,7 @@ static bool factor(Trace *trace, const double *last)
 }
 
 // The tangent along which path->row grows, of length 1, and the rates of v and r along it.
-static bool find_tangent(Trace *trace)
+static bool find_tangent(PathTrace *trace)
 {
     ContactPath *path = trace->path;
     int32_t free_count = trace->system.free_count, count = path->count;
@@ -151,82 +134,10 @@ static bool find_tangent(Trace *trace)
     return true;
 }
 
-// --- bounds -------------------------------------------------------------------------------------
-
-// Condition `kind` of `node`: >= 0 where its status holds, over its scale; INFINITY: there is no
-// such condition. one: 1 for the value at v, r; 0 for the rate at their rates.
-static double condition(const Trace *trace, int32_t node, int32_t kind, const double *v,
-                        const double *r, double one)
-{
-    const ContactProblem *problem = trace->system.problem;
-    const Interface *interface = problem->interface;
-    if (node >= interface->contact_count) {
-        int32_t j = node - interface->contact_count, x = interface_rod(interface, j);
-        if (kind > 0 || problem->rod_kind != ROD_PUSHES) return INFINITY;
-        return trace->system.at->rod_touches[j]
-                   ? r[x] / trace->scales.force
-                   : (v[x] - one * problem->bound[x]) / trace->scales.velocity;
-    }
-    const FrictionLaw *law = friction_at(problem->law, node);
-    int32_t t = interface_tangent(node), n = interface_normal(node);
-    uint8_t status = trace->system.at->status[node];
-    if (status == CONTACT_OPEN)
-        return kind == 0 ? (v[n] - one * problem->bound[n]) / trace->scales.velocity : INFINITY;
-    if (status == CONTACT_STICK && kind > 1) return INFINITY;
-    if (status == CONTACT_STICK)
-        return (law->mu_static * r[n] + (kind == 0 ? r[t] : -r[t])) / trace->scales.force;
-    double speed = status_direction(status) * v[t];
-    if (kind == 0) return speed / trace->scales.velocity;
-    if (kind == 1) return r[n] / trace->scales.force;
-    // Above the lower end of its piece of the law, where there is one; below the upper.
-    int32_t piece = trace->path->piece[node];
-    bool lower = kind == 2 && piece > 0;
-    double kink = kind == 3 && piece == 0 ? INFINITY : friction_kink(law, piece - lower);
-    if (!isfinite(kink)) return INFINITY;
-    return (lower ? 1 : -1) * (speed - one * kink) / trace->scales.velocity;
-}
-
-// The bound that the tangent reaches first; distance INFINITY: none.
-static Bound nearest_bound(const Trace *trace)
-{
-    const Interface *interface = trace->system.problem->interface;
-    const ContactPath *path = trace->path;
-    Bound nearest = {.node = ALL, .distance = INFINITY};
-    if (trace->tau_rate < 0) nearest.distance = trace->tau / -trace->tau_rate;
-    for (int32_t node = 0; node < interface->contact_count + interface->rod_count; node++) {
-        for (int32_t kind = 0; kind < CONDITIONS; kind++) {
-            double value = condition(trace, node, kind, trace->system.at->velocity,
-                                     trace->system.at->reaction, 1);
-            if (value == INFINITY) break;
-            double rate = condition(trace, node, kind, path->velocity_rate, path->reaction_rate, 0);
-            if (!(rate < 0) || fmax(value, 0) >= -rate * nearest.distance) continue;
-            nearest = (Bound){node, kind, fmax(value, 0) / -rate};
-        }
-    }
-    return nearest;
-}
-
-// The least of all conditions at the point, below 0 where one is violated.
-// tau = 0 counts as a condition, too (ALL), so that a step beyond the path's end is cut back to it.
-static double worst_condition(const Trace *trace, Bound *worst)
-{
-    const Interface *interface = trace->system.problem->interface;
-    double least = trace->tau / trace->scales.velocity;
-    *worst = (Bound){.node = ALL};
-    for (int32_t node = 0; node < interface->contact_count + interface->rod_count; node++) {
-        for (int32_t kind = 0; kind < CONDITIONS; kind++) {
-            double value = condition(trace, node, kind, trace->system.at->velocity,
-                                     trace->system.at->reaction, 1);
-            if (value >= least) continue;
-            least = value;
-            *worst = (Bound){.node = node, .kind = kind};
-        }
-    }
-    return least;
-}
+// --- exchange -----------------------------------------------------------------------------------
 
 // row += factor * gradient of r_k
-static void add_reaction_row(Trace *trace, int32_t k, double factor)
+static void add_reaction_row(PathTrace *trace, int32_t k, double factor)
 {
     ContactPath *path = trace->path;
     const double *own = trace->system.problem->matrix->schur + (int64_t)k * path->count;
@@ -236,7 +147,7 @@ static void add_reaction_row(Trace *trace, int32_t k, double factor)
 }
 
 // Beyond its bound a node takes its next status; `row` becomes what grows from 0 there.
-static void exchange(Trace *trace, Bound bound)
+static void exchange(PathTrace *trace, PathBound bound)
 {
     ContactPath *path = trace->path;
     const Interface *interface = trace->system.problem->interface;
@@ -284,7 +195,7 @@ static void exchange(Trace *trace, Bound bound)
 // --- steps --------------------------------------------------------------------------------------
 
 // No node's friction changes so much that the step might have met another part of the path.
-static bool stays_near(const Trace *trace)
+static bool stays_near(const PathTrace *trace)
 {
     const ContactPath *path = trace->path;
     for (int32_t a = 0; a < trace->system.free_count; a++) {
@@ -301,7 +212,7 @@ static bool stays_near(const Trace *trace)
 // or so far aside that it may be another path.
 // On success velocity, reaction and tau are those of the point; on failure they are of no use, and
 // the next trial starts from `kept` again.
-static bool place_point(Trace *trace, double tau_kept, double distance)
+static bool place_point(PathTrace *trace, double tau_kept, double distance)
 {
     ContactPath *path = trace->path;
     double *velocity = trace->system.at->velocity, *step = path->row, aside = 0;
@@ -331,17 +242,17 @@ static bool place_point(Trace *trace, double tau_kept, double distance)
 // A step to the first bound, or to a point before it (reached->node NOWHERE).
 // false: no point was found within TRIALS. The length of a first trial is bounded by the scale of
 // velocity beyond tau, as a tangent that meets no bound would lead to infinity.
-static bool advance(Trace *trace, Bound *reached)
+static bool advance(PathTrace *trace, PathBound *reached)
 {
     ContactPath *path = trace->path;
     double tau_kept = trace->tau, low = 0, high = INFINITY, low_value = 0, high_value = -INFINITY;
     double distance =
-        fmin(nearest_bound(trace).distance, trace->scales.velocity + fabs(trace->tau));
+        fmin(path_nearest_bound(trace).distance, trace->scales.velocity + fabs(trace->tau));
     for (int32_t a = 0; a < trace->system.free_count; a++)
         path->kept[a] = trace->system.at->velocity[path->free[a]];
     for (int32_t trial = 0; trial < TRIALS; trial++) {
         bool placed = place_point(trace, tau_kept, distance);
-        double least = placed ? worst_condition(trace, reached) : -INFINITY;
+        double least = placed ? path_worst_condition(trace, reached) : -INFINITY;
         if (fabs(least) <= NEAR) return true;
         if (least > 0 && !isfinite(high_value)) {   // the path bends away: on from here
             reached->node = NOWHERE;
@@ -363,32 +274,52 @@ static bool advance(Trace *trace, Bound *reached)
 }
 
 // The first rod node that violates its condition; -1: none.
-static int32_t broken_rod(const Trace *trace)
+static int32_t broken_rod(const PathTrace *trace)
 {
     const Interface *interface = trace->system.problem->interface;
     for (int32_t j = 0; j < interface->rod_count; j++) {
         int32_t node = interface->contact_count + j;
-        if (condition(trace, node, 0, trace->system.at->velocity, trace->system.at->reaction, 1) <
-            0)
+        if (path_condition(trace, node, 0, trace->system.at->velocity, trace->system.at->reaction,
+                           1) < 0)
             return j;
     }
     return -1;
 }
 
-// Everything is pressed so hard that it sticks; tau falls. What the rod does then is a small linear
-// complementarity problem, solved by changing the first status that is wrong (Murty's rule).
-static bool start_pressed(Trace *trace)
+// Nodes that are open at the start and go further than they may are pressed, too. false: there are
+// none.
+static bool press_fallen(PathTrace *trace)
+{
+    const ContactProblem *problem = trace->system.problem;
+    const ContactSolution *at = trace->system.at;
+    bool any = false;
+    for (int32_t i = 0; i < problem->interface->contact_count; i++) {
+        int32_t n = interface_normal(i);
+        if (at->status[i] != CONTACT_OPEN || at->velocity[n] >= problem->bound[n]) continue;
+        at->status[i] = CONTACT_STICK;
+        trace->path->lift[n] = problem->matrix->diagonal;
+        any = true;
+    }
+    return any;
+}
+
+// Everything that would touch is pressed so hard that it sticks; tau falls. What is far above
+// the substrate is left alone: in a short step it would have to come down at a speed beside which
+// all else is rounding. What the rod does then is a small linear complementarity problem, solved by
+// changing the first status that is wrong (Murty's rule).
+static bool start_pressed(PathTrace *trace)
 {
     const ContactProblem *problem = trace->system.problem;
     const Interface *interface = problem->interface;
     ContactPath *path = trace->path;
     ContactSolution *at = trace->system.at;
-    Bound worst;
-    for (int32_t k = 0; k < path->count; k++) {
-        bool normal = k < 2 * interface->contact_count && k % 2 == 1;
-        path->lift[k] = normal ? trace->scales.force / trace->scales.velocity : 0;
+    PathBound worst;
+    memset(path->lift, 0, (size_t)path->count * sizeof(double));
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        bool above = problem->bound[interface_normal(i)] < -ABOVE * trace->scales.velocity;
+        at->status[i] = above ? CONTACT_OPEN : CONTACT_STICK;
+        if (!above) path->lift[interface_normal(i)] = problem->matrix->diagonal;
     }
-    memset(at->status, CONTACT_STICK, (size_t)interface->contact_count);
     memset(at->rod_touches, problem->rod_kind != ROD_AWAY, (size_t)interface->rod_count);
     memset(path->piece, 0, (size_t)interface->contact_count);
     memset(at->velocity, 0, (size_t)path->count * sizeof(double));
@@ -406,8 +337,9 @@ static bool start_pressed(Trace *trace)
         for (int32_t a = 0; a < trace->system.free_count; a++)
             at->velocity[path->free[a]] += path->row[a];
         find_reaction(trace);
+        if (press_fallen(trace)) continue;
         int32_t j = broken_rod(trace);
-        if (j < 0 && worst_condition(trace, &worst) >= 0) return true;
+        if (j < 0 && path_worst_condition(trace, &worst) >= 0) return true;
         if (j >= 0)
             at->rod_touches[j] = !at->rod_touches[j];
         else
@@ -419,10 +351,10 @@ static bool start_pressed(Trace *trace)
 // From a start to tau = 0.
 // false: given up after STEPS_EACH steps for each unknown, where a step was not found, or on a ray
 // that leaves for tau to infinity.
-static bool trace_path(Trace *trace)
+static bool trace_path(PathTrace *trace)
 {
     ContactPath *path = trace->path;
-    Bound reached = {.node = NOWHERE};
+    PathBound reached = {.node = NOWHERE};
     double highest = RAY * trace->tau;
     for (int32_t step = 0; step < STEPS_EACH * path->count && trace->tau < highest; step++) {
         if (step > 0 && !find_tangent(trace)) return false;
@@ -441,7 +373,7 @@ static bool trace_path(Trace *trace)
 bool contact_path_follow(ContactPath *path, const ContactProblem *problem,
                          ContactSolution *solution)
 {
-    Trace trace = {
+    PathTrace trace = {
         .path = path,
         .system = {.problem = problem, .at = solution, .piece = path->piece, .free = path->free}};
     if (!friction_everywhere(problem->law, problem->interface->contact_count)) return false;

@@ -60,6 +60,8 @@ CONSTANTS = [
     *of("contact/contact_path.c",
         ("NEAR", "what counts as on the path, or on a bound, of the scales", "rounding, with room"),
         ("ASIDE", "how far Newton may lead from the tangent, of a step", HERE),
+        ("ABOVE", "height from which a node is not pressed down at the start, over a step",
+         "rounding, beside NEAR"),
         ("RAY", "a path that has come so far does not come back", HERE),
         ("STEPS_EACH", "steps for each unknown, then the path is given up",
          "170 seen: 12 pads, friction 5"),

@@ -89,6 +89,40 @@ static void test_random_problems(void **state)
     assert_in_range(missed, 0, TRIALS / 100);
 }
 
+// Nodes above the substrate by up to 1e8 of what they move in a step, as where an impact is taken in
+// very short steps. A path that begins by pressing them all down is lost in rounding in half of
+// these problems.
+static void test_from_a_height(void **state)
+{
+    (void)state;
+    static HandContact hand;
+    enum { TRIALS = 300 };
+    Random random = {.state = 3};
+    int32_t missed = 0;
+    for (int32_t trial = 0; trial < TRIALS; trial++) {
+        hand_contact_size(&hand, 2 + random_index(&random, 8), 0);
+        hand.law = (FrictionLaw){.kind = FRICTION_LINEAR_WEAKENING,
+                                 .mu_static = 0.4,
+                                 .mu_kinetic = 0.1,
+                                 .critical_velocity = random_between(&random, 0.02, 0.2)};
+        hand_random_schur(&random, 0.5, 1, &hand);
+        for (int32_t k = 0; k < hand.interface.count; k++) {
+            hand.g[k] = random_between(&random, -1, 1);
+            if (k % 2 == 1 && random_index(&random, 2) == 1)
+                hand.bound[k] = -pow(10, random_between(&random, 0, 8));
+        }
+        if (!follow(&hand)) {
+            missed++;
+            continue;
+        }
+        for (int32_t k = 1; k < hand.interface.count; k += 2)   // no more than rounding of it
+            assert_true(hand.bound[k] == 0 || hand.status[k / 2] == CONTACT_OPEN);
+        assert_near("conditions", hand_contact_error(&hand), 0, 1e-7);
+    }
+    printf("%d of %d given up\n", missed, TRIALS);
+    assert_in_range(missed, 0, TRIALS / 100);
+}
+
 // Without friction at rest nothing sticks, and the path has no beginning.
 static void test_no_beginning(void **state)
 {
@@ -124,6 +158,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_one_node), cmocka_unit_test(test_random_problems),
-        cmocka_unit_test(test_no_beginning), cmocka_unit_test(test_memory)};
+        cmocka_unit_test(test_from_a_height), cmocka_unit_test(test_no_beginning),
+        cmocka_unit_test(test_memory)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

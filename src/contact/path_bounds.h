@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Where a point of contact/contact_path's path is, and which bound of a status it reaches next.
+#ifndef AMONTONS_CONTACT_PATH_BOUNDS_H
+#define AMONTONS_CONTACT_PATH_BOUNDS_H
+
+#include "contact/contact_equations.h"
+#include "contact/contact_path.h"
+
+enum { ALL = -1, NOWHERE = -2 };   // in place of a node
+
+// A point of the path and all that stays the same along it. Nothing is owned.
+typedef struct PathTrace {
+    ContactPath *path;
+    ContactEquations system;   // of problem and at; free: all that is not held
+    ContactScales scales;   // by g alone: reactions are not known before the start
+    double tau;   // velocity
+    double tau_rate;   // along the tangent
+} PathTrace;
+
+// A bound: condition `kind` of contact node `node`, or of rod node `node` - contact_count, or (ALL)
+// tau = 0.
+typedef struct PathBound {
+    int32_t node, kind;
+    double distance;   // along the tangent
+} PathBound;
+
+// Condition `kind` of `node`: >= 0 where its status holds, over its scale; INFINITY: there is no
+// such condition. one: 1 for the value at v, r; 0 for the rate at their rates.
+double path_condition(const PathTrace *trace, int32_t node, int32_t kind, const double *v,
+                      const double *r, double one);
+
+// The bound that the tangent reaches first; distance INFINITY: none.
+PathBound path_nearest_bound(const PathTrace *trace);
+
+// The least of all conditions at the point, below 0 where one is violated. tau = 0 counts as one,
+// too (ALL), so that a step beyond the path's end is cut back to it.
+double path_worst_condition(const PathTrace *trace, PathBound *worst);
+
+#endif
