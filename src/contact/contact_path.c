@@ -27,7 +27,7 @@ enum {
     STEPS_EACH = 200,   // steps for each unknown; with friction 5 on 12 pads 170 were needed
     CORRECTIONS = 8,   // Newton steps back onto the path
     TRIALS = 60,   // points tried in a step
-    STARTS = 200   // pressures, and statuses of rod nodes, tried at the start
+    STARTS = 200,   // pressures, and statuses of rod nodes, tried at the start
 };
 
 // The matrix has one row and column more than the interface, for tau.
@@ -375,6 +375,8 @@ bool contact_path_follow(ContactPath *path, const ContactProblem *problem,
 {
     PathTrace trace = {
         .path = path,
+        .velocity_rate = path->velocity_rate,
+        .reaction_rate = path->reaction_rate,
         .system = {.problem = problem, .at = solution, .piece = path->piece, .free = path->free}};
     if (!friction_everywhere(problem->law, problem->interface->contact_count)) return false;
     trace.scales = contact_scales(problem, NULL);

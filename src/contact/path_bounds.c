@@ -31,7 +31,7 @@ double path_condition(const PathTrace *trace, int32_t node, int32_t kind, const 
     if (kind == 0) return speed / trace->scales.velocity;
     if (kind == 1) return r[n] / trace->scales.force;
     // Above the lower end of its piece of the law, where there is one; below the upper.
-    int32_t piece = trace->path->piece[node];
+    int32_t piece = trace->system.piece[node];
     bool lower = kind == 2 && piece > 0;
     double kink = kind == 3 && piece == 0 ? INFINITY : friction_kink(law, piece - lower);
     if (!isfinite(kink)) return INFINITY;
@@ -41,7 +41,6 @@ double path_condition(const PathTrace *trace, int32_t node, int32_t kind, const 
 PathBound path_nearest_bound(const PathTrace *trace)
 {
     const Interface *interface = trace->system.problem->interface;
-    const ContactPath *path = trace->path;
     PathBound nearest = {.node = ALL, .distance = INFINITY};
     if (trace->tau_rate < 0) nearest.distance = trace->tau / -trace->tau_rate;
     for (int32_t node = 0; node < interface->contact_count + interface->rod_count; node++) {
@@ -50,7 +49,7 @@ PathBound path_nearest_bound(const PathTrace *trace)
                                           trace->system.at->reaction, 1);
             if (value == INFINITY) break;
             double rate =
-                path_condition(trace, node, kind, path->velocity_rate, path->reaction_rate, 0);
+                path_condition(trace, node, kind, trace->velocity_rate, trace->reaction_rate, 0);
             if (!(rate < 0) || fmax(value, 0) >= -rate * nearest.distance) continue;
             nearest = (PathBound){node, kind, fmax(value, 0) / -rate};
         }

@@ -4,17 +4,17 @@
 #define AMONTONS_CONTACT_PATH_BOUNDS_H
 
 #include "contact/contact_equations.h"
-#include "contact/contact_path.h"
 
 enum { ALL = -1, NOWHERE = -2 };   // in place of a node
 
 // A point of the path and all that stays the same along it. Nothing is owned.
 typedef struct PathTrace {
-    ContactPath *path;
+    struct ContactPath *path;   // whose arrays those below are
     ContactEquations system;   // of problem and at; free: all that is not held
     ContactScales scales;   // by g alone: reactions are not known before the start
     double tau;   // velocity
-    double tau_rate;   // along the tangent
+    double tau_rate;   // along the tangent, and of all unknowns:
+    const double *velocity_rate, *reaction_rate;   // [count]
 } PathTrace;
 
 // A bound: condition `kind` of contact node `node`, or of rod node `node` - contact_count, or (ALL)

@@ -164,8 +164,8 @@ SIZE = "room of an array; more than is used"
 ROUNDING = "rounding of coordinates"
 NOT_A_CHOICE = {
     "contact/contact_check.c": {"STILL": "rounding; the judge only reports"},
-    "contact/contact_path.c": {
-        "CONDITIONS": "a node has no more", "ALL": "a name", "NOWHERE": "a name"},
+    "contact/path_bounds.c": {"CONDITIONS": "a node has no more"},
+    "contact/path_bounds.h": {"ALL": "a name", "NOWHERE": "a name"},
     "contact/friction_law.c": {
         "TURN": "the same as BEND for one's own law, which no case of the table has: chosen by "
                 "tests/property/test_contact_problems.c",

@@ -89,8 +89,8 @@ static void test_random_problems(void **state)
     assert_in_range(missed, 0, TRIALS / 100);
 }
 
-// Nodes above the substrate by up to 1e8 of what they move in a step, as where an impact is taken in
-// very short steps. A path that begins by pressing them all down is lost in rounding in half of
+// Nodes above the substrate by up to 1e8 of what they move in a step, as where an impact is taken
+// in very short steps. A path that begins by pressing them all down is lost in rounding in half of
 // these problems.
 static void test_from_a_height(void **state)
 {
