@@ -7,6 +7,8 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <pthread.h>
+#include <signal.h>
 #include <stdatomic.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -37,6 +39,33 @@ bool file_is_named(const char *name, int descriptor)
            named.st_dev == opened.st_dev && named.st_ino == opened.st_ino;
 }
 
+// Until signals are let in again a handler finds the lock's file and its place among the held ones,
+// or neither.
+static void hold_signals(sigset_t *before)
+{
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, before);
+}
+
+// 0, or why the file could not be opened or locked; `held` only where it still has its name.
+static int try_once(FileLock *lock, const char *path)
+{
+    sigset_t before;
+    hold_signals(&before);
+    lock->descriptor = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    int cause = lock->descriptor < 0 || flock(lock->descriptor, LOCK_EX | LOCK_NB) != 0 ? errno : 0;
+    lock->held = cause == 0 && file_is_named(path, lock->descriptor);
+    if (lock->held) {
+        lock->owner = getpid();
+        exchange_held(NULL, lock);
+    } else if (lock->descriptor >= 0) {
+        close(lock->descriptor);
+    }
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return cause;
+}
+
 // Tried again and again, as flock itself cannot wait for a limited time.
 bool file_lock_take(FileLock *lock, const char *path, double seconds)
 {
@@ -44,19 +73,11 @@ bool file_lock_take(FileLock *lock, const char *path, double seconds)
     *lock = (FileLock){0};
     if (snprintf(lock->path, sizeof lock->path, "%s", path) >= (int)sizeof lock->path) return false;
     for (;;) {
-        lock->descriptor = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-        if (lock->descriptor < 0) return false;
-        int cause = flock(lock->descriptor, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
-        lock->held = cause == 0 && file_is_named(path, lock->descriptor);
-        if (lock->held) {
-            lock->busy = false;
-            lock->owner = getpid();
-            exchange_held(NULL, lock);
-            return true;
-        }
-        close(lock->descriptor);
-        if (cause == 0 || cause == EINTR) continue;
+        int cause = try_once(lock, path);
         lock->busy = cause == EWOULDBLOCK;
+        if (lock->held) return true;
+        if (lock->descriptor < 0) return false;
+        if (cause == 0 || cause == EINTR) continue;
         if (!lock->busy || clock_seconds() >= until) return false;
         nanosleep(&PAUSE, NULL);
     }
@@ -64,9 +85,12 @@ bool file_lock_take(FileLock *lock, const char *path, double seconds)
 
 void file_lock_release(FileLock *lock)
 {
+    sigset_t before;
     if (!lock->held) return;
+    hold_signals(&before);
     exchange_held(lock, NULL);
     unlink(lock->path);
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
     close(lock->descriptor);
     lock->held = false;
 }
