@@ -13,17 +13,17 @@
 
 // s, each for one of what its comment says.
 static const double FULL_FACTOR = 1.5e-8;   // rung and n^1.5
-static const double FULL_STAGE = 1.5e-9;   // stage and n^1.5
-static const double FULL_BORDER = 9e-9;   // stage and m^2
-static const double REDUCTION_FACTORS = 5.9e-5;   // n
+static const double FULL_STAGE = 1.6e-9;   // stage and n^1.5
+static const double FULL_BORDER = 8e-9;   // stage and m^2
+static const double REDUCTION_FACTORS = 4.9e-5;   // n
 static const double REDUCTION_PRODUCTS = 1e-9;   // n m^2
-static const double REDUCED_STAGE = 5.7e-9;   // stage and m^2
+static const double REDUCED_STAGE = 4.3e-9;   // stage and m^2
 
 static const double RUNGS = 11;   // used by a run with a sliding
 
 // Below that a basis is built in any case: what it might cost now the next run of the shape saves;
 // s.
-static const double NOT_WORTH_ASKING = 0.06;
+static const double NOT_WORTH_ASKING = 0.05;
 
 // Bytes of memory for each entry of n x m, and in all.
 static const double REDUCTION_BYTES = 36, REDUCTION_BYTES_MAX = 6e9;
