@@ -165,8 +165,9 @@ static void meet_process_limit(void)
     const int wanted = 2 * CPU_COUNT(&allowed) + 1;
     for (pid_t child = 1; count < wanted && child > 0; count += child > 0) {
         child = waiting[count] = _Fork();
-        if (child == 0) prctl(PR_SET_PDEATHSIG, SIGKILL);
-        while (child == 0) pause();
+        if (child != 0) continue;
+        prctl(PR_SET_PDEATHSIG, SIGKILL);
+        for (;;) pause();
     }
     for (int k = 0; k < count; k++) kill(waiting[k], SIGKILL);
     for (int k = 0; k < count; k++) waitpid(waiting[k], NULL, 0);
