@@ -11,6 +11,7 @@ from unittest import mock
 
 FOLDER = Path(os.environ["AMONTONS_SOURCE"], "validation", "benchmark")
 sys.path.insert(0, str(FOLDER))
+CPU = 20 * int(os.environ.get("AMONTONS_PATIENCE", "1"))   # seconds of a case; they take 2, sanitizers ten times as long
 import measured_run  # noqa: E402
 import stress  # noqa: E402
 import stress_cases  # noqa: E402
@@ -20,13 +21,13 @@ from measured_run import run  # noqa: E402
 class Stress(unittest.TestCase):
     def test_quick_matrix(self):
         with tempfile.TemporaryDirectory() as folder:
-            ended = subprocess.run([sys.executable, FOLDER / "stress.py", "--quick", "--cpu", "20",
+            ended = subprocess.run([sys.executable, FOLDER / "stress.py", "--quick", "--cpu", str(CPU),
                                     "-o", folder], capture_output=True, text=True)
             self.assertEqual(ended.returncode, 0, ended.stdout + ended.stderr)
             table = Path(folder, "stress.csv").read_text().splitlines()
         self.assertEqual(len(table), 1 + len(stress_cases.listed(True)))
 
-    def judged(self, case, cpu_limit=20):
+    def judged(self, case, cpu_limit=CPU):
         word, faults, _ = stress.judge(case, run(stress.SCENE, case.settings, cpu_limit), cpu_limit)
         return word, faults
 
