@@ -55,12 +55,12 @@ class Stress(unittest.TestCase):
 
     def test_missing_and_needless_warnings(self):
         """Said in run.json and on standard error where viscosity cannot bear the weakening."""
-        thin = run(stress.SCENE, ["material.eta1=0.01", "material.eta2=0.01"], 20)
+        thin = run(stress.SCENE, ["material.eta1=0.01", "material.eta2=0.01"], CPU)
         self.assertIn("amontons: warning: slip is not resolved: friction weakens faster", thin.said)
         self.assertIn("of 17 contact nodes", thin.report["warnings"][0])
-        none = run(stress.SCENE, ["material.eta1=0"], 20)
+        none = run(stress.SCENE, ["material.eta1=0"], CPU)
         self.assertIn("ill-posed", none.said)
-        usual = run(stress.SCENE, [], 20)
+        usual = run(stress.SCENE, [], CPU)
         self.assertEqual((usual.said, usual.report["warnings"]), ("", []))
 
     def test_version_without_git(self):
