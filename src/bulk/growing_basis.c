@@ -131,7 +131,6 @@ static void project(const GrowingBasis *basis, Extension *x)
     for (int64_t j = 0; j < added; j++) {
         memcpy(x->parts + j * count, motion + j * (m + 1), (size_t)m * sizeof *motion);
         x->lacking[j] = motion[j * (m + 1) + m];
-        x->largest = fmax(x->largest, x->left[BULK_STIFFNESS][j * added + j]);
     }
 }
 
@@ -144,9 +143,11 @@ static void take_out(const GrowingBasis *basis, Extension *x)
         [BULK_DAMPING] = reduced->damping, [BULK_MASS] = reduced->mass};
     int64_t added = x->added, count = x->count, m = reduced->interface_count;
     DenseView parts = view(x->parts, count, added);
-    for (int64_t j = 0; j < added; j++)
+    for (int64_t j = 0; j < added; j++) {
+        x->largest = fmax(x->largest, x->left[BULK_STIFFNESS][j * added + j]);
         memcpy(x->parts + j * count + m, x->old[BULK_STIFFNESS] + j * count + m,
                (size_t)(count - m) * sizeof(double));
+    }
     for (int term = 0; term < BULK_TERMS; term++) {
         DenseView old = view(x->old[term], count, added);
         dense_multiply_transposed(parts, old, -1, 1, x->left[term]);
@@ -243,19 +244,27 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Columns of V, from `first` on, into `field` [dofs * columns], zero before. The interface's part
+// is 0, to the last bit.
+static void form_modes(const GrowingBasis *basis, int64_t first, int64_t columns, double *field)
+{
+    const Answers *answers = &basis->answers;
+    int64_t dofs = basis->reduced->full_dofs, m = basis->reduced->interface_count;
+    answers_combine(answers, 1, basis->mix + first * answers->count, columns, field);
+    for (int64_t j = 0; j < columns; j++)
+        for (int64_t i = 0; i < m; i++) field[j * dofs + answers->full.interface_dofs[i]] = 0;
+}
+
 // Products by the mesh of some of the modes from V on, with all: columns of old, left and lacking.
 static bool multiply_modes(const GrowingBasis *basis, int64_t from, int64_t columns, Extension *x,
                            Error *err)
 {
     const Answers *answers = &basis->answers;
-    int64_t dofs = basis->reduced->full_dofs, m = basis->reduced->interface_count;
-    int64_t count = x->count, size = count + x->added;
+    int64_t dofs = basis->reduced->full_dofs, count = x->count, size = count + x->added;
     double *field = NEW_ARRAY(double, dofs *columns, err);
     double *image = NEW_ARRAY(double, dofs *columns, err);
     if (!field || !image) goto cleanup;
-    answers_combine(answers, 1, basis->mix + (count + from) * answers->count, columns, field);
-    for (int64_t j = 0; j < columns; j++)
-        for (int64_t i = 0; i < m; i++) field[j * dofs + answers->full.interface_dofs[i]] = 0;
+    form_modes(basis, count + from, columns, field);
     for (int term = 0; term < BULK_TERMS; term++) {
         double *product = x->gram[0], *of_modes = x->gram[1];
         answers_project(answers, (BulkTerm)term, field, columns, image, product);
@@ -292,8 +301,6 @@ bool basis_renew(GrowingBasis *basis, int32_t first, Error *err)
         columns = added - from < ANSWERS_TOGETHER ? added - from : ANSWERS_TOGETHER;
         TRY(multiply_modes(basis, from, columns, &x, err));
     }
-    for (int64_t j = 0; j < added; j++)
-        x.largest = fmax(x.largest, x.left[BULK_STIFFNESS][j * added + j]);
     cut_square(reduced->damping, reduced->count, count);
     cut_square(reduced->mass, reduced->count, count);
     reduced->count = first;
@@ -380,20 +387,16 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The static modes are answers; of the others the interface's part is 0, to the last bit.
+// The static modes are answers.
 bool basis_write_modes(GrowingBasis *basis, Error *err)
 {
     ReducedBulk *reduced = basis->reduced;
     const Answers *answers = &basis->answers;
     int64_t dofs = reduced->full_dofs, m = reduced->interface_count;
-    int64_t interior = reduced->interior_count;
     double *modes = reduced->modes = NEW_ARRAY(double, dofs * reduced->count, err);
     if (!modes) return false;
     memcpy(modes, answers->blocks[0].field, (size_t)(dofs * m) * sizeof *modes);
-    double *own = modes + dofs * m;
-    answers_combine(answers, 1, basis->mix + m * answers->count, interior, own);
-    for (int64_t j = 0; j < interior; j++)
-        for (int64_t i = 0; i < m; i++) own[j * dofs + answers->full.interface_dofs[i]] = 0;
+    form_modes(basis, m, reduced->interior_count, modes + dofs * m);
     return true;
 }
 

@@ -65,8 +65,8 @@ typedef struct Scene {
         SceneProgram program;   // of all loads
     } load;
     struct {
-        double velocity, stiffness;   // of the spring between drive and rod; 0, not given: rigid
-        double displacement;   // of the rod in `amontons static`
+        double velocity, displacement;   // V; how far it is moved in `amontons static`
+        double stiffness;   // of the spring between drive and rod; 0, not given: rigid
         double height, width;   // of the strip's centre, and its extent; 0: H/2 and 0.1 H
         SceneRodKind kind;
         SceneRodEnds ends;
