@@ -4,9 +4,7 @@
 #include "run/simulation_state.h"
 
 #include "small_scene.h"
-#include "result_place.h"
-
-static char place[PLACE_SIZE];
+#include "place_fixture.h"
 
 // Materials of the model: 1 + regions, or 1 where all are alike.
 static int32_t count_materials(const char *file, const char *materials, Error *err)
@@ -87,20 +85,6 @@ static void test_cannot_be_told(void **state)
     assert_int_equal(err.code, ERROR_INPUT);
     if (!strstr(err.message, "cannot be told: another group has its elementary number"))
         fail_msg("%s", err.message);
-}
-
-static int begin(void **state)
-{
-    (void)state;
-    place_make(place);
-    return 0;
-}
-
-static int end(void **state)
-{
-    (void)state;
-    place_remove(place);
-    return 0;
 }
 
 int main(void)

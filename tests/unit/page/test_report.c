@@ -5,11 +5,9 @@
 
 #include "base/memory.h"
 #include "io/result_file.h"
-#include "result_place.h"
+#include "place_fixture.h"
 
 enum { EVENTS_MAX = 400 };
-
-static char place[PLACE_SIZE];
 
 static char *page_of(const char *const *results, int32_t count)
 {
@@ -250,20 +248,6 @@ static void test_units_that_differ(void **state)
                       : "{\"status\": \"done\", \"scene\": {\"units\": \"normalised\"}}");
     }
     expect(page_of(results, 2), "their curves have no common axis");
-}
-
-static int begin(void **state)
-{
-    (void)state;
-    place_make(place);
-    return 0;
-}
-
-static int end(void **state)
-{
-    (void)state;
-    place_remove(place);
-    return 0;
 }
 
 int main(void)

@@ -5,12 +5,10 @@
 #include "run/warnings.h"
 
 #include "base/memory.h"
-#include "result_place.h"
+#include "place_fixture.h"
 #include "small_scene.h"
 
 #include <signal.h>
-
-static char place[PLACE_SIZE];
 
 // Stops in the run of so many, 0: the first of the first mesh; counts the meshes that were done.
 typedef struct Watch {
@@ -199,20 +197,6 @@ static void test_what_is_said_of_a_bar(void **state)
     expect(levels, "the mesh's part of it is not known (one mesh: no time for more)");
     levels.list[2].undamped = true;
     expect(levels, "not known (cells are too long for slip: no time for more)");
-}
-
-static int begin(void **state)
-{
-    (void)state;
-    place_make(place);
-    return 0;
-}
-
-static int end(void **state)
-{
-    (void)state;
-    place_remove(place);
-    return 0;
 }
 
 int main(void)
