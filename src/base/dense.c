@@ -14,6 +14,15 @@
 // Of dense_apply_each: half a megabyte; whole vectors, so that all rows are rounded alike.
 enum { ROWS_CACHED = 65536, ROWS_STEP = 16 };
 
+// Vectors are found one by one where this times as many are fewer than all.
+enum { MANY = 6 };
+
+// Symmetric: [size] and [size - 1] entries.
+typedef struct DenseTridiagonal {
+    int32_t size;
+    double *diagonal, *beside;
+} DenseTridiagonal;
+
 void dpotrf_(const char *uplo, const int *n, double *a, const int *lda, int *info,
              size_t uplo_size);
 void dgetrf_(const int *m, const int *n, double *a, const int *lda, int *pivots, int *info);
@@ -28,6 +37,19 @@ void dsytrd_(const char *uplo, const int *n, double *a, const int *lda, double *
              double *tau, double *work, const int *lwork, int *info, size_t uplo_size);
 void dorgtr_(const char *uplo, const int *n, double *a, const int *lda, const double *tau,
              double *work, const int *lwork, int *info, size_t uplo_size);
+void dsygst_(const int *itype, const char *uplo, const int *n, double *a, const int *lda,
+             const double *b, const int *ldb, int *info, size_t uplo_size);
+void dsterf_(const int *n, double *d, double *e, int *info);
+void dstein_(const int *n, const double *d, const double *e, const int *m, const double *w,
+             const int *iblock, const int *isplit, double *z, const int *ldz, double *work,
+             int *iwork, int *ifail, int *info);
+void dstedc_(const char *compz, const int *n, double *d, double *e, double *z, const int *ldz,
+             double *work, const int *lwork, int *iwork, const int *liwork, int *info,
+             size_t compz_size);
+void dormtr_(const char *side, const char *uplo, const char *trans, const int *m, const int *n,
+             const double *a, const int *lda, const double *tau, double *c, const int *ldc,
+             double *work, const int *lwork, int *info, size_t side_size, size_t uplo_size,
+             size_t trans_size);
 void dgeev_(const char *jobvl, const char *jobvr, const int *n, double *a, const int *lda,
             double *wr, double *wi, double *vl, const int *ldvl, double *vr, const int *ldvr,
             double *work, const int *lwork, int *info, size_t jobvl_size, size_t jobvr_size);
@@ -162,15 +184,12 @@ void dense_lower_divide(const double *lower, int32_t n, int32_t columns, double 
                     1.0, lower, n, b, n);
 }
 
-// Two triangular solves, from the left and from the right; turns a x = lambda L L' x into a
-// symmetric problem of its own.
+// dsygst: half the operations of two triangular solves, as it keeps to one triangle. Turns a x =
+// lambda L L' x into a symmetric problem of its own.
 void dense_divide_both_sides(const double *lower, int32_t n, double *a)
 {
-    if (n == 0) return;
-    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, n, n, 1.0, lower,
-                n, a, n);
-    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, n, n, 1.0, lower,
-                n, a, n);
+    int info = 0, from_both_sides = 1;
+    if (n > 0) dsygst_(&from_both_sides, "L", &n, a, &n, lower, &n, &info, 1);
 }
 
 // Doubles, and dsyevd's integers in the place of some: it asks for 1 + 6 n + 2 n^2, and 3 + 5 n;
@@ -188,6 +207,52 @@ bool dense_eigen(double *a, int32_t n, double *values, double *work)
     if (n > 0)
         dsyevd_("V", "L", &n, a, &n, values, work, &size, (int *)(void *)(work + size), &whole,
                 &info, 1, 1);
+    return info == 0;
+}
+
+// Some of T's vectors by inverse iteration (dstein), orthogonal where values are close. T is taken
+// as one block: where an entry of `beside` is 0 that costs no more than a random start.
+static bool find_few_vectors(DenseTridiagonal t, int32_t count, const double *values,
+                             double *vectors, double *work)
+{
+    int info = 0, n = t.size, *blocks = (int *)(void *)(work + 5 * (int64_t)n);
+    int *ends = blocks + n, *rest = ends + n, *failed = rest + n;
+    for (int32_t k = 0; k < n; k++) blocks[k] = 1;
+    ends[0] = n;
+    dstein_(&n, t.diagonal, t.beside, &count, values, blocks, ends, vectors, &n, work, rest, failed,
+            &info);
+    return info == 0;
+}
+
+// All of them by divide and conquer (dstedc), which destroys T.
+static bool find_all_vectors(DenseTridiagonal t, double *vectors, double *work)
+{
+    int info = 0, n = t.size, whole = 3 + 5 * n, size = 1 + 4 * n + n * n;
+    dstedc_("I", &n, t.diagonal, t.beside, vectors, &n, work, &size, (int *)(void *)(work + size),
+            &whole, &info, 1);
+    return info == 0;
+}
+
+bool dense_eigen_above(double *a, int32_t n, double least, double *values, double *work)
+{
+    int64_t size = n;
+    DenseTridiagonal t = {.size = n, .diagonal = work + size, .beside = work + 2 * size};
+    double *reflectors = work, *vectors = work + 3 * size, *rest = vectors + size * size;
+    int info = 0, rest_size = (int)(dense_eigen_work(n) - 3 * size - size * size), wanted = 0;
+    if (n == 0) return true;
+    dsytrd_("L", &n, a, &n, t.diagonal, t.beside, reflectors, rest, &rest_size, &info, 1);
+    memcpy(values, t.diagonal, (size_t)n * sizeof *values);
+    memcpy(rest, t.beside, (size_t)n * sizeof *rest);
+    if (info == 0) dsterf_(&n, values, rest, &info);
+    if (info != 0) return false;
+    while (wanted < n && values[n - 1 - wanted] > least) wanted++;
+    if (wanted == 0) return true;
+    double *first = vectors + (size - wanted) * size;
+    bool few = wanted <= n / MANY && find_few_vectors(t, wanted, values + n - wanted, first, rest);
+    if (!few && !find_all_vectors(t, vectors, rest)) return false;
+    dormtr_("L", "L", "N", &n, &wanted, a, &n, reflectors, first, &n, rest, &rest_size, &info, 1, 1,
+            1);
+    memcpy(a + (size - wanted) * size, first, (size_t)(size * wanted) * sizeof *a);
     return info == 0;
 }
 

@@ -49,13 +49,18 @@ void dense_add_scaled(double factor, const double *x, int32_t n, double *y);
 // b := L^-1 b, of `columns` columns of n.
 void dense_lower_divide(const double *lower, int32_t n, int32_t columns, double *b);
 
-// a := L^-1 a L^-T, both triangles of a symmetric `a` [n * n], with a Cholesky factor `lower`.
+// a := L^-1 a L^-T with a Cholesky factor `lower`; of the symmetric `a` [n * n] the lower triangle
+// is read and written.
 void dense_divide_both_sides(const double *lower, int32_t n, double *a);
 
 // Eigenvalues, ascending, and orthonormal eigenvectors (columns, in place) of a symmetric `a` [n *
 // n]. values: [n]; work: [dense_eigen_work(n)], here and below.
 int64_t dense_eigen_work(int32_t n);
 bool dense_eigen(double *a, int32_t n, double *values, double *work);
+
+// Likewise, where vectors are wanted of eigenvalues above `least` alone: as the last columns of
+// `a`. What stands before them is of no use.
+bool dense_eigen_above(double *a, int32_t n, double least, double *values, double *work);
 
 // Eigenvalues (re, im: [n]) and right eigenvectors of a general `a` [n * n], which is destroyed. A
 // complex pair takes two columns of `vectors` [n * n], real and imaginary part of the one with im >

@@ -133,9 +133,9 @@ static OperatorTerms point_terms(const Builder *work, StripPoint point)
                            .stiffness = (1 - point.viscosity) / scales->stiffness};
 }
 
-// Solves (S_r - S) y = mu S y: mu ascending in `values`, y in the columns of `excess`, which is S_r
-// before.
-static bool compare(Builder *work, const double *schur, Error *err)
+// Solves (S_r - S) y = mu S y: mu ascending in `values`, L'y of those above `allowed` in the last
+// columns of `excess`, which is S_r before; S = L L'.
+static bool compare(Builder *work, const double *schur, double allowed, Error *err)
 {
     int32_t m = work->basis.reduced->interface_count;
     memcpy(work->exact, schur, (size_t)m * (size_t)m * sizeof *schur);
@@ -143,7 +143,7 @@ static bool compare(Builder *work, const double *schur, Error *err)
     if (!dense_cholesky(work->exact, m))
         FAIL(err, ERROR_COMPUTE, "the interface operator is not positive definite");
     dense_divide_both_sides(work->exact, m, work->excess);
-    if (!dense_eigen(work->excess, m, work->values, work->eigen_work))
+    if (!dense_eigen_above(work->excess, m, allowed, work->values, work->eigen_work))
         FAIL(err, ERROR_LIBRARY, "LAPACK: no eigenvalues of the reduction's error");
 cleanup:
     return error_is_clean(err);
@@ -202,11 +202,11 @@ static bool condense_basis(Builder *work, StripPoint point, bool *definite, Erro
 static bool compare_at(Builder *work, StripPoint point, const double *schur, bool *negative,
                        Error *err)
 {
+    double allowed = allowed_error(work, point);
     bool definite = false;
     TRY(condense_basis(work, point, &definite, err));
-    if (definite) TRY(compare(work, schur, err));
-    *negative = !definite ||
-                work->values[0] < -NEGATIVE_MAX * allowed_error(work, point) - ERROR_LEAST;
+    if (definite) TRY(compare(work, schur, allowed, err));
+    *negative = !definite || work->values[0] < -NEGATIVE_MAX * allowed - ERROR_LEAST;
 cleanup:
     return error_is_clean(err);
 }

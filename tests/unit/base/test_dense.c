@@ -234,6 +234,7 @@ static void test_nothing(void **state)
     const DenseView none = {a, 0, 2}, thin = {a, 2, 0}, full = {a, 2, 2};
     int32_t pivots[1];
     assert_true(dense_cholesky(c, 0) && dense_lu(c, 0, pivots) && dense_invert_factored(c, 0));
+    assert_true(dense_eigen_above(c, 0, 1, x, x));
     assert_true(dense_eigen(c, 0, x, x) && dense_eigen_general(c, 0, x, x, x, x));
     dense_lower_apply(a, 0, c);
     dense_lower_apply_transposed(a, 0, c);
