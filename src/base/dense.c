@@ -132,6 +132,12 @@ void dense_lower_solve_transposed(const double *lower, int32_t n, double *x)
     if (n > 0) cblas_dtrsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, n, lower, n, x, 1);
 }
 
+void dense_lower_solve(const double *lower, int32_t n, double *x)
+{
+    if (n > 0)
+        cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, n, lower, n, x, 1);
+}
+
 // L is copied into c with zeros above its diagonal, then multiplied by L' from the right, which
 // costs half of a general product.
 void dense_lower_square(const double *lower, int32_t n, double *c)
@@ -181,6 +187,13 @@ void dense_lower_divide(const double *lower, int32_t n, int32_t columns, double 
 {
     if (n > 0 && columns > 0)
         cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, n, columns,
+                    1.0, lower, n, b, n);
+}
+
+void dense_lower_multiply(const double *lower, int32_t n, int32_t columns, double *b)
+{
+    if (n > 0 && columns > 0)
+        cblas_dtrmm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, n, columns,
                     1.0, lower, n, b, n);
 }
 
@@ -298,6 +311,13 @@ void dense_multiply(DenseView a, DenseView b, double factor, double keep, double
     if (a.columns == 0 || b.columns == 0 || a.rows == 0) return;
     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, a.rows, b.columns, a.columns, factor,
                 a.values, a.rows, b.values, b.rows, keep, c, a.rows);
+}
+
+void dense_add_square(DenseView a, double *c)
+{
+    if (a.columns == 0 || a.rows == 0) return;
+    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, a.rows, a.columns, 1, a.values, a.rows, 1,
+                c, a.rows);
 }
 
 void dense_multiply_transposed_rows(DenseView a, DenseView b, double *c, int64_t stride)

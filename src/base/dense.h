@@ -27,7 +27,8 @@ void dense_symmetric_apply(const double *a, int32_t n, const double *x, double *
 // x := L x and x := L' x with the lower triangle of `lower` [n * n].
 void dense_lower_apply(const double *lower, int32_t n, double *x);
 void dense_lower_apply_transposed(const double *lower, int32_t n, double *x);
-// x := L^-T x
+// x := L^-1 x and x := L^-T x
+void dense_lower_solve(const double *lower, int32_t n, double *x);
 void dense_lower_solve_transposed(const double *lower, int32_t n, double *x);
 
 // c = L L' (all of c is written); lower, c: [n * n], distinct.
@@ -46,7 +47,8 @@ bool dense_sweep(double *a, int32_t n, int32_t k, bool back, double *work);
 // y += factor x
 void dense_add_scaled(double factor, const double *x, int32_t n, double *y);
 
-// b := L^-1 b, of `columns` columns of n.
+// b := L b and b := L^-1 b, of `columns` columns of n.
+void dense_lower_multiply(const double *lower, int32_t n, int32_t columns, double *b);
 void dense_lower_divide(const double *lower, int32_t n, int32_t columns, double *b);
 
 // a := L^-1 a L^-T with a Cholesky factor `lower`; of the symmetric `a` [n * n] the lower triangle
@@ -90,6 +92,8 @@ typedef struct DenseView {
 // c = factor a' b + keep c, c = factor a b + keep c; c has the rows and columns that follow.
 void dense_multiply_transposed(DenseView a, DenseView b, double factor, double keep, double *c);
 void dense_multiply(DenseView a, DenseView b, double factor, double keep, double *c);
+// c += a a', its lower triangle.
+void dense_add_square(DenseView a, double *c);
 // Where c or b are rows of a larger matrix, whose columns are `stride` apart: c = a' b, and
 // c += factor a b, b [a.columns * columns].
 void dense_multiply_transposed_rows(DenseView a, DenseView b, double *c, int64_t stride);

@@ -13,6 +13,7 @@
 #include "bulk/reduction.h"
 
 #include "base/dense.h"
+#include "base/largest_eigen.h"
 #include "base/memory.h"
 #include "bulk/factors_ahead.h"
 #include "bulk/growing_basis.h"
@@ -133,15 +134,45 @@ static OperatorTerms point_terms(const Builder *work, StripPoint point)
                            .stiffness = (1 - point.viscosity) / scales->stiffness};
 }
 
-// Solves (S_r - S) y = mu S y: mu ascending in `values`, L'y of those above `allowed` in the last
-// columns of `excess`, which is S_r before; S = L L'.
-static bool compare(Builder *work, const double *schur, double allowed, Error *err)
+// Where few motions are above `allowed`, or none. In place of the next eigenvalue is a bound of it,
+// 1 % above it at most, or a thousandth of what is allowed; in that of the first one `least`.
+static bool compare_largest(Builder *work, const double *schur, double allowed, double least,
+                            bool *found, Error *err)
+{
+    int64_t m = work->basis.reduced->interface_count;
+    LargestEigenDef def = {.size = (int32_t)m,
+                           .a = work->excess,
+                           .b = schur,
+                           .lower = work->exact,
+                           .above = fmin(allowed, 1),
+                           .least = least,
+                           .work = work->eigen_work};
+    LargestEigen largest;
+    TRY(largest_eigen_find(&def, &largest, found, err));
+    if (!*found) goto cleanup;
+    int64_t first = m - largest.count;
+    memcpy(work->values + first, largest.values, (size_t)(m - first) * sizeof *largest.values);
+    memcpy(work->excess + first * m, largest.vectors,
+           (size_t)((m - first) * m) * sizeof *largest.vectors);
+    work->values[first - 1] = largest.next;
+    work->values[0] = least;
+cleanup:
+    largest_eigen_destroy(&largest);
+    return error_is_clean(err);
+}
+
+// Solves (S_r - S) y = mu S y, S = L L': mu ascending in `values`, those above `allowed`, the next
+// one and the first; L'y of those above in the last columns of `excess`, which is S_r before.
+static bool compare(Builder *work, const double *schur, double allowed, double least, Error *err)
 {
     int32_t m = work->basis.reduced->interface_count;
+    bool found = false;
     memcpy(work->exact, schur, (size_t)m * (size_t)m * sizeof *schur);
     dense_add_scaled(-1, schur, m * m, work->excess);
     if (!dense_cholesky(work->exact, m))
         FAIL(err, ERROR_COMPUTE, "the interface operator is not positive definite");
+    TRY(compare_largest(work, schur, allowed, least, &found, err));
+    if (found) goto cleanup;
     dense_divide_both_sides(work->exact, m, work->excess);
     if (!dense_eigen_above(work->excess, m, allowed, work->values, work->eigen_work))
         FAIL(err, ERROR_LIBRARY, "LAPACK: no eigenvalues of the reduction's error");
@@ -202,11 +233,11 @@ static bool condense_basis(Builder *work, StripPoint point, bool *definite, Erro
 static bool compare_at(Builder *work, StripPoint point, const double *schur, bool *negative,
                        Error *err)
 {
-    double allowed = allowed_error(work, point);
+    double allowed = allowed_error(work, point), least = -NEGATIVE_MAX * allowed - ERROR_LEAST;
     bool definite = false;
     TRY(condense_basis(work, point, &definite, err));
-    if (definite) TRY(compare(work, schur, allowed, err));
-    *negative = !definite || work->values[0] < -NEGATIVE_MAX * allowed - ERROR_LEAST;
+    if (definite) TRY(compare(work, schur, allowed, least, err));
+    *negative = !definite || work->values[0] < least;
 cleanup:
     return error_is_clean(err);
 }
