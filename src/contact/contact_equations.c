@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Equations and source stand in the header; what a row has beside S and r is found in one place,
-// row_of, from the status of its node.
+// contact_find_rows, from the status of its node.
 #include "contact/contact_equations.h"
 
 #include "base/dense.h"
 
 #include <math.h>
-
-// Row k of the equations: that of the unknown itself, plus `mu` times that of `normal`, plus the
-// diagonal. mu = 0 (and normal = k) where it does not slip.
-typedef struct Row {
-    int32_t normal;
-    double mu;   // s mu(|v_t|), 1
-    double slope;   // mu'(|v_t|), one over a velocity
-    double stiffness;   // of the spring at a soft rod node, force/width per velocity
-} Row;
 
 ContactScales contact_scales(const ContactProblem *problem, const double *reaction)
 {
@@ -58,58 +49,67 @@ void contact_react(const ContactEquations *equations)
     dense_add_nonzero(schur, equations->at->velocity, 1, reaction);   // what sticks adds nothing
 }
 
-static Row row_of(const ContactEquations *equations, int32_t unknown)
+// mu(|v_t|) of a slipping node, and mu' where it is asked for, one over a velocity.
+static double friction_of(const ContactEquations *equations, int32_t i, double *slope)
+{
+    const FrictionLaw *law = friction_at(equations->problem->law, i);
+    double speed = fabs(equations->at->velocity[interface_tangent(i)]), unused;
+    if (equations->piece)
+        return friction_branch(law, equations->piece[i], speed, slope ? slope : &unused);
+    if (slope) *slope = friction_slope(law, speed);
+    return friction_coefficient(law, speed);
+}
+
+void contact_find_rows(const ContactEquations *equations)
 {
     const ContactProblem *problem = equations->problem;
-    Row row = {.normal = unknown};
-    int32_t i = contact_slipping_node(equations, unknown);
-    int32_t j = unknown - 2 * problem->interface->contact_count;
-    if (j >= 0 && equations->at->rod_touches[j]) row.stiffness = rod_stiffness(problem, j);
-    if (i < 0) return row;
-    const FrictionLaw *law = friction_at(problem->law, i);
-    double speed = fabs(equations->at->velocity[unknown]);
-    double mu;
-    if (equations->piece) {
-        mu = friction_branch(law, equations->piece[i], speed, &row.slope);
-    } else {
-        mu = friction_coefficient(law, speed);
-        row.slope = friction_slope(law, speed);
+    const ContactSolution *at = equations->at;
+    for (int32_t a = 0; a < equations->free_count; a++) {
+        int32_t unknown = equations->free[a], i = contact_slipping_node(equations, unknown);
+        int32_t j = unknown - 2 * problem->interface->contact_count;
+        ContactRow row = {.normal = unknown};
+        if (j >= 0 && at->rod_touches[j]) row.stiffness = rod_stiffness(problem, j);
+        if (i >= 0) {
+            row.mu = status_direction(at->status[i]) * friction_of(equations, i, NULL);
+            row.normal = interface_normal(i);
+        }
+        equations->row[a] = row;
     }
-    row.mu = status_direction(equations->at->status[i]) * mu;
-    row.normal = interface_normal(i);
-    return row;
 }
 
-double contact_equation(const ContactEquations *equations, int32_t unknown)
+void contact_residuals(const ContactEquations *equations, double *residual)
 {
-    Row row = row_of(equations, unknown);
-    const double *reaction = equations->at->reaction;
-    double value = reaction[unknown] + row.mu * reaction[row.normal];
-    if (row.stiffness == 0) return value;
-    return value +
-           row.stiffness * (equations->at->velocity[unknown] - equations->problem->bound[unknown]);
+    const double *velocity = equations->at->velocity, *bound = equations->problem->bound;
+    contact_combine(equations, equations->at->reaction, residual);
+    for (int32_t a = 0; a < equations->free_count; a++) {
+        double stiffness = equations->row[a].stiffness;
+        int32_t k = equations->free[a];
+        if (stiffness != 0) residual[a] += stiffness * (velocity[k] - bound[k]);
+    }
 }
 
-double contact_combine(const ContactEquations *equations, int32_t unknown, const double *x)
+void contact_combine(const ContactEquations *equations, const double *x, double *out)
 {
-    Row row = row_of(equations, unknown);
-    return x[unknown] + row.mu * x[row.normal];
+    for (int32_t a = 0; a < equations->free_count; a++)
+        out[a] = x[equations->free[a]] + equations->row[a].mu * x[equations->row[a].normal];
 }
 
 void contact_jacobian(const ContactEquations *equations, const double *matrix, int32_t stride,
                       double *jacobian)
 {
+    const double *reaction = equations->at->reaction;
     int32_t count = equations->problem->interface->count, free_count = equations->free_count;
     for (int32_t a = 0; a < free_count; a++) {
-        int32_t unknown = equations->free[a];
-        Row row = row_of(equations, unknown);
-        const double *own = matrix + (int64_t)unknown * count;   // symmetric
+        ContactRow row = equations->row[a];
+        int32_t i = contact_slipping_node(equations, equations->free[a]);
+        const double *own = matrix + (int64_t)equations->free[a] * count;   // symmetric
         const double *normal = matrix + (int64_t)row.normal * count;
-        double *out = jacobian + a;
+        double *out = jacobian + a, slope = 0;
         for (int32_t b = 0; b < free_count; b++)
             out[(int64_t)b * stride] = own[equations->free[b]] +
                                        row.mu * normal[equations->free[b]];
-        out[(int64_t)a * stride] += row.slope * equations->at->reaction[row.normal] + row.stiffness;
+        if (i >= 0) friction_of(equations, i, &slope);
+        out[(int64_t)a * stride] += slope * reaction[row.normal] + row.stiffness;
     }
 }
 

@@ -18,6 +18,14 @@
 
 #include "contact/contact_problem.h"
 
+// What the equation of a free unknown has beside r_k: `mu` times r_n and a spring. Both 0 where it
+// neither slips nor is soft; then `normal` is the unknown itself.
+typedef struct ContactRow {
+    int32_t normal;
+    double mu;   // s mu(|v_t|), 1
+    double stiffness;   // of the spring at a soft rod node, force/width per velocity
+} ContactRow;
+
 // Nothing is owned.
 typedef struct ContactEquations {
     const ContactProblem *problem;
@@ -26,6 +34,7 @@ typedef struct ContactEquations {
         // (friction_branch); NULL: as the speed says
     int32_t *free;   // [count] unknowns that are solved for, free_count of them
     int32_t free_count;
+    ContactRow *row;   // [count] work: of what is free, as contact_find_rows left them
 } ContactEquations;
 
 // What makes forces and velocities comparable; neither is 0.
@@ -45,11 +54,15 @@ void contact_hold(const ContactEquations *equations);
 // r = S v - g, from the velocities as they are.
 void contact_react(const ContactEquations *equations);
 
-// E of a free unknown, force/width.
-double contact_equation(const ContactEquations *equations, int32_t unknown);
+// The rows of what is free, at the velocities as they are: the three below read them, so that
+// friction is looked up once for all of them.
+void contact_find_rows(const ContactEquations *equations);
 
-// x_k + s mu x_n: how the equation of `unknown` takes what is added to the reactions.
-double contact_combine(const ContactEquations *equations, int32_t unknown, const double *x);
+// residual [free_count] = E of the free unknowns, force/width.
+void contact_residuals(const ContactEquations *equations, double *residual);
+
+// out [free_count] = x_k + s mu x_n: how their equations take what is added to the reactions.
+void contact_combine(const ContactEquations *equations, const double *x, double *out);
 
 // The derivative by the free unknowns, column after column with `stride` >= free_count entries
 // each. matrix: S, or S with open nodes condensed out, [count^2].

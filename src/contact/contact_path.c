@@ -36,6 +36,7 @@ bool contact_path_create(const Interface *interface, ContactPath *path, Error *e
     int64_t count = interface->count;
     *path = (ContactPath){.count = interface->count};
     path->free = NEW_ARRAY(int32_t, count, err);
+    path->equation = NEW_ARRAY(ContactRow, count, err);
     path->place = NEW_ARRAY(int32_t, count, err);
     path->pivots = NEW_ARRAY(int32_t, count + 1, err);
     path->matrix = NEW_ARRAY(double, (count + 1) * (count + 1), err);
@@ -52,6 +53,7 @@ bool contact_path_create(const Interface *interface, ContactPath *path, Error *e
 void contact_path_destroy(ContactPath *path)
 {
     memory_free(path->free);
+    memory_free(path->equation);
     memory_free(path->place);
     memory_free(path->pivots);
     memory_free(path->matrix);
@@ -97,7 +99,7 @@ static void find_reaction(PathTrace *trace)
     dense_add_scaled(trace->tau, trace->path->lift, trace->path->count, trace->system.at->reaction);
 }
 
-// Factors [J E_tau; last].
+// Factors [J E_tau; last], J by the rows as they were found.
 // Size free_count + 1, column after column; `last` is its lowest row [free_count + 1]. false:
 // singular, as at a point where two paths meet.
 static bool factor(PathTrace *trace, const double *last)
@@ -105,9 +107,7 @@ static bool factor(PathTrace *trace, const double *last)
     ContactPath *path = trace->path;
     int32_t free_count = trace->system.free_count, size = free_count + 1;
     contact_jacobian(&trace->system, trace->system.problem->matrix->schur, size, path->matrix);
-    for (int32_t a = 0; a < free_count; a++)
-        path->matrix[(int64_t)free_count * size + a] =
-            contact_combine(&trace->system, path->free[a], path->lift);
+    contact_combine(&trace->system, path->lift, path->matrix + (int64_t)free_count * size);
     for (int32_t b = 0; b < size; b++) path->matrix[(int64_t)b * size + free_count] = last[b];
     return dense_lu(path->matrix, size, path->pivots);
 }
@@ -118,6 +118,7 @@ static bool find_tangent(PathTrace *trace)
     ContactPath *path = trace->path;
     int32_t free_count = trace->system.free_count, count = path->count;
     double *tangent = path->tangent;
+    contact_find_rows(&trace->system);
     if (!factor(trace, path->row)) return false;
     memset(tangent, 0, (size_t)free_count * sizeof(double));
     tangent[free_count] = 1;
@@ -223,8 +224,10 @@ static bool place_point(PathTrace *trace, double tau_kept, double distance)
     for (int32_t k = 0; k < CORRECTIONS; k++) {
         double largest = 0;
         find_reaction(trace);
+        contact_find_rows(&trace->system);
+        contact_residuals(&trace->system, step);
         for (int32_t a = 0; a < free_count; a++) {
-            step[a] = -contact_equation(&trace->system, path->free[a]);
+            step[a] = -step[a];
             largest = fmax(largest, fabs(step[a]));
         }
         step[free_count] = 0;
@@ -330,8 +333,8 @@ static bool start_pressed(PathTrace *trace)
         path->row[trace->system.free_count] = -1;
         if (!find_tangent(trace)) return false;
         find_reaction(trace);
-        for (int32_t a = 0; a < trace->system.free_count; a++)
-            path->row[a] = -contact_equation(&trace->system, path->free[a]);
+        contact_residuals(&trace->system, path->row);
+        for (int32_t a = 0; a < trace->system.free_count; a++) path->row[a] = -path->row[a];
         path->row[trace->system.free_count] = 0;
         dense_lu_solve(path->matrix, trace->system.free_count + 1, path->pivots, path->row);
         for (int32_t a = 0; a < trace->system.free_count; a++)
@@ -373,11 +376,14 @@ static bool trace_path(PathTrace *trace)
 bool contact_path_follow(ContactPath *path, const ContactProblem *problem,
                          ContactSolution *solution)
 {
-    PathTrace trace = {
-        .path = path,
-        .velocity_rate = path->velocity_rate,
-        .reaction_rate = path->reaction_rate,
-        .system = {.problem = problem, .at = solution, .piece = path->piece, .free = path->free}};
+    PathTrace trace = {.path = path,
+                       .velocity_rate = path->velocity_rate,
+                       .reaction_rate = path->reaction_rate,
+                       .system = {.problem = problem,
+                                  .at = solution,
+                                  .piece = path->piece,
+                                  .free = path->free,
+                                  .row = path->equation}};
     if (!friction_everywhere(problem->law, problem->interface->contact_count)) return false;
     trace.scales = contact_scales(problem, NULL);
     return start_pressed(&trace) && trace_path(&trace);

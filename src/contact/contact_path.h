@@ -15,11 +15,12 @@
 #ifndef AMONTONS_CONTACT_CONTACT_PATH_H
 #define AMONTONS_CONTACT_CONTACT_PATH_H
 
-#include "contact/contact_problem.h"
+#include "contact/contact_equations.h"
 
 typedef struct ContactPath {
     int32_t count;   // interface unknowns
     int32_t *free;   // [count] unknowns that are not held; owned, like all that follows
+    ContactRow *equation;   // [count] work: their equations
     int32_t *place;   // [count] where an unknown stands in `free`; -1: held
     int32_t *pivots;   // [count + 1]
     double *matrix;   // [(count + 1)^2]

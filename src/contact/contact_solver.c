@@ -31,7 +31,9 @@ bool contact_solver_create(const Interface *interface, ContactSolverDef def, Con
     *solver = (ContactSolver){.def = def, .follows_path = true};
     solver->free = NEW_ARRAY(int32_t, count, err);
     solver->open = NEW_ARRAY(int32_t, count, err);
+    solver->row = NEW_ARRAY(ContactRow, count, err);
     solver->step = NEW_ARRAY(double, count, err);
+    solver->more = NEW_ARRAY(double, count, err);
     solver->pull = NEW_ARRAY(double, count, err);
     solver->anchor = NEW_ARRAY(uint8_t, interface->contact_count + interface->rod_count, err);
     return error_is_clean(err) && contact_path_create(interface, &solver->path, err);
@@ -42,7 +44,9 @@ void contact_solver_destroy(ContactSolver *solver)
     contact_path_destroy(&solver->path);
     memory_free(solver->free);
     memory_free(solver->open);
+    memory_free(solver->row);
     memory_free(solver->step);
+    memory_free(solver->more);
     memory_free(solver->pull);
     memory_free(solver->anchor);
     *solver = (ContactSolver){0};
@@ -111,8 +115,8 @@ static bool list_free(Solve *solve)
             free[count++] = interface_rod(problem->interface, j);
     }
     solve->equations.free_count = count;
-    for (int32_t a = 0; a < count; a++)
-        solve->solver->step[a] = contact_equation(&solve->equations, free[a]);
+    contact_find_rows(&solve->equations);
+    contact_residuals(&solve->equations, solve->solver->step);
     solve->listed = true;
     return true;
 }
@@ -189,12 +193,12 @@ static bool newton_step(Solve *solve)
     solver->iterations++;
     solve->reused = factors_fit(solve);
     if (!solve->reused && !factor(solve)) return false;
-    bool opens = solve->open_count > 0;
-    if (opens) find_pull(solve);
-    for (int32_t a = 0; a < free_count; a++) {
-        double more = opens ? contact_combine(equations, solver->free[a], solver->pull) : 0;
-        solver->step[a] = more - solver->step[a];
+    memset(solver->more, 0, (size_t)free_count * sizeof(double));
+    if (solve->open_count > 0) {
+        find_pull(solve);
+        contact_combine(equations, solver->pull, solver->more);
     }
+    for (int32_t a = 0; a < free_count; a++) solver->step[a] = solver->more[a] - solver->step[a];
     dense_lu_solve(matrix->factors, free_count, matrix->pivots, solver->step);
     for (int32_t a = 0; a < free_count; a++) {
         int32_t unknown = solver->free[a];
@@ -248,8 +252,9 @@ static double largest_residual(const Solve *solve)
 {
     const ContactEquations *equations = &solve->equations;
     double largest = 0, *left = solve->solver->step;
+    contact_find_rows(equations);
+    contact_residuals(equations, left);
     for (int32_t a = 0; a < equations->free_count; a++) {
-        left[a] = contact_equation(equations, equations->free[a]);
         if (!isfinite(left[a])) return INFINITY;
         if (fabs(left[a]) > largest) largest = fabs(left[a]);
     }
@@ -386,12 +391,13 @@ static Progress judge_step(Solve *solve)
 static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
                            ContactSolution *solution)
 {
-    Solve solve = {.solver = solver,
-                   .equations = {.problem = problem, .at = solution, .free = solver->free},
-                   .limit = solver->def.iterations_all,
-                   .change_all = true,
-                   .before = INFINITY,
-                   .started = -1};
+    Solve solve = {
+        .solver = solver,
+        .equations = {.problem = problem, .at = solution, .free = solver->free, .row = solver->row},
+        .limit = solver->def.iterations_all,
+        .change_all = true,
+        .before = INFINITY,
+        .started = -1};
     fix_rod_kind(&solve);
     note_statuses(&solve);
     settle(&solve);

@@ -32,7 +32,8 @@ typedef struct ContactSolver {
     ContactSolverDef def;
     int32_t *free;   // [count] work: the unknowns solved for; owned
     int32_t *open;   // [count] work: unknowns of open nodes; owned
-    double *step;   // [count] work; owned
+    ContactRow *row;   // [count] work: their equations; owned
+    double *step, *more;   // [count] work; owned
     double *pull;   // [count] work: what forces at open nodes do to the others; owned
     uint8_t *anchor;   // [contact_count + rod_count] work: statuses met before; owned
     int64_t factorisations;   // counted
