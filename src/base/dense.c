@@ -405,10 +405,21 @@ double dense_dot(const double *x, const double *y, int32_t n)
 
 double dense_max_abs(const double *x, int32_t n)
 {
-    double largest = 0.0;
-    for (int32_t i = 0; i < n; i++) {   // fmax would be a call; it passes NaN by, as this does
-        double size = fabs(x[i]);
-        if (size > largest) largest = size;
+    enum { LANES = 4 };   // side by side: each comparison waits for the one before it
+    double largest[LANES] = {0};
+    int32_t even = n - n % LANES;
+    for (int32_t i = 0; i < even; i += LANES) {
+        for (int32_t k = 0; k < LANES;
+             k++) {   // fmax would be a call; it passes NaN by, as this does
+            double size = fabs(x[i + k]);
+            largest[k] = size > largest[k] ? size : largest[k];
+        }
     }
-    return largest;
+    for (int32_t i = even; i < n; i++) {
+        double size = fabs(x[i]);
+        largest[0] = size > largest[0] ? size : largest[0];
+    }
+    for (int32_t k = 1; k < LANES; k++)
+        largest[0] = largest[k] > largest[0] ? largest[k] : largest[0];
+    return largest[0];
 }
