@@ -28,7 +28,6 @@ bool certificate_create(const Block *block, Certificate *certificate, Error *err
     int64_t count = block->interface->count;
     TRY(moving_set_create(block, &certificate->moving, err));
     certificate->matrix = NEW_ARRAY(double, count *count, err);
-    certificate->symmetric = NEW_ARRAY(double, count *count, err);
     certificate->vector = NEW_ARRAY(double, count, err);
     certificate->pivots = NEW_ARRAY(int32_t, count, err);
     if (!error_is_clean(err)) goto cleanup;
@@ -49,7 +48,6 @@ void certificate_destroy(Certificate *certificate)
     interface_operator_destroy(certificate->damping);
     moving_set_destroy(&certificate->moving);
     memory_free(certificate->matrix);
-    memory_free(certificate->symmetric);
     memory_free(certificate->vector);
     memory_free(certificate->pivots);
     *certificate = (Certificate){0};
@@ -105,55 +103,76 @@ bool certificate_oscillates_less(Certificate *certificate, const State *state, L
     return less;
 }
 
-// certificate->matrix = J + W at the s of `rung`; false where there is no such matrix.
-static bool fill_coupled(Certificate *certificate, const State *state, ContactMatrix *rung)
+// certificate->matrix = J + W of what moves, S that of a rung, open nodes condensed out.
+static void fill_coupled(Certificate *certificate, const double *closed)
 {
-    const double *closed = close_matrix(state, rung);
-    if (!closed) return false;
-    moving_set_find(&certificate->moving, state, false);
     moving_set_gather(&certificate->moving, closed, 1, 0, certificate->matrix);
     moving_set_couple(&certificate->moving, closed, certificate->matrix);
     moving_set_add_dampers(&certificate->moving, 0, certificate->matrix);
-    certificate->checks++;
-    return true;
 }
 
-// x'J x > 0 for all x, J = certificate->matrix: no eigenvalue of J has a real part below 0, so that
-// det J > 0. At half the cost of LU.
-static bool is_positive(Certificate *certificate)
+// x'J x > 0 for all x: no eigenvalue of J has a real part below 0, so that det J > 0. At half the
+// cost of LU.
+static bool is_positive(Certificate *certificate, const double *closed)
 {
-    int64_t count = certificate->moving.count;
-    const double *matrix = certificate->matrix;
-    for (int64_t j = 0; j < count; j++)
-        for (int64_t i = j; i < count; i++)
-            certificate->symmetric[j * count + i] = 0.5 *
-                                                    (matrix[j * count + i] + matrix[i * count + j]);
-    return dense_cholesky(certificate->symmetric, (int32_t)count);
+    MovingSet *moving = &certificate->moving;
+    moving_set_gather_symmetric(moving, closed, certificate->matrix);
+    moving_set_add_dampers(moving, 0, certificate->matrix);
+    moving_set_subtract_weakening(moving, certificate->matrix);
+    return dense_cholesky(certificate->matrix, moving->count);
+}
+
+// det J > 0 at the s of `rung`; what moves has been found. false, too: nothing holds the open
+// nodes.
+static bool is_resolved(Certificate *certificate, const State *state, ContactMatrix *rung)
+{
+    const double *closed = close_matrix(state, rung);
+    int32_t *pivots = certificate->pivots, count = certificate->moving.count;
+    if (!closed) return false;
+    certificate->checks++;
+    if (is_positive(certificate, closed)) return true;
+    fill_coupled(certificate, closed);
+    moving_set_subtract_weakening(&certificate->moving, certificate->matrix);
+    return dense_lu(certificate->matrix, count, pivots) &&
+           dense_lu_sign(certificate->matrix, count, pivots) > 0;
 }
 
 bool certificate_step_resolves(Certificate *certificate, const State *state, ContactMatrix *rung)
 {
     double started = clock_seconds();
-    int32_t *pivots = certificate->pivots, *count = &certificate->moving.count;
-    bool resolves = fill_coupled(certificate, state, rung);
-    if (resolves) {
-        moving_set_subtract_weakening(&certificate->moving, certificate->matrix);
-        resolves = is_positive(certificate) ||
-                   (dense_lu(certificate->matrix, *count, pivots) &&
-                    dense_lu_sign(certificate->matrix, *count, pivots) > 0);
-    }
+    moving_set_find(&certificate->moving, state, false);
+    bool resolves = is_resolved(certificate, state, rung);
     certificate->seconds += clock_seconds() - started;
     return resolves;
+}
+
+bool certificate_finds_runaway(Certificate *certificate, const State *state, Ladder *ladder,
+                               int32_t resolved)
+{
+    double started = clock_seconds();
+    bool found = false;
+    moving_set_find(&certificate->moving, state, false);
+    for (int32_t k = 0; k < ladder->rung_count && !found; k++) {
+        ContactMatrix *rung = k == resolved ? NULL : ladder_contact(ladder, k);
+        found = rung && !is_resolved(certificate, state, rung);
+    }
+    certificate->seconds += clock_seconds() - started;
+    return found;
 }
 
 double certificate_load(Certificate *certificate, const State *state, ContactMatrix *rung)
 {
     double started = clock_seconds(), load = INFINITY;
     int32_t *pivots = certificate->pivots;
-    if (fill_coupled(certificate, state, rung) &&
-        dense_lu(certificate->matrix, certificate->moving.count, pivots))
-        load = weakening_load(&certificate->moving, certificate->matrix, pivots, POWERS_MAX,
-                              SETTLED, certificate->vector);
+    const double *closed = close_matrix(state, rung);
+    if (closed) {
+        moving_set_find(&certificate->moving, state, false);
+        fill_coupled(certificate, closed);
+        certificate->checks++;
+        if (dense_lu(certificate->matrix, certificate->moving.count, pivots))
+            load = weakening_load(&certificate->moving, certificate->matrix, pivots, POWERS_MAX,
+                                  SETTLED, certificate->vector);
+    }
     certificate->seconds += clock_seconds() - started;
     return load;
 }

@@ -39,7 +39,7 @@ typedef struct Certificate {
     InterfaceOperator *damping;   // holds S_C; NULL: C is singular; owned
     ContactMatrix damping_contact;   // S_C, open nodes condensed out; empty without; owned
     MovingSet moving;   // F and W of the state asked about; owned, like all that follows
-    double *matrix, *symmetric;   // [count^2] work
+    double *matrix;   // [count^2] work
     double *vector;   // [count] work
     int32_t *pivots;   // [count] work
     int64_t checks;   // counted, factorisations
@@ -54,6 +54,10 @@ bool certificate_holds(Certificate *certificate, const State *state);
 
 // det J > 0: no single real rate of growth lies above 1/(gamma dt), dt that of `rung`.
 bool certificate_step_resolves(Certificate *certificate, const State *state, ContactMatrix *rung);
+
+// det J > 0 fails on some rung that is built; on rung `resolved` it is known to hold (-1: on none).
+bool certificate_finds_runaway(Certificate *certificate, const State *state, Ladder *ladder,
+                               int32_t resolved);
 
 // A disturbance that oscillates grows by less than `growth` > 1 in half a period. Asked on all
 // rungs that are built.

@@ -98,6 +98,21 @@ void moving_set_couple(const MovingSet *set, const double *schur, double *matrix
     }
 }
 
+// S[n_b, a] is read as S[a, n_b], whose column lies beside that of b.
+void moving_set_gather_symmetric(const MovingSet *set, const double *schur, double *matrix)
+{
+    int64_t size = set->interface->count, count = set->count;
+    const int32_t *row = set->unknown, *normal = set->normal;
+    const double *friction = set->friction;
+    for (int64_t b = 0; b < count; b++) {
+        const double *column = schur + size * row[b], *pressed = schur + size * normal[b];
+        double *out = matrix + count * b;
+        for (int64_t a = b; a < count; a++)
+            out[a] = column[row[a]] +
+                     0.5 * (friction[a] * column[normal[a]] + friction[b] * pressed[row[a]]);
+    }
+}
+
 void moving_set_add_dampers(const MovingSet *set, double reach, double *matrix)
 {
     for (int64_t a = 0; a < set->count; a++)

@@ -52,6 +52,8 @@ void moving_set_gather(const MovingSet *set, const double *schur, double factor,
                        double *matrix);
 // Adds d mu S[n,F] to the rows of slipping tangents: the pressure that follows slip.
 void moving_set_couple(const MovingSet *set, const double *schur, double *matrix);
+// Both at once, of that matrix only the symmetric part, and of this the lower triangle.
+void moving_set_gather_symmetric(const MovingSet *set, const double *schur, double *matrix);
 // Adds dampers, and springs times `reach` (velocity to displacement, time; 0: none), to the
 // diagonal.
 void moving_set_add_dampers(const MovingSet *set, double reach, double *matrix);

@@ -127,17 +127,6 @@ void step_control_disturb(StepControl *control)
     if (control->rung < resolving) control->rung = resolving < last ? resolving : last;
 }
 
-// A real growth rate stands above some built rung's 1/(gamma dt).
-static bool rungs_grow(StepControl *control)
-{
-    for (int32_t k = 0; k < control->ladder.rung_count; k++) {
-        ContactMatrix *rung = ladder_contact(&control->ladder, k);
-        if (rung && !certificate_step_resolves(&control->certificate, &control->now, rung))
-            return true;
-    }
-    return false;
-}
-
 // No oscillation that a disturbance as fast as slip itself starts comes near v_c in half a period.
 static bool oscillations_stay_small(StepControl *control, const State *state)
 {
@@ -265,9 +254,10 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Looks for real growth in `now` on the rungs that are built: some small factorisations, so only
-// when the slip set is larger than all that were looked at since the last certified state.
-static void scan_growth(StepControl *control)
+// Looks for real growth in `now`, accepted at rung k, on the rungs that are built: some small
+// factorisations, so only when the slip set is larger than all that were looked at since the last
+// certified state. judge_step has looked at rung k where that resolves waves.
+static void scan_growth(StepControl *control, int32_t k)
 {
     int32_t slipping = 0;
     for (int32_t i = 0; i < control->now.contact_count; i++)
@@ -278,7 +268,8 @@ static void scan_growth(StepControl *control)
     }
     if (control->certified || slipping <= control->scanned) return;
     control->scanned = slipping;
-    control->grows = rungs_grow(control);
+    control->grows = certificate_finds_runaway(&control->certificate, &control->now,
+                                               &control->ladder, k < wave_rung(control) ? -1 : k);
 }
 
 // `now` and `next` exchange their arrays.
@@ -322,7 +313,7 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
             control->certified = certified;
             if (certified) control->hold = control->hold_end = 0;
             accept_step(control, k, &outcome);
-            scan_growth(control);
+            scan_growth(control, k);
             if (!shortened || retried)
                 control->rung = next_rung(control, k, outcome.error, retried);
             break;

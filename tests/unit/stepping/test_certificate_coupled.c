@@ -156,6 +156,36 @@ static void test_random_states(void **state)
     certificate_rig_destroy(&on);
 }
 
+// On all rungs that are built, but for one that is known: by the signs of its differences.
+static void test_all_rungs(void **state)
+{
+    (void)state;
+    Random random = {.state = 78};
+    RigDef def = rig_def();
+    CertificateRig on;
+    int32_t found = 0, passed_by = 0;
+    certificate_rig_build(&def, 1, 1e-2, &on);
+    for (int32_t k = 1; k < on.ladder.rung_count; k += 2) certificate_rig_rung(&on, k);
+    for (int32_t trial = 0; trial < 100; trial++) {
+        double weak = ladder_contact(&on.ladder, 3)->schur[0] * def.law.critical_velocity;
+        random_state(&random, &on.rig, weak * random_between(&random, 0.2, 8), &on.seen);
+        int32_t known = trial % (on.ladder.rung_count + 1) - 1, left = 0, at_known = 0;
+        for (int32_t k = 1; k < on.ladder.rung_count; k += 2) {
+            const double *schur = ladder_contact(&on.ladder, k)->schur;
+            Slip slip = {.rig = &on.rig, .seen = &on.seen, .schur = schur};
+            list_moving(&slip);
+            *(k == known ? &at_known : &left) += sign_by_differences(&slip) <= 0;
+        }
+        assert_int_equal(certificate_finds_runaway(&on.certificate, &on.seen, &on.ladder, known),
+                         left > 0);
+        found += left > 0;
+        passed_by += left == 0 && at_known;
+    }
+    print_message("%d found, %d passed by\n", found, passed_by);
+    assert_true(found > 20 && found < 80 && passed_by > 0);
+    certificate_rig_destroy(&on);
+}
+
 // The sign of det(J + (1 - part) W): weakening taken at `part` of what it is.
 static int sign_at(const Slip *slip, double part)
 {
@@ -261,8 +291,8 @@ static void test_load_of_nodes_alike(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_random_states),
-                                       cmocka_unit_test(test_load),
-                                       cmocka_unit_test(test_load_of_nodes_alike)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_random_states), cmocka_unit_test(test_all_rungs),
+        cmocka_unit_test(test_load), cmocka_unit_test(test_load_of_nodes_alike)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
