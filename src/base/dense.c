@@ -28,7 +28,9 @@ void dpotrf_(const char *uplo, const int *n, double *a, const int *lda, int *inf
 void dgetrf_(const int *m, const int *n, double *a, const int *lda, int *pivots, int *info);
 void dgetrs_(const char *trans, const int *n, const int *nrhs, const double *a, const int *lda,
              const int *pivots, double *b, const int *ldb, int *info, size_t trans_size);
-void dpotri_(const char *uplo, const int *n, double *a, const int *lda, int *info,
+void dtrtri_(const char *uplo, const char *diag, const int *n, double *a, const int *lda, int *info,
+             size_t uplo_size, size_t diag_size);
+void dlauum_(const char *uplo, const int *n, double *a, const int *lda, int *info,
              size_t uplo_size);
 void dsyevd_(const char *jobz, const char *uplo, const int *n, double *a, const int *lda, double *w,
              double *work, const int *lwork, int *iwork, const int *liwork, int *info,
@@ -151,11 +153,33 @@ void dense_lower_square(const double *lower, int32_t n, double *c)
                 n, c, n);
 }
 
-// dpotri leaves the inverse in the lower triangle: the upper one is mirrored from it.
+// L^-1 in the place of L, TRIANGLE columns at a time from the last ones on: with both blocks on the
+// diagonal inverted, what is below is -L22^-1 L21 L11^-1. OpenBLAS's own dtrtri takes one column at
+// a time with one thread, which at 322 columns takes three times as long.
+static int invert_lower(double *a, int n)
+{
+    enum { TRIANGLE = 96 };
+    int info = 0;
+    for (int end = n, size; end > 0 && info == 0; end -= size) {
+        size = (end - 1) % TRIANGLE + 1;
+        int first = end - size, below = n - end;
+        double *block = a + first * ((int64_t)n + 1), *last = a + end * ((int64_t)n + 1);
+        if (below > 0) {
+            cblas_dtrmm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, below,
+                        size, 1, last, n, block + size, n);
+            cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasNoTrans, CblasNonUnit, below,
+                        size, -1, block, n, block + size, n);
+        }
+        dtrtri_("L", "N", &size, block, &n, &info, 1, 1);
+    }
+    return info;
+}
+
+// dlauum leaves L^-T L^-1 in the lower triangle: the upper one is mirrored from it.
 bool dense_invert_factored(double *a, int32_t n)
 {
-    int info = 0;
-    if (n > 0) dpotri_("L", &n, a, &n, &info, 1);
+    int info = invert_lower(a, n);
+    if (n > 0 && info == 0) dlauum_("L", &n, a, &n, &info, 1);
     for (int64_t j = 0; j < n; j++) {
         for (int64_t i = j + 1; i < n; i++) a[i * n + j] = a[j * n + i];
     }
@@ -403,14 +427,15 @@ double dense_dot(const double *x, const double *y, int32_t n)
     return cblas_ddot(n, x, 1, y, 1);
 }
 
+// fmax would be a call; it passes NaN by, as this does. Side by side, as each comparison waits for
+// the one before it.
 double dense_max_abs(const double *x, int32_t n)
 {
-    enum { LANES = 4 };   // side by side: each comparison waits for the one before it
+    enum { LANES = 4 };
     double largest[LANES] = {0};
     int32_t even = n - n % LANES;
     for (int32_t i = 0; i < even; i += LANES) {
-        for (int32_t k = 0; k < LANES;
-             k++) {   // fmax would be a call; it passes NaN by, as this does
+        for (int32_t k = 0; k < LANES; k++) {
             double size = fabs(x[i + k]);
             largest[k] = size > largest[k] ? size : largest[k];
         }

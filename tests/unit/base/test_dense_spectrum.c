@@ -100,6 +100,25 @@ static void test_inverse_of_hilbert(void **state)
     assert_true(dense_invert_factored(NULL, 0));
 }
 
+// As has the second difference: i (n + 1 - j) / (n + 1) for i <= j, counted from 1.
+static void test_inverse_of_second_difference(void **state)
+{
+    (void)state;
+    for (int32_t n = 1; n < 300; n += n < 97 ? 48 : 97) {
+        double *a = hand_matrix(n, n);
+        for (int32_t j = 0; j < n; j++)
+            for (int32_t i = 0; i < n; i++) a[j * n + i] = i == j ? 2 : i == j + 1 ? -1 : 0;
+        assert_true(dense_cholesky(a, n));
+        assert_true(dense_invert_factored(a, n));
+        for (int32_t j = 0; j < n; j++)
+            for (int32_t i = 0; i < n; i++) {
+                double least = fmin(i, j) + 1, most = fmax(i, j) + 1;
+                assert_near("inverse", a[j * n + i], least * (n + 1 - most) / (n + 1), 1e-10);
+            }
+        free(a);
+    }
+}
+
 static void test_products(void **state)
 {
     (void)state;
@@ -333,10 +352,15 @@ static void test_tridiagonal(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_eigen_of_a_string),   cmocka_unit_test(test_eigen_of_random_matrices),
-        cmocka_unit_test(test_inverse_of_hilbert),  cmocka_unit_test(test_products),
-        cmocka_unit_test(test_tridiagonal),         cmocka_unit_test(test_divide_both_sides),
-        cmocka_unit_test(test_general_eigenvalues), cmocka_unit_test(test_lu_sign),
+        cmocka_unit_test(test_eigen_of_a_string),
+        cmocka_unit_test(test_eigen_of_random_matrices),
+        cmocka_unit_test(test_inverse_of_hilbert),
+        cmocka_unit_test(test_inverse_of_second_difference),
+        cmocka_unit_test(test_products),
+        cmocka_unit_test(test_tridiagonal),
+        cmocka_unit_test(test_divide_both_sides),
+        cmocka_unit_test(test_general_eigenvalues),
+        cmocka_unit_test(test_lu_sign),
         cmocka_unit_test(test_eigen_above),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
