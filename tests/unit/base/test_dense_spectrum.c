@@ -173,12 +173,14 @@ static void test_eigen_above(void **state)
                 a[k * n + k + 1] = full[k * n + k + 1] = full[(k + 1) * n + k] = -1;
                 a[(k + 1) * n + k] = NAN;   // the lower triangle is read
             }
-            double below = 2 - 2 * cos((two ? first / 2 : first) * PI / (cells + 1));
-            double above = 2 - 2 * cos((two ? first / 2 + 1 : first + 1) * PI / (cells + 1));
+            int32_t each = two ? 2 : 1, waves = first / each;   // not wanted
+            double below = 2 - 2 * cos(waves * PI / (cells + 1));
+            double above = 2 - 2 * cos((waves + 1) * PI / (cells + 1));
             assert_true(dense_eigen_above(a, n, (below + above) / 2, values, work));
-            for (int32_t k = 0; k < n; k++)
-                assert_near("value", values[k],
-                            2 - 2 * cos(((two ? k / 2 : k) + 1) * PI / (cells + 1)), 1e-14 * n);
+            for (int32_t k = 0; k < n; k++) {
+                int32_t wave = k / each + 1;
+                assert_near("value", values[k], 2 - 2 * cos(wave * PI / (cells + 1)), 1e-14 * n);
+            }
             DenseView vectors = {a + first * n, n, n - first};
             hand_product(vectors, vectors, true, 1, 0, unit);
             for (int32_t k = 0; k < (n - first) * (n - first); k++)

@@ -149,7 +149,7 @@ static void test_few_are_wanted(void **state)
     Random random = {.state = 11};
     for (int32_t trial = 0; trial < 6; trial++) {
         Error err = {0};
-        Pencil pencil;
+        Pencil pencil = {0};
         LargestEigen largest;
         bool found = false;
         // From 3 wanted to none, and smaller by a factor of 5 to 2.5 from one to the next.
@@ -171,7 +171,7 @@ static void test_what_is_left_to_others(void **state)
     Random random = {.state = 12};
     for (int32_t what = 0; what < 4; what++) {
         Error err = {0};
-        Pencil pencil;
+        Pencil pencil = {0};
         LargestEigen largest;
         bool found = true;
         fill_spectrum(SIZE, 1, what == 2 ? 0.95 : 0.25, &random, pencil.spectrum);
@@ -189,7 +189,7 @@ static void test_memory_faults(void **state)
 {
     (void)state;
     Random random = {.state = 13};
-    Pencil pencil;
+    Pencil pencil = {0};
     fill_spectrum(SIZE, 1, 0.2, &random, pencil.spectrum);
     pencil_build(SIZE, false, &random, &pencil);
     int64_t live = memory_counters().live;
