@@ -25,7 +25,7 @@ ROWS = {"time loop": ["simulation_loop"],
         "- - M v and K v": ["bulk_operator_apply"],
         "- - contact": ["contact_solve"],
         "- - - r = S v - g": ["contact_react"],
-        "- certificate": ["certificate_holds", "certificate_step_resolves"],
+        "- certificate": ["certificate_holds", "certificate_step_resolves", "certificate_finds_runaway"],
         "LU, of contact and certificate": ["dense_lu"],
         "rungs, before the loop": ["ladder_rung"]}
 COUNT = re.compile(r"^\s*([\d,]+) \([^)]*\)\s+([\d,]+) \([^)]*\)\s+\S*?:(\w+)(?:\.\w+)*(?: \[|$)")
