@@ -16,27 +16,31 @@ ContactScales contact_scales(const ContactProblem *problem, const double *reacti
     return (ContactScales){.force = force, .velocity = force / problem->matrix->diagonal};
 }
 
-int32_t contact_slipping_node(const ContactEquations *equations, int32_t unknown)
+static bool put(double value, double *place)
 {
-    if (unknown >= 2 * equations->problem->interface->contact_count || unknown % 2 != 0) return -1;
-    return status_slips(equations->at->status[unknown / 2]) ? unknown / 2 : -1;
+    bool differs = *place != value;
+    *place = value;
+    return differs;
 }
 
-void contact_hold(const ContactEquations *equations)
+bool contact_hold(const ContactEquations *equations)
 {
     const ContactProblem *problem = equations->problem;
     const Interface *interface = problem->interface;
-    ContactSolution *at = equations->at;
+    const ContactSolution *at = equations->at;
+    bool moved = false;
     for (int32_t i = 0; i < interface->contact_count; i++) {
+        int32_t t = interface_tangent(i), n = interface_normal(i);
         if (at->status[i] == CONTACT_OPEN) continue;
-        at->velocity[interface_normal(i)] = problem->bound[interface_normal(i)];
-        if (at->status[i] == CONTACT_STICK) at->velocity[interface_tangent(i)] = 0;
+        moved |= put(problem->bound[n], &at->velocity[n]);
+        if (at->status[i] == CONTACT_STICK) moved |= put(0, &at->velocity[t]);
     }
     for (int32_t j = 0; j < interface->rod_count; j++) {
         int32_t x = interface_rod(interface, j);
         if (at->rod_touches[j] && rod_stiffness(problem, j) == 0)
-            at->velocity[x] = problem->bound[x];
+            moved |= put(problem->bound[x], &at->velocity[x]);
     }
+    return moved;
 }
 
 void contact_react(const ContactEquations *equations)

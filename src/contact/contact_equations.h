@@ -46,10 +46,14 @@ typedef struct ContactScales {
 ContactScales contact_scales(const ContactProblem *problem, const double *reaction);
 
 // The slipping node that `unknown` is the tangent of; -1: none.
-int32_t contact_slipping_node(const ContactEquations *equations, int32_t unknown);
+static inline int32_t contact_slipping_node(const ContactEquations *equations, int32_t unknown)
+{
+    if (unknown >= 2 * equations->problem->interface->contact_count || unknown % 2 != 0) return -1;
+    return status_slips(equations->at->status[unknown / 2]) ? unknown / 2 : -1;
+}
 
-// Puts what is held in its place; what is free keeps its velocity.
-void contact_hold(const ContactEquations *equations);
+// Puts what is held in its place; what is free keeps its velocity. true: some velocity was another.
+bool contact_hold(const ContactEquations *equations);
 
 // r = S v - g, from the velocities as they are.
 void contact_react(const ContactEquations *equations);

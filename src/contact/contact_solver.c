@@ -80,18 +80,21 @@ static const Interface *interface_of(const Solve *solve)
 // --- Newton -------------------------------------------------------------------------------------
 
 // Held unknowns take their values, and r is that of the velocities as they are then. A node that
-// would slip against its status starts from rest.
-static void settle(Solve *solve)
+// would slip against its status starts from rest. known: r is that of the velocities as they are
+// now; it stays where none of them changes, as when nodes that stuck begin to slip.
+static void settle(Solve *solve, bool known)
 {
     const ContactSolution *at = solve->equations.at;
     solve->listed = false;
-    contact_hold(&solve->equations);
+    bool moved = contact_hold(&solve->equations);
     for (int32_t i = 0; i < interface_of(solve)->contact_count; i++) {
         double *slip_rate = &at->velocity[interface_tangent(i)];
-        if (status_slips(at->status[i]) && *slip_rate * status_direction(at->status[i]) < 0)
+        if (status_slips(at->status[i]) && *slip_rate * status_direction(at->status[i]) < 0) {
             *slip_rate = 0;
+            moved = true;
+        }
     }
-    contact_react(&solve->equations);
+    if (moved || !known) contact_react(&solve->equations);
 }
 
 // For the statuses as they are. false: nothing holds the open nodes.
@@ -381,7 +384,7 @@ static Progress judge_step(Solve *solve)
     if (!update_statuses(solve)) return equal ? SOLVED : GOES_ON;
     note_statuses(solve);
     if (solve->change_all) solve->started = -1;
-    settle(solve);
+    settle(solve, true);
     return GOES_ON;
 }
 
@@ -400,7 +403,7 @@ static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
         .started = -1};
     fix_rod_kind(&solve);
     note_statuses(&solve);
-    settle(&solve);
+    settle(&solve, false);
     while (may_go_on(&solve)) {
         if (!solve.listed && !list_free(&solve)) return false;
         if (!newton_step(&solve)) return false;
