@@ -163,10 +163,10 @@ static int invert_lower(double *a, int n)
     for (int end = n, size; end > 0 && info == 0; end -= size) {
         size = (end - 1) % TRIANGLE + 1;
         int first = end - size, below = n - end;
-        double *block = a + first * ((int64_t)n + 1), *last = a + end * ((int64_t)n + 1);
+        double *block = a + first * ((int64_t)n + 1);
         if (below > 0) {
             cblas_dtrmm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, below,
-                        size, 1, last, n, block + size, n);
+                        size, 1, block + size * ((int64_t)n + 1), n, block + size, n);
             cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasNoTrans, CblasNonUnit, below,
                         size, -1, block, n, block + size, n);
         }
