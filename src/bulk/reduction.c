@@ -16,18 +16,13 @@
 #include "base/largest_eigen.h"
 #include "base/memory.h"
 #include "bulk/factors_ahead.h"
+#include "bulk/far_field.h"
 #include "bulk/growing_basis.h"
+#include "bulk/inertias.h"
 #include "bulk/strip.h"
 
 #include <math.h>
 #include <string.h>
-
-enum { SLOWEST_ITERATIONS = 4 };
-
-// Where inertia acts within an element the mesh itself has an error, of about a quarter of
-// inertia's share (a thin layer in linear elements with lumped mass). A tolerance of 0.01 allows a
-// tenth of it.
-static const double MESH_SHARE = 2.5;
 
 // A new mode is what is left of an answer when the others are taken out. If its energy is smaller
 // than the answer's by more than this, it is formed by the mesh, which takes three times as long as
@@ -35,9 +30,6 @@ static const double MESH_SHARE = 2.5;
 // the factor is 3e4 at most, at 2e-3 1e7. Where energies differ as it is (several materials, or C
 // unlike K by more than UNLIKE) it is always done.
 static const double LOSS_MAX = 5e4, UNLIKE = 4;
-
-// Errors of S below this are its rounding.
-static const double ERROR_LEAST = 1e-10;
 
 // S_r - S has no negative eigenvalue but for rounding. From this part of the allowed error on the
 // basis has lost too many digits.
@@ -80,58 +72,9 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The inertia at which the slowest mode of the interior is in balance, K x = slowest M x: inverse
-// iteration, x'M x = 1 before each.
-static bool find_slowest(Builder *work, InterfaceOperator *statics, double *slowest, Error *err)
-{
-    const BulkOperator *full = &work->basis.answers.full;
-    int32_t dofs = full->dof_count;
-    double *x = NEW_ARRAY(double, dofs, err), *rhs = NEW_ARRAY(double, dofs, err);
-    double *pull = NEW_ARRAY(double, full->interface_count, err);
-    if (!x || !rhs || !pull) goto cleanup;
-    for (int32_t k = 0; k < dofs; k++) x[k] = 1;
-    for (int32_t j = 0; j < full->interface_count; j++) x[full->interface_dofs[j]] = 0;
-    for (int32_t round = 0; round < SLOWEST_ITERATIONS; round++) {
-        answers_apply_mass(&work->basis.answers, x, rhs);
-        double size = sqrt(dense_dot(x, rhs, dofs));
-        for (int32_t k = 0; k < dofs; k++) rhs[k] /= size;
-        TRY(interface_operator_answer_held(statics, rhs, x, pull, err));
-        *slowest = 1 / dense_dot(x, rhs, dofs);
-    }
-cleanup:
-    memory_free(x);
-    memory_free(rhs);
-    memory_free(pull);
-    return error_is_clean(err);
-}
-
-// The largest K_jj / M_jj of the interface.
-static double find_element_inertia(const Builder *work)
-{
-    const Bulk *bulk = work->bulk;
-    const BulkScales *scales = &work->def->scales;
-    double largest = 0;
-    for (int32_t j = 0; j < work->basis.answers.full.interface_count; j++) {
-        int32_t dof = work->basis.answers.full.interface_dofs[j];
-        double stiffness = bulk->stiffness[sparse_entry(&bulk->pattern, dof, dof)];
-        largest = fmax(largest, stiffness / bulk->mass[dof] * scales->mass / scales->stiffness);
-    }
-    return largest;
-}
-
 static double allowed_error(const Builder *work, StripPoint point)
 {
-    double tolerance = work->def->tolerance, share = point.inertia / work->strip.element_inertia;
-    return fmax(tolerance * (tolerance + MESH_SHARE * share), ERROR_LEAST);
-}
-
-// The point as factors of the scene's own M, C and K.
-static OperatorTerms point_terms(const Builder *work, StripPoint point)
-{
-    const BulkScales *scales = &work->def->scales;
-    return (OperatorTerms){.mass = point.inertia / scales->mass,
-                           .damping = point.viscosity / scales->damping,
-                           .stiffness = (1 - point.viscosity) / scales->stiffness};
+    return strip_allowed(&work->strip, point, work->def->tolerance);
 }
 
 // Where few motions are above `allowed`, or none. In place of the next eigenvalue is a bound of it,
@@ -233,7 +176,8 @@ static bool condense_basis(Builder *work, StripPoint point, bool *definite, Erro
 static bool compare_at(Builder *work, StripPoint point, const double *schur, bool *negative,
                        Error *err)
 {
-    double allowed = allowed_error(work, point), least = -NEGATIVE_MAX * allowed - ERROR_LEAST;
+    double allowed = allowed_error(work, point);
+    double least = -NEGATIVE_MAX * allowed - strip_allowed(&work->strip, point, 0);
     bool definite = false;
     TRY(condense_basis(work, point, &definite, err));
     if (definite) TRY(compare(work, schur, allowed, least, err));
@@ -279,11 +223,13 @@ cleanup:
 static bool list_visits(Builder *work, double slowest, Error *err)
 {
     const Answers *answers = &work->basis.answers;
-    strip_list(&work->def->materials, &work->def->scales, slowest, find_element_inertia(work),
+    strip_list(&work->def->materials, &work->def->scales, slowest,
+               inertia_element(work->bulk, &work->def->scales, answers->full.interface_dofs,
+                               answers->full.interface_count),
                &work->basis.reduced->errors, &work->strip);
     work->basis.answers.inertia_least = slowest / 20;
     for (int32_t k = 0; k < work->strip.count; k++)
-        work->terms[k] = point_terms(work, work->strip.visits[k].point);
+        work->terms[k] = strip_terms(work->strip.visits[k].point, &work->def->scales);
     FactorsAheadDef def = {.bulk = work->bulk,
                            .interface_dofs = answers->full.interface_dofs,
                            .interface_count = answers->full.interface_count,
@@ -348,29 +294,74 @@ static bool is_uniform(const Materials *materials)
     return materials->count == 1 && fabs(log(times.volume / times.shear)) < log(UNLIKE);
 }
 
+// What is far from the interface comes back into the modes.
+static bool write_modes(Builder *work, const FarField *far, Error *err)
+{
+    ReducedBulk *reduced = work->basis.reduced;
+    TRY(basis_write_modes(&work->basis, err));
+    if (far->layer_count == 0) goto cleanup;
+    double *motions = reduced->modes, *modes = NULL;
+    int64_t size = far->mesh_dofs;
+    reduced->modes = modes = NEW_ARRAY(double, size * reduced->count, err);
+    if (modes) far_field_expand(far, motions, reduced->count, modes, err);
+    memory_free(motions);
+cleanup:
+    return error_is_clean(err);
+}
+
+// The far field's own error is part of what is allowed at each level; statics are the mesh's own.
+static void add_far_field(const Builder *work, const FarField *far)
+{
+    ReducedBulk *reduced = work->basis.reduced;
+    int64_t m = reduced->interface_count;
+    reduced->full_dofs = far->mesh_dofs;
+    memcpy(reduced->stiffness, far->stiffness, (size_t)(m * m) * sizeof(double));
+    for (int32_t level = 0; level < reduced->errors.count - 1; level++) {
+        StripPoint point = {.inertia = reduced->errors.inertia[level]};
+        reduced->errors.error[level] += far->error * allowed_error(work, point);
+    }
+}
+
+static bool build_on(Builder *work, const FarField *far, const int32_t *interface_dofs, int32_t m,
+                     ReducedBulk *reduced, Error *err)
+{
+    const ReductionDef *def = work->def;
+    InterfaceOperator *statics = NULL;
+    OperatorTerms terms = {.stiffness = 1 / def->scales.stiffness, .lift = true};
+    double slowest = 0;
+    TRY(builder_create(interface_dofs, m, reduced, work, err));
+    BulkOperator *full = &work->basis.answers.full;
+    if (!(statics = interface_operator_create(full, terms, err))) goto cleanup;
+    TRY(inertia_slowest(full, &def->scales, statics, &slowest, err));
+    TRY(list_visits(work, slowest, err));
+    work->basis.loss_max = is_uniform(&def->materials) ? LOSS_MAX : 0;
+    TRY(basis_start(&work->basis, statics, err));
+    TRY(visit_strip(work, err));
+    TRY(compare_beyond(work, err));
+    TRY(find_viscous(work, err));
+    TRY(reduced_bulk_narrow(reduced, work->basis.mix + m * work->basis.answers.count,
+                            work->basis.answers.count, err));
+    if (def->modes) TRY(write_modes(work, far, err));
+    if (far->layer_count > 0) add_far_field(work, far);
+cleanup:
+    interface_operator_destroy(statics);
+    return error_is_clean(err);
+}
+
 bool reduction_build(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
                      const ReductionDef *def, ReducedBulk *reduced, Error *err)
 {
     Builder work = {.bulk = bulk, .def = def};
-    InterfaceOperator *statics = NULL;
-    OperatorTerms terms = {.stiffness = 1 / def->scales.stiffness, .lift = true};
-    double slowest = 0;
+    FarFieldDef far_def = {def->tolerance, def->scales, def->materials};
+    FarField far = {0};
     *reduced = (ReducedBulk){.scales = def->scales};
-    TRY(builder_create(interface_dofs, interface_count, reduced, &work, err));
-    if (!(statics = interface_operator_create(&work.basis.answers.full, terms, err))) goto cleanup;
-    TRY(find_slowest(&work, statics, &slowest, err));
-    TRY(list_visits(&work, slowest, err));
-    work.basis.loss_max = is_uniform(&def->materials) ? LOSS_MAX : 0;
-    TRY(basis_start(&work.basis, statics, err));
-    TRY(visit_strip(&work, err));
-    TRY(compare_beyond(&work, err));
-    TRY(find_viscous(&work, err));
-    int64_t m = reduced->interface_count, answers = work.basis.answers.count;
-    TRY(reduced_bulk_narrow(reduced, work.basis.mix + m * answers, answers, err));
-    if (def->modes) TRY(basis_write_modes(&work.basis, err));
+    TRY(far_field_create(bulk, interface_dofs, interface_count, &far_def, &far, err));
+    if (far.layer_count > 0) work.bulk = &far.bulk;
+    TRY(build_on(&work, &far, far.layer_count > 0 ? far.interface_dofs : interface_dofs,
+                 interface_count, reduced, err));
 cleanup:
-    interface_operator_destroy(statics);
     builder_destroy(&work);
+    far_field_destroy(&far);
     if (!error_is_clean(err)) error_context(err, "while reducing the bulk");
     return error_is_clean(err);
 }

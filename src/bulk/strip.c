@@ -17,6 +17,14 @@ static const double LEVEL_RATIO = 100, LEVEL_LOWEST = 0.1, LEVEL_BEYOND = 1e6;
 // (With eta2 = eta1 in plane stress the two ends suffice elsewhere.)
 static const double VISCOSITY_RATIO = 2;
 
+// Where inertia acts within an element the mesh itself has an error, of about a quarter of
+// inertia's share (a thin layer in linear elements with lumped mass). A tolerance of 0.01 allows a
+// tenth of it.
+static const double MESH_SHARE = 2.5;
+
+// Errors of S below this are its rounding.
+static const double ERROR_LEAST = 1e-10;
+
 // Where regions differ in eta/E, C may be far softer or stiffer than K: slower and faster modes.
 static void widen(const Materials *materials, double unit, double *slowest, double *element_inertia)
 {
@@ -47,6 +55,45 @@ static double viscosity_at(double part, double volume, double shear)
     return (1 - quotient) / (1 - quotient + quotient * shear - volume);
 }
 
+// volume, shear: the viscous times of the two moduli, normalised, of all regions.
+static void normalised_times(const Materials *materials, const BulkScales *scales, double *volume,
+                             double *shear)
+{
+    ViscousTimes range = materials_viscous_range(materials);
+    double unit = scales->stiffness / scales->damping;
+    *volume = unit * range.volume;
+    *shear = unit * range.shear;
+}
+
+static int32_t viscosity_steps(double volume, double shear)
+{
+    double parts = ceil(fabs(log(volume / shear)) / log(VISCOSITY_RATIO));
+    return (int32_t)fmin(fmax(parts, 1), STRIP_VISCOSITIES_MAX - 1);
+}
+
+int32_t strip_viscosities(const Materials *materials, const BulkScales *scales, double *viscosity)
+{
+    double volume = 0, shear = 0;
+    normalised_times(materials, scales, &volume, &shear);
+    int32_t steps = viscosity_steps(volume, shear);
+    for (int32_t k = 0; k <= steps; k++)
+        viscosity[k] = viscosity_at((double)k / steps, volume, shear);
+    return steps + 1;
+}
+
+double strip_allowed(const Strip *strip, StripPoint point, double tolerance)
+{
+    double share = point.inertia / strip->element_inertia;
+    return fmax(tolerance * (tolerance + MESH_SHARE * share), ERROR_LEAST);
+}
+
+OperatorTerms strip_terms(StripPoint point, const BulkScales *scales)
+{
+    return (OperatorTerms){.mass = point.inertia / scales->mass,
+                           .damping = point.viscosity / scales->damping,
+                           .stiffness = (1 - point.viscosity) / scales->stiffness};
+}
+
 static void add(Strip *strip, const ReductionErrors *errors, double viscosity, int32_t level)
 {
     strip->visits[strip->count++] = (StripVisit){{viscosity, errors->inertia[level]}, level};
@@ -56,12 +103,11 @@ static void add(Strip *strip, const ReductionErrors *errors, double viscosity, i
 void strip_list(const Materials *materials, const BulkScales *scales, double slowest,
                 double element_inertia, ReductionErrors *errors, Strip *strip)
 {
-    ViscousTimes range = materials_viscous_range(materials);
-    double unit = scales->stiffness / scales->damping;
-    double volume = unit * range.volume, shear = unit * range.shear;
-    double parts = ceil(fabs(log(volume / shear)) / log(VISCOSITY_RATIO));
-    int32_t steps = (int32_t)fmin(fmax(parts, 1), STRIP_VISCOSITIES_MAX - 1);
-    if (materials->count > 1) widen(materials, unit, &slowest, &element_inertia);
+    double volume = 0, shear = 0;
+    normalised_times(materials, scales, &volume, &shear);
+    int32_t steps = viscosity_steps(volume, shear);
+    if (materials->count > 1)
+        widen(materials, scales->stiffness / scales->damping, &slowest, &element_inertia);
     list_levels(slowest, element_inertia, errors);
     *strip = (Strip){.element_inertia = element_inertia};
     for (int32_t pass = 0; pass < 2; pass++) {

@@ -4,8 +4,8 @@
 #ifndef AMONTONS_BULK_STRIP_H
 #define AMONTONS_BULK_STRIP_H
 
+#include "bulk/interface_operator.h"
 #include "bulk/material.h"
-#include "bulk/reduced_bulk.h"
 
 // A = (1 - viscosity) K + viscosity C + inertia M, normalised.
 typedef struct StripPoint {
@@ -32,5 +32,15 @@ typedef struct Strip {
 // the largest K/M of one unknown. Fills the levels of `errors`, too.
 void strip_list(const Materials *materials, const BulkScales *scales, double slowest,
                 double element_inertia, ReductionErrors *errors, Strip *strip);
+
+// What the ends and steps in viscosity are: viscosity [STRIP_VISCOSITIES_MAX] ascending; their
+// number.
+int32_t strip_viscosities(const Materials *materials, const BulkScales *scales, double *viscosity);
+
+// The relative error of S that is allowed at a point; at a tolerance of 0 that of rounding.
+double strip_allowed(const Strip *strip, StripPoint point, double tolerance);
+
+// The point as factors of the scene's own M, C and K.
+OperatorTerms strip_terms(StripPoint point, const BulkScales *scales);
 
 #endif

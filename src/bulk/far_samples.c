@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Answers are asked at rest with all viscosities of the strip, elastic and viscous, then in turns
+// at inertias 10 apart, as far up as inertia leaves something of them far from the interface.
+#include "bulk/far_samples.h"
+
+#include "base/dense.h"
+#include "base/memory.h"
+#include "bulk/factors_ahead.h"
+#include "bulk/inertias.h"
+
+#include <math.h>
+#include <string.h>
+
+// Motions asked at once; where fewer than NEW_SHARE of them are new to each layer no more are asked
+// at a point.
+enum { CHUNK = 24 };
+static const double NEW_SHARE = 0.75;
+
+// The energy of what a random motion, of energy 1, may lack: a part of tolerance^2, and at rest.
+// What all motions lack adds up in it, so that the worst lacks less.
+static const double LEAST = 0.25, LEAST_AT_REST = 1e-11;
+
+static const double INERTIA_STEP = 10;
+
+// e^-5 of an answer has come through the elements between at most, where inertia is asked last.
+static const double FALLEN = 5;
+
+// Of the mean diagonal: S of K alone is lifted by it, where rigid motions cost nothing.
+static const double LIFT = 1;
+
+enum { LEVELS_MAX = 10, POINTS_MAX = STRIP_VISCOSITIES_MAX * LEVELS_MAX + 1 };
+
+typedef struct Sampling {
+    const Bulk *bulk;
+    const FarFieldDef *def;
+    FarSamples *samples;   // not owned
+    BulkOperator mesh;
+    InterfaceOperator *statics;
+    StripPoint points[POINTS_MAX];   // [count], then that at which nothing is asked
+    OperatorTerms terms[POINTS_MAX];
+    int32_t count;
+    FactorsAhead *ahead;
+    double *lower;   // [m^2] Cholesky factor of S
+    double *asked;   // [m * CHUNK] motions of the interface
+    double *fields, *rows;   // [dofs * (CHUNK + 1)] answers, those of a layer
+    uint64_t drawn;   // random numbers
+} Sampling;
+
+static void sampling_destroy(Sampling *work)
+{
+    factors_ahead_destroy(work->ahead);
+    interface_operator_destroy(work->statics);
+    bulk_operator_destroy(&work->mesh);
+    memory_free(work->lower);
+    memory_free(work->asked);
+    memory_free(work->fields);
+    memory_free(work->rows);
+}
+
+void far_samples_destroy(FarSamples *samples)
+{
+    memory_free(samples->stiffness);
+    memory_free(samples->schur);
+    *samples = (FarSamples){0};
+}
+
+// 1 or -1 (Steele, Lea, Flood, OOPSLA 2014: splitmix64).
+static double draw_sign(uint64_t *drawn)
+{
+    uint64_t z = ++*drawn * 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return (z ^ (z >> 31)) >> 63 ? 1 : -1;
+}
+
+static void add_point(Sampling *work, StripPoint point)
+{
+    work->points[work->count] = point;
+    work->terms[work->count++] = strip_terms(point, &work->def->scales);
+}
+
+// Those beyond rest and K alone, and the one at which the error is measured: half way up, with the
+// other viscosity.
+static void list_points(Sampling *work, double lowest, double element_inertia)
+{
+    double viscosity[STRIP_VISCOSITIES_MAX];
+    int32_t ends = strip_viscosities(&work->def->materials, &work->def->scales, viscosity);
+    double top = element_inertia * pow(FALLEN / work->samples->distance, 2);
+    int32_t levels = 1 +
+                     (int32_t)fmin(fmax(log(top / lowest) / log(INERTIA_STEP), 1), LEVELS_MAX - 1);
+    for (int32_t level = 0; level < levels; level++)
+        for (int32_t k = level == 0 ? 1 : (level + 1) % 2; k < ends; k += level == 0 ? 1 : 2)
+            add_point(work, (StripPoint){viscosity[k], lowest * pow(INERTIA_STEP, level)});
+    int32_t half = levels / 2;
+    add_point(work, (StripPoint){viscosity[half % 2 ? 1 : 0], lowest * pow(INERTIA_STEP, half)});
+    work->count--;
+}
+
+static bool sampling_begin(const int32_t *interface_dofs, int32_t m, Sampling *work, Error *err)
+{
+    FarSamples *samples = work->samples;
+    const Bulk *bulk = work->bulk;
+    const BulkScales *scales = &work->def->scales;
+    OperatorTerms terms = {.stiffness = 1 / scales->stiffness, .lift = true};
+    ReductionErrors levels = {0};
+    Strip strip;
+    double slowest = 0, element = inertia_element(bulk, scales, interface_dofs, m);
+    TRY(bulk_operator_create(bulk, NULL, interface_dofs, m, &work->mesh, err));
+    work->statics = interface_operator_create(&work->mesh, terms, err);
+    if (!work->statics) goto cleanup;
+    TRY(inertia_slowest(&work->mesh, scales, work->statics, &slowest, err));
+    strip_list(&work->def->materials, scales, slowest, element, &levels, &strip);
+    list_points(work, levels.inertia[0], strip.element_inertia);
+    samples->terms = work->terms[work->count];
+    samples->allowed = strip_allowed(&strip, work->points[work->count], work->def->tolerance);
+    FactorsAheadDef def = {.bulk = bulk,
+                           .interface_dofs = interface_dofs,
+                           .interface_count = m,
+                           .load = bulk->load,
+                           .terms = work->terms,
+                           .count = work->count + 1};
+    TRY(factors_ahead_create(&def, &work->ahead, err));
+    for (int32_t k = 0; k < work->samples->layer_count; k++)
+        TRY(far_motions_begin(bulk, scales->stiffness, work->samples->layers[k], err));
+    samples->stiffness = NEW_ARRAY(double, (int64_t)m *m, err);
+    samples->schur = NEW_ARRAY(double, (int64_t)m *m, err);
+    work->lower = NEW_ARRAY(double, (int64_t)m *m, err);
+    work->asked = NEW_ARRAY(double, (int64_t)m *CHUNK, err);
+    work->fields = NEW_ARRAY(double, (int64_t)bulk->dof_count *(CHUNK + 1), err);
+    work->rows = NEW_ARRAY(double, (int64_t)bulk->dof_count *(CHUNK + 1), err);
+cleanup:
+    return error_is_clean(err);
+}
+
+// The answer to the load, of energy 1, behind the others; 0: there is no load.
+static int32_t take_load(const Sampling *work, const double *held)
+{
+    int32_t dofs = work->bulk->dof_count;
+    double energy = dense_dot(work->bulk->load, held, dofs);
+    double *out = work->fields + (int64_t)CHUNK * dofs;
+    if (!(energy > 0)) return 0;
+    for (int32_t i = 0; i < dofs; i++) out[i] = held[i] / sqrt(energy);
+    return 1;
+}
+
+// *wanted: some layer has found much that is new.
+static bool add_to_layers(Sampling *work, int32_t columns, double least, bool *wanted, Error *err)
+{
+    int32_t dofs = work->bulk->dof_count, added = 0;
+    *wanted = false;
+    for (int32_t k = 0; k < work->samples->layer_count; k++) {
+        FarMotions *layer = work->samples->layers[k];
+        for (int64_t j = 0; j < columns; j++)
+            for (int64_t i = 0; i < layer->size; i++)
+                work->rows[j * layer->size + i] = work->fields[j * dofs + layer->dofs[i]];
+        TRY(far_motions_add(layer, work->rows, columns, least, &added, err));
+        *wanted = *wanted || added > NEW_SHARE * columns;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// Motions of energy 1 on average, of S = L L': L^-T times signs.
+static bool sample(Sampling *work, InterfaceOperator *full, const double *held, double least,
+                   Error *err)
+{
+    int32_t m = work->mesh.interface_count;
+    bool wanted = true;
+    // m motions are all there are.
+    for (int32_t loads = take_load(work, held), asked = 0; wanted && asked < m; asked += CHUNK) {
+        for (int32_t k = 0; k < m * CHUNK; k++) work->asked[k] = draw_sign(&work->drawn);
+        for (int32_t j = 0; j < CHUNK; j++)
+            dense_lower_solve_transposed(work->lower, m, work->asked + (int64_t)j * m);
+        TRY(interface_operator_answer(full, work->asked, CHUNK, work->fields, err));
+        TRY(add_to_layers(work, CHUNK + loads, least, &wanted, err));
+        loads = 0;
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool factor_schur(Sampling *work, const double *schur, double lift, Error *err)
+{
+    int64_t m = work->mesh.interface_count;
+    double sum = 0;
+    memcpy(work->lower, schur, (size_t)(m * m) * sizeof *schur);
+    for (int64_t j = 0; j < m; j++) sum += schur[j * (m + 1)];
+    for (int64_t j = 0; j < m; j++) work->lower[j * (m + 1)] += lift * sum / (double)m;
+    if (!dense_cholesky(work->lower, (int32_t)m))
+        FAIL(err, ERROR_COMPUTE, "the interface operator is not positive definite");
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool sample_statics(Sampling *work, Error *err)
+{
+    double *held = NEW_ARRAY(double, work->bulk->dof_count, err);
+    double *pull = NEW_ARRAY(double, work->mesh.interface_count, err);
+    if (!held || !pull) goto cleanup;
+    TRY(interface_operator_answer_held(work->statics, work->bulk->load, held, pull, err));
+    TRY(factor_schur(work, interface_operator_schur(work->statics), LIFT, err));
+    TRY(sample(work, work->statics, held, LEAST_AT_REST, err));
+cleanup:
+    memory_free(held);
+    memory_free(pull);
+    return error_is_clean(err);
+}
+
+bool far_samples_take(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
+                      const FarFieldDef *def, FarSamples *samples, Error *err)
+{
+    Sampling work = {.bulk = bulk, .def = def, .samples = samples};
+    double least = LEAST * def->tolerance * def->tolerance;
+    size_t square = (size_t)interface_count * (size_t)interface_count * sizeof(double);
+    FactoredPoint point;
+    TRY(sampling_begin(interface_dofs, interface_count, &work, err));
+    memcpy(samples->stiffness, interface_operator_schur(work.statics), square);
+    TRY(sample_statics(&work, err));
+    for (int32_t k = 0; k < work.count; k++) {
+        TRY(factors_ahead_next(work.ahead, &point, err));
+        TRY(factor_schur(&work, interface_operator_schur(point.full), 0, err));
+        TRY(sample(&work, point.full, point.held, least, err));
+    }
+    TRY(factors_ahead_next(work.ahead, &point, err));
+    memcpy(samples->schur, interface_operator_schur(point.full), square);
+cleanup:
+    sampling_destroy(&work);
+    return error_is_clean(err);
+}
+
+bool far_samples_compare(const FarSamples *samples, const Bulk *bulk, const int32_t *interface_dofs,
+                         int32_t interface_count, double *error, Error *err)
+{
+    int32_t m = interface_count;
+    int64_t entries = (int64_t)m * m;
+    BulkOperator system = {0};
+    InterfaceOperator *condensed = NULL;
+    double *excess = NEW_ARRAY(double, entries, err), *lower = NEW_ARRAY(double, entries, err);
+    double *work = NEW_ARRAY(double, dense_eigen_work(m), err), *values = NEW_ARRAY(double, m, err);
+    if (!error_is_clean(err)) goto cleanup;
+    TRY(bulk_operator_create(bulk, NULL, interface_dofs, m, &system, err));
+    condensed = interface_operator_create(&system, samples->terms, err);
+    if (!condensed) goto cleanup;
+    memcpy(excess, interface_operator_schur(condensed), (size_t)entries * sizeof *excess);
+    memcpy(lower, samples->schur, (size_t)entries * sizeof *lower);
+    dense_add_scaled(-1, samples->schur, m * m, excess);
+    if (!dense_cholesky(lower, m))
+        FAIL(err, ERROR_COMPUTE, "the interface operator is not positive definite");
+    dense_divide_both_sides(lower, m, excess);
+    if (!dense_eigen(excess, m, values, work)) FAIL(err, ERROR_LIBRARY, "LAPACK: no eigenvalues");
+    *error = fmax(fabs(values[0]), fabs(values[m - 1])) / samples->allowed;
+cleanup:
+    interface_operator_destroy(condensed);
+    bulk_operator_destroy(&system);
+    memory_free(excess);
+    memory_free(lower);
+    memory_free(work);
+    memory_free(values);
+    return error_is_clean(err);
+}

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Motions of what is far from the interface, from answers of the whole mesh to motions of the
+// interface drawn at random (Halko, Martinsson, Tropp, SIAM Review 53, 2011; for substructures:
+// Buhr and Smetana, SIAM J. Sci. Comput. 40, 2018). Used by bulk/far_field alone.
+#ifndef AMONTONS_BULK_FAR_SAMPLES_H
+#define AMONTONS_BULK_FAR_SAMPLES_H
+
+#include "bulk/far_motions.h"
+#include "bulk/strip.h"
+
+typedef struct FarFieldDef {
+    double tolerance;   // of the reduction
+    BulkScales scales;
+    Materials materials;
+} FarFieldDef;
+
+// What the whole mesh says, of which the first three lines are given.
+typedef struct FarSamples {
+    int32_t distance;   // elements between the interface and the first layer
+    int32_t layer_count;
+    FarMotions *const *layers;   // [layer_count] begun and filled; not owned
+    double *stiffness;   // [interface_count^2] S of K/E; owned
+    double *schur;   // [interface_count^2] S at a point where nothing was asked; owned
+    OperatorTerms terms;   // of that point
+    double allowed;   // error of it
+} FarSamples;
+
+bool far_samples_take(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
+                      const FarFieldDef *def, FarSamples *samples, Error *err);
+// *error: the largest relative one of S of `bulk` at that point, over what is allowed.
+bool far_samples_compare(const FarSamples *samples, const Bulk *bulk, const int32_t *interface_dofs,
+                         int32_t interface_count, double *error, Error *err);
+void far_samples_destroy(FarSamples *samples);
+
+#endif
