@@ -81,25 +81,33 @@ void sparse_apply(const SparsePattern *pattern, const double *values, const doub
     }
 }
 
-// Eight columns share one pass, their entries of a row side by side.
+// `wide` columns share a pass, their entries of a row side by side; a constant where inlined.
+static inline void apply_together(const SparsePattern *pattern, const double *values,
+                                  const double *x, int wide, double *y, double *work)
+{
+    const int32_t *start = pattern->start, *index = pattern->index;
+    int64_t size = pattern->size;
+    for (int64_t row = 0; row < size; row++)
+        for (int j = 0; j < wide; j++) work[row * wide + j] = x[j * size + row];
+    for (int64_t row = 0; row < size; row++) {
+        double sum[SPARSE_WIDE] = {0};
+        for (int32_t k = start[row]; k < start[row + 1]; k++) {
+            const double *from = work + (int64_t)index[k] * wide;
+            for (int j = 0; j < wide; j++) sum[j] += values[k] * from[j];
+        }
+        for (int j = 0; j < wide; j++) y[j * size + row] = sum[j];
+    }
+}
+
 void sparse_apply_many(const SparsePattern *pattern, const double *values, const double *x,
                        int64_t columns, double *y, double *work)
 {
-    enum { WIDE = SPARSE_WIDE };
-    const int32_t *start = pattern->start, *index = pattern->index;
+    enum { WIDE = SPARSE_WIDE, HALF = WIDE / 2 };
     int64_t size = pattern->size, column = 0;
-    for (; column + WIDE <= columns; column += WIDE) {
-        for (int64_t row = 0; row < size; row++)
-            for (int j = 0; j < WIDE; j++) work[row * WIDE + j] = x[(column + j) * size + row];
-        for (int64_t row = 0; row < size; row++) {
-            double sum[WIDE] = {0};
-            for (int32_t k = start[row]; k < start[row + 1]; k++) {
-                const double *from = work + (int64_t)index[k] * WIDE;
-                for (int j = 0; j < WIDE; j++) sum[j] += values[k] * from[j];
-            }
-            for (int j = 0; j < WIDE; j++) y[(column + j) * size + row] = sum[j];
-        }
-    }
+    for (; column + WIDE <= columns; column += WIDE)
+        apply_together(pattern, values, x + column * size, WIDE, y + column * size, work);
+    for (; column + HALF <= columns; column += HALF)
+        apply_together(pattern, values, x + column * size, HALF, y + column * size, work);
     for (; column < columns; column++)
         sparse_apply(pattern, values, x + column * size, y + column * size);
 }

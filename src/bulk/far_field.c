@@ -9,7 +9,7 @@
 
 // Elements between the interface and the first layer, and the layers' own depths together; below
 // FAR_SHARE of all unknowns nothing is replaced.
-enum { FAR_DISTANCE = 24 };
+enum { FAR_DISTANCE = 20 };
 static const double FAR_SHARE = 0.4;
 
 // Of what is allowed: a larger error of S and all is done on the whole mesh.

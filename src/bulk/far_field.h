@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What is far from the interface moves in few ways only: a motion of wave number k has fallen by
 // exp(-k d) at a distance d. So unknowns far from it are replaced by those few motions, layer by
-// layer, each twice as deep as the one before, and the reduction works on 24 rows of elements
+// layer, each twice as deep as the one before, and the reduction works on 20 rows of elements
 // and a few dense blocks, whatever the block's height:
 //
 //     u = [ 1          ] [ u_near ]     K, C = [ sparse  K01 F1             ]

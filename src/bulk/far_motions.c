@@ -11,11 +11,11 @@
 enum { TOGETHER = 48 };   // columns whose image is formed at once
 
 // Of the largest energy of some fields: what has less is looked at again when the others are taken
-// out, or half of its digits would be lost.
-static const double DIGITS = 1e-8;
+// out, or most of its digits would be lost.
+static const double DIGITS = 1e-10;
 
 // Of the squares of some fields: taken out once more where less is left.
-static const double LITTLE = 1e-4;
+static const double LITTLE = 1e-8;
 
 void far_motions_destroy(FarMotions *motions)
 {
@@ -25,6 +25,9 @@ void far_motions_destroy(FarMotions *motions)
     memory_free(motions->damping);
     memory_free(motions->field);
     memory_free(motions->image);
+    memory_free(motions->next);
+    memory_free(motions->work[0]);
+    memory_free(motions->work[1]);
     *motions = (FarMotions){0};
 }
 
@@ -57,6 +60,11 @@ static bool copy_matrices(const Bulk *bulk, const int32_t *place, double unit, F
 
 bool far_motions_begin(const Bulk *bulk, double unit, FarMotions *motions, Error *err)
 {
+    int64_t size = motions->size;
+    motions->next = NEW_ARRAY(double, size * motions->columns_max, err);
+    for (int which = 0; which < 2; which++)
+        motions->work[which] = NEW_ARRAY(double, size *SPARSE_WIDE, err);
+    if (!error_is_clean(err)) return false;
     int32_t *place = NEW_ARRAY(int32_t, bulk->dof_count, err);
     if (!place) return false;
     for (int32_t k = 0; k < bulk->dof_count; k++) place[k] = -1;
@@ -103,7 +111,6 @@ typedef struct Remainder {
     int32_t added;
     bool again;   // some have few digits
     double *parts;   // [count * columns] work
-    double *work[2];   // [size * SPARSE_WIDE]
 } Remainder;
 
 static void take_out_half(void *context, int32_t which)
@@ -123,7 +130,7 @@ static void take_out_half(void *context, int32_t which)
         again = after > 0 && after < LITTLE * before;
     }
     sparse_apply_many(&motions->pattern, motions->stiffness, fields, end - first,
-                      all->image + first * size, all->work[which]);
+                      all->image + first * size, motions->work[which]);
 }
 
 // New columns of F and its image: those of `fields` times eigenvectors of their energies.
@@ -160,26 +167,21 @@ cleanup:
 bool far_motions_add(FarMotions *motions, double *fields, int32_t columns, double least,
                      int32_t *added, Error *err)
 {
-    int64_t size = motions->size;
     if (!make_room(motions, columns, err)) return false;
     Remainder all = {.motions = motions,
                      .columns = columns,
                      .least = least,
                      .fields = fields,
-                     .image = NEW_ARRAY(double, size *columns, err),
+                     .image = motions->next,
                      .parts = NEW_ARRAY(double, (int64_t)motions->room *columns, err)};
-    for (int which = 0; which < 2; which++)
-        all.work[which] = NEW_ARRAY(double, size *SPARSE_WIDE, err);
-    if (!error_is_clean(err)) goto cleanup;
+    if (!all.parts) goto cleanup;
     do {
         share_in_two(take_out_half, &all);
         TRY(take_up(motions, &all, err));
     } while (all.again && all.added < columns);
     *added = all.added;
 cleanup:
-    memory_free(all.image);
     memory_free(all.parts);
-    for (int which = 0; which < 2; which++) memory_free(all.work[which]);
     return error_is_clean(err);
 }
 
@@ -190,7 +192,6 @@ typedef struct Projection {
     const double *mass;
     double *const *square;
     double *image[2];   // [size * TOGETHER]
-    double *work[2];   // [size * SPARSE_WIDE]
 } Projection;
 
 static void project_half(void *context, int32_t which)
@@ -207,7 +208,7 @@ static void project_half(void *context, int32_t which)
         dense_multiply_transposed_rows(rest, view(motions->image + from * size, size, columns),
                                        all->square[BULK_STIFFNESS] + at, count);
         sparse_apply_many(&motions->pattern, motions->damping, field, columns, image,
-                          all->work[which]);
+                          motions->work[which]);
         dense_multiply_transposed_rows(rest, part, all->square[BULK_DAMPING] + at, count);
         for (int64_t j = 0; j < columns; j++)
             for (int64_t i = 0; i < size; i++)
@@ -227,17 +228,12 @@ bool far_motions_project(const FarMotions *motions, const double *mass, double *
 {
     int64_t size = motions->size;
     Projection all = {.motions = motions, .mass = mass, .square = square};
-    for (int which = 0; which < 2; which++) {
+    for (int which = 0; which < 2; which++)
         all.image[which] = NEW_ARRAY(double, size *TOGETHER, err);
-        all.work[which] = NEW_ARRAY(double, size *SPARSE_WIDE, err);
-    }
     if (!error_is_clean(err)) goto cleanup;
     share_in_two(project_half, &all);
     for (int term = 0; term < 3; term++) mirror(square[term], motions->count);
 cleanup:
-    for (int which = 0; which < 2; which++) {
-        memory_free(all.image[which]);
-        memory_free(all.work[which]);
-    }
+    for (int which = 0; which < 2; which++) memory_free(all.image[which]);
     return error_is_clean(err);
 }

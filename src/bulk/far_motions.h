@@ -15,9 +15,12 @@ typedef struct FarMotions {
     int32_t count, room;   // columns
     double *field;   // [size * room] F, F'(K/E)F = 1
     double *image;   // [size * room] (K/E) F
+    int32_t columns_max;   // of fields at once
+    double *next;   // [size * columns_max] work: their image
+    double *work[2];   // [size * SPARSE_WIDE] of two threads
 } FarMotions;
 
-// None yet. motions->dofs and size are set, by far_field; unit: E.
+// None yet. motions->dofs and size are set, by far_field, columns_max by far_samples; unit: E.
 bool far_motions_begin(const Bulk *bulk, double unit, FarMotions *motions, Error *err);
 void far_motions_destroy(FarMotions *motions);
 

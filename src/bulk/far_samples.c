@@ -120,8 +120,10 @@ static bool sampling_begin(const int32_t *interface_dofs, int32_t m, Sampling *w
                            .terms = work->terms,
                            .count = work->count + 1};
     TRY(factors_ahead_create(&def, &work->ahead, err));
-    for (int32_t k = 0; k < work->samples->layer_count; k++)
-        TRY(far_motions_begin(bulk, scales->stiffness, work->samples->layers[k], err));
+    for (int32_t k = 0; k < samples->layer_count; k++) {
+        samples->layers[k]->columns_max = CHUNK + 1;
+        TRY(far_motions_begin(bulk, scales->stiffness, samples->layers[k], err));
+    }
     samples->stiffness = NEW_ARRAY(double, (int64_t)m *m, err);
     samples->schur = NEW_ARRAY(double, (int64_t)m *m, err);
     work->lower = NEW_ARRAY(double, (int64_t)m *m, err);

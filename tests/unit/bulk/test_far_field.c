@@ -6,8 +6,8 @@
 #include "reduced_block.h"
 
 static const Material MATERIAL = {.young = 2, .poisson = 0.3, .density = 3, .eta1 = 1, .eta2 = 0.5};
-// 130 and 200 rows: 41 and 100 elements from the rod to the top.
-static const BlockDef WIDE = {.kind = ELEMENT_Q4, .nx = 24, .nz = 130, .length = 2, .height = 1.5};
+// 110 and 200 rows: 55 and 100 elements from the rod to the top.
+static const BlockDef WIDE = {.kind = ELEMENT_Q4, .nx = 24, .nz = 110, .length = 2, .height = 1.3};
 static const BlockDef TALL = {.kind = ELEMENT_Q4, .nx = 8, .nz = 200, .length = 1, .height = 2};
 static const double LOAD = 0.003, TOLERANCE = 1e-2;
 
