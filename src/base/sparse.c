@@ -85,14 +85,12 @@ void sparse_apply(const SparsePattern *pattern, const double *values, const doub
 static inline void apply_together(const SparsePattern *pattern, const double *values,
                                   const double *x, int wide, double *y, double *work)
 {
-    const int32_t *start = pattern->start, *index = pattern->index;
     int64_t size = pattern->size;
-    for (int64_t row = 0; row < size; row++)
-        for (int j = 0; j < wide; j++) work[row * wide + j] = x[j * size + row];
+    for (int64_t k = 0; k < size * wide; k++) work[k] = x[k % wide * size + k / wide];
     for (int64_t row = 0; row < size; row++) {
         double sum[SPARSE_WIDE] = {0};
-        for (int32_t k = start[row]; k < start[row + 1]; k++) {
-            const double *from = work + (int64_t)index[k] * wide;
+        for (int32_t k = pattern->start[row]; k < pattern->start[row + 1]; k++) {
+            const double *from = work + (int64_t)pattern->index[k] * wide;
             for (int j = 0; j < wide; j++) sum[j] += values[k] * from[j];
         }
         for (int j = 0; j < wide; j++) y[j * size + row] = sum[j];
