@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Answers are asked at rest with all viscosities of the strip, elastic and viscous, then in turns
-// at inertias 10 apart, as far up as inertia leaves something of them far from the interface.
+// at inertias 6 apart, as far up as inertia leaves something of them far from the interface.
 #include "bulk/far_samples.h"
 
 #include "base/dense.h"
@@ -20,7 +20,7 @@ static const double NEW_SHARE = 0.75;
 // What all motions lack adds up in it, so that the worst lacks less.
 static const double LEAST = 0.25, LEAST_AT_REST = 1e-11;
 
-static const double INERTIA_STEP = 10;
+static const double INERTIA_STEP = 6;
 
 // e^-5 of an answer has come through the elements between at most, where inertia is asked last.
 static const double FALLEN = 5;

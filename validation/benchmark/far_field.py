@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """How many motions does the bulk need far from the interface? Figure 1 on n x n cells, in numpy and without the program.
 
-    validation/benchmark/far_field.py [--cells 40] [--distance 8 12 16 24] [--least 0.25] [--at-rest 1e-11] [--step 10]
+    validation/benchmark/far_field.py [--cells 40] [--distance 8 12 16 24] [--least 0.25] [--at-rest 1e-11] [--step 6]
                                       [--chunk 24] [--share 0.75]
 
 Unknowns farther than `distance` elements from the interface become motions, as src/bulk/far_samples.c finds them, in one layer:
@@ -136,7 +136,7 @@ def main():
     parser.add_argument("--distance", type=int, nargs="+", default=[8, 12, 16, 24])
     parser.add_argument("--least", type=float, default=0.25)
     parser.add_argument("--at-rest", type=float, default=1e-11)
-    parser.add_argument("--step", type=float, default=10)
+    parser.add_argument("--step", type=float, default=6)
     parser.add_argument("--chunk", type=int, default=24)
     parser.add_argument("--share", type=float, default=0.75)
     given = parser.parse_args()
