@@ -17,7 +17,6 @@ enum { ROWS_CACHED = 65536, ROWS_STEP = 16 };
 // Vectors are found one by one where this times as many are fewer than all.
 enum { MANY = 6 };
 
-// Symmetric: [size] and [size - 1] entries.
 typedef struct DenseTridiagonal {
     int32_t size;
     double *diagonal, *beside;
@@ -344,11 +343,12 @@ void dense_add_square(DenseView a, double *c)
                 c, a.rows);
 }
 
-void dense_multiply_transposed_rows(DenseView a, DenseView b, double *c, int64_t stride)
+void dense_multiply_transposed_rows(DenseView a, DenseView b, double factor, double keep, double *c,
+                                    int64_t stride)
 {
     if (a.columns == 0 || b.columns == 0 || a.rows == 0) return;
-    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, a.columns, b.columns, a.rows, 1, a.values,
-                a.rows, b.values, b.rows, 0, c, (int)stride);
+    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, a.columns, b.columns, a.rows, factor,
+                a.values, a.rows, b.values, b.rows, keep, c, (int)stride);
 }
 
 void dense_multiply_rows(DenseView a, const double *b, int64_t stride, int64_t columns,

@@ -17,6 +17,7 @@ struct Worker {
     pthread_cond_t changed;
     int64_t given, done;   // jobs
     bool ends;
+    int64_t sound;   // jobs done before one failed
     Error failure;   // of the first job that failed
 };
 
@@ -32,6 +33,7 @@ static void do_job(Worker *worker)
     pthread_mutex_lock(&worker->lock);
     if (works) worker->failure = failure;
     worker->done++;
+    if (error_is_clean(&worker->failure)) worker->sound = worker->done;
     pthread_cond_broadcast(&worker->changed);
 }
 
@@ -79,11 +81,10 @@ bool worker_wait_for(Worker *worker, int64_t jobs, Error *err)
 {
     pthread_mutex_lock(&worker->lock);
     while (worker->done < jobs) pthread_cond_wait(&worker->changed, &worker->lock);
-    Error failure = worker->failure;
+    bool failed = worker->sound < jobs;
+    if (failed) *err = worker->failure;
     pthread_mutex_unlock(&worker->lock);
-    if (error_is_clean(&failure)) return true;
-    *err = failure;
-    return false;
+    return !failed;
 }
 
 bool worker_slot(Worker *worker, int32_t *slot, Error *err)

@@ -26,7 +26,8 @@ typedef struct WorkerDef {
 } WorkerDef;
 
 bool worker_create(const WorkerDef *def, Worker **worker, Error *err);
-// The slot to fill for the next job, once it is free. false: an earlier job failed, here and below.
+// The slot to fill for the next job, once it is free. false: one that is waited for failed, here
+// and below.
 bool worker_slot(Worker *worker, int32_t *slot, Error *err);
 void worker_submit(Worker *worker);
 bool worker_wait(Worker *worker, Error *err);   // until every job is done

@@ -141,7 +141,7 @@ static void multiply_columns(const Multiplication *all, int32_t which, int64_t f
                       answers->work[which], answers->image[which]);
             imaged = true;
             dense_multiply_transposed_rows(
-                view(block->field + first * dofs, dofs, block->count - first), image,
+                view(block->field + first * dofs, dofs, block->count - first), image, 1, 0,
                 all->gram[term] + from * rows + block->first + first, rows);
         }
     }
@@ -257,7 +257,7 @@ void answers_project(const Answers *answers, BulkTerm term, const double *z, int
     for (int32_t k = 0; k < answers->block_count; k++) {
         const AnswerBlock *block = &answers->blocks[k];
         dense_multiply_transposed_rows(view(block->field, dofs, block->count),
-                                       view(image, dofs, columns), product + block->first,
+                                       view(image, dofs, columns), 1, 0, product + block->first,
                                        answers->count);
     }
 }

@@ -390,6 +390,11 @@ bool far_field_create(const Bulk *bulk, const int32_t *interface_dofs, int32_t i
     TRY(divide(interface_dofs, interface_count, &work, err));
     if (far->layer_count > 0) TRY(replace(interface_dofs, interface_count, def, &work, err));
 cleanup:
+    // The whole mesh is tried then, and says what is wrong.
+    if (err->code == ERROR_COMPUTE) {
+        far->layer_count = 0;
+        error_clear(err);
+    }
     assembly_destroy(&work);
     if (!error_is_clean(err)) error_context(err, "far from the interface");
     return error_is_clean(err);

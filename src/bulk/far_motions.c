@@ -11,11 +11,11 @@
 enum { TOGETHER = 48 };   // columns whose image is formed at once
 
 // Of the largest energy of some fields: what has less is looked at again when the others are taken
-// out, or most of its digits would be lost.
-static const double DIGITS = 1e-10;
+// out, or half of its digits would be lost.
+static const double DIGITS = 1e-8;
 
 // Of the squares of some fields: taken out once more where less is left.
-static const double LITTLE = 1e-8;
+static const double LITTLE = 1e-4;
 
 void far_motions_destroy(FarMotions *motions)
 {
@@ -205,15 +205,15 @@ static void project_half(void *context, int32_t which)
                 at = from * (count + 1);
         const double *field = motions->field + from * size;
         DenseView rest = view(field, size, count - from), part = view(image, size, columns);
-        dense_multiply_transposed_rows(rest, view(motions->image + from * size, size, columns),
-                                       all->square[BULK_STIFFNESS] + at, count);
+        dense_multiply_transposed_rows(rest, view(motions->image + from * size, size, columns), 1,
+                                       0, all->square[BULK_STIFFNESS] + at, count);
         sparse_apply_many(&motions->pattern, motions->damping, field, columns, image,
                           motions->work[which]);
-        dense_multiply_transposed_rows(rest, part, all->square[BULK_DAMPING] + at, count);
+        dense_multiply_transposed_rows(rest, part, 1, 0, all->square[BULK_DAMPING] + at, count);
         for (int64_t j = 0; j < columns; j++)
             for (int64_t i = 0; i < size; i++)
                 image[j * size + i] = all->mass[motions->dofs[i]] * field[j * size + i];
-        dense_multiply_transposed_rows(rest, part, all->square[BULK_MASS] + at, count);
+        dense_multiply_transposed_rows(rest, part, 1, 0, all->square[BULK_MASS] + at, count);
     }
 }
 

@@ -29,12 +29,6 @@ bool basis_extend(GrowingBasis *basis, Error *err);
 // again: rounding that products of answers brought in goes.
 bool basis_renew(GrowingBasis *basis, int32_t first, Error *err);
 
-// The basis's own answers with A the sum of factor[term] times K/E, C/eta, M/(rho L^2): schur
-// [interface^2], and the energy of that to the unit load, the interface at rest. *definite: false,
-// and nothing else, where rounding left A of the interior with a negative eigenvalue.
-bool basis_condense(const GrowingBasis *basis, const double *factor, double *schur, double *energy,
-                    bool *definite, Error *err);
-
 // Fills reduced->modes, [dofs * count].
 bool basis_write_modes(GrowingBasis *basis, Error *err);
 

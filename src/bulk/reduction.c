@@ -15,6 +15,7 @@
 #include "base/dense.h"
 #include "base/largest_eigen.h"
 #include "base/memory.h"
+#include "bulk/basis_condense.h"
 #include "bulk/factors_ahead.h"
 #include "bulk/far_field.h"
 #include "bulk/growing_basis.h"
@@ -168,7 +169,8 @@ static bool condense_basis(Builder *work, StripPoint point, bool *definite, Erro
     const double factor[] = {[BULK_STIFFNESS] = 1 - point.viscosity,
                              [BULK_DAMPING] = point.viscosity,
                              [BULK_MASS] = point.inertia};
-    return basis_condense(&work->basis, factor, work->excess, &work->load_energy, definite, err);
+    return basis_condense(work->basis.reduced, factor, work->excess, &work->load_energy, definite,
+                          err);
 }
 
 // Compares S_r with `schur`, S at the point. *negative: a Galerkin projection is too stiff, never

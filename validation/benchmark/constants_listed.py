@@ -208,6 +208,7 @@ NOT_A_CHOICE = {
     "bulk/far_field.h": {"FAR_LAYERS_MAX": SIZE},
     "bulk/far_samples.c": {"LEVELS_MAX": SIZE, "POINTS_MAX": SIZE},
     "bulk/far_motions.c": {"TOGETHER": SIZE},
+    "bulk/basis_condense.c": {"WIDE": SIZE, "ALONE": SIZE},
     "bulk/element.h": {"ELEMENT_DOFS_MAX": "two for each node"},
     "bulk/mesh_build.c": {"AREA_TOLERANCE": ROUNDING, "order": "the element"},
     "bulk/material.h": {"MATERIALS_MAX": SIZE},

@@ -249,9 +249,9 @@ static void test_nothing(void **state)
     dense_multiply(none, full, 1, 0, c);
     dense_multiply(thin, none, 1, 0, c);
     dense_multiply(full, thin, 1, 0, c);
-    dense_multiply_transposed_rows(thin, full, c, 2);
-    dense_multiply_transposed_rows(full, thin, c, 2);
-    dense_multiply_transposed_rows(none, none, c, 2);
+    dense_multiply_transposed_rows(thin, full, 1, 0, c, 2);
+    dense_multiply_transposed_rows(full, thin, 1, 0, c, 2);
+    dense_multiply_transposed_rows(none, none, 1, 0, c, 2);
     dense_multiply_rows(thin, a, 2, 2, 1, c);
     dense_multiply_rows(full, a, 2, 0, 1, c);
     dense_multiply_rows(none, a, 2, 2, 1, c);

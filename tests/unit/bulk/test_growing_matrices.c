@@ -2,6 +2,7 @@
 // The matrices of a basis that grows, against products of its modes with the mesh's own matrices,
 // whether what is new of an answer is made of products or by the mesh; and what it condenses to,
 // against elimination by hand.
+#include "bulk/basis_condense.h"
 #include "bulk/growing_basis.h"
 
 #include "base/memory.h"
@@ -166,7 +167,7 @@ static void test_condensed(void **state)
                                factor[BULK_MASS] * reduced->mass[j * count + i];
     hand_schur(a, count, border, m, schur);
     bool definite = false;
-    if (!basis_condense(&rig.basis, factor, made, &energy, &definite, &err))
+    if (!basis_condense(rig.basis.reduced, factor, made, &energy, &definite, &err))
         fail_msg("%s", err.message);
     assert_true(definite);
     assert_all_near("S", made, schur, m * m, 1e-11);
@@ -178,7 +179,7 @@ static void test_condensed(void **state)
     for (int32_t j = 0; j < r; j++) wanted += answer[j] * reduced->load[m + j];
     assert_near("energy", energy, wanted, 1e-12);
     factor[BULK_STIFFNESS] = -1e6;
-    assert_true(basis_condense(&rig.basis, factor, made, &energy, &definite, &err));
+    assert_true(basis_condense(rig.basis.reduced, factor, made, &energy, &definite, &err));
     assert_false(definite);
     free(a), free(schur), free(made), free(inner), free(answer);
     end(&rig);
