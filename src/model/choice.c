@@ -12,12 +12,12 @@
 #include <math.h>
 
 // s, each for one of what its comment says.
-static const double FULL_FACTOR = 1.5e-8;   // rung and n^1.5
-static const double FULL_STAGE = 1.6e-9;   // stage and n^1.5
-static const double FULL_BORDER = 8e-9;   // stage and m^2
-static const double REDUCTION_FACTORS = 4.9e-5;   // n
-static const double REDUCTION_PRODUCTS = 1e-9;   // n m^2
-static const double REDUCED_STAGE = 4.3e-9;   // stage and m^2
+static const double FULL_FACTOR = 1.3e-8;   // rung and n^1.5
+static const double FULL_STAGE = 1.1e-9;   // stage and n^1.5
+static const double FULL_BORDER = 5.8e-9;   // stage and m^2
+static const double REDUCTION_FACTORS = 4.2e-5;   // n
+static const double REDUCTION_PRODUCTS = 6.3e-10;   // n m^2
+static const double REDUCED_STAGE = 3.1e-9;   // stage and m^2
 
 static const double RUNGS = 11;   // used by a run with a sliding
 
