@@ -131,6 +131,7 @@ CONSTANTS = [
         ("DIGITS", "energies of motions that are told apart at once", "rounding"),
         ("LITTLE", "left of a motion, from which on others are taken out again", "rounding")),
     *of("bulk/reduction.c",
+        ("FAR_INTERFACE", "unknowns of an interface from which on what is far is replaced", FAR_FIELD),
         ("LOSS_MAX", "digits that may be lost in products of answers", "rounding of matrices"),
         ("UNLIKE", "C over K from which on no digits may", "validation/benchmark/stress.py"),
         ("NEGATIVE_MAX", "negative error, of the allowed, that tells of lost digits", "rounding of S")),
