@@ -147,7 +147,7 @@ def cells_series(quick):
     return series
 
 
-REDUCED_MAX = 160      # cells; beyond, a cold reduction takes minutes and auto does not take it
+REDUCED_MAX = 320      # cells; 400 would take a minute and 5 GB
 
 
 def contact_series(quick):
