@@ -5,26 +5,10 @@
 #include "amontons.h"
 #include "base/text.h"
 
-#include "result_place.h"
+#include "place_fixture.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
-
-static char place[PLACE_SIZE];
-
-static int setup(void **state)
-{
-    (void)state;
-    place_make(place);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    place_remove(place);
-    return 0;
-}
 
 // A whole life of a folder, nothing computed in between.
 static bool prepare(const char *path, bool overwrite, Error *err)
@@ -299,18 +283,17 @@ static void test_impossible_folders(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_made_with_parents, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_refuses_an_earlier_result, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_overwrites_only_its_own, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_what_is_somebodys_is_not_written_over, setup,
-                                        teardown),
-        cmocka_unit_test_setup_teardown(test_proofs_of_somebody, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_pictures_of_ours_alone, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_a_stopped_search_may_begin_anew, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_cleared_late_and_not_through_links, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_one_computation_at_a_time, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_locks, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_impossible_folders, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_made_with_parents, begin, end),
+        cmocka_unit_test_setup_teardown(test_refuses_an_earlier_result, begin, end),
+        cmocka_unit_test_setup_teardown(test_overwrites_only_its_own, begin, end),
+        cmocka_unit_test_setup_teardown(test_what_is_somebodys_is_not_written_over, begin, end),
+        cmocka_unit_test_setup_teardown(test_proofs_of_somebody, begin, end),
+        cmocka_unit_test_setup_teardown(test_pictures_of_ours_alone, begin, end),
+        cmocka_unit_test_setup_teardown(test_a_stopped_search_may_begin_anew, begin, end),
+        cmocka_unit_test_setup_teardown(test_cleared_late_and_not_through_links, begin, end),
+        cmocka_unit_test_setup_teardown(test_one_computation_at_a_time, begin, end),
+        cmocka_unit_test_setup_teardown(test_locks, begin, end),
+        cmocka_unit_test_setup_teardown(test_impossible_folders, begin, end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
