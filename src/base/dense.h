@@ -88,6 +88,10 @@ typedef struct DenseView {
     const double *values;
     int32_t rows, columns;
 } DenseView;
+static inline DenseView dense_view(const double *values, int64_t rows, int64_t columns)
+{
+    return (DenseView){values, (int32_t)rows, (int32_t)columns};
+}
 
 // c = factor a' b + keep c, c = factor a b + keep c; c has the rows and columns that follow.
 void dense_multiply_transposed(DenseView a, DenseView b, double factor, double keep, double *c);

@@ -93,16 +93,6 @@ static void apply(const Answers *answers, BulkTerm term, DenseView x, double *wo
     for (int64_t k = 0; scale != 1 && k < (int64_t)x.rows * x.columns; k++) y[k] /= scale;
 }
 
-void answers_apply_mass(const Answers *answers, const double *x, double *y)
-{
-    apply(answers, BULK_MASS, (DenseView){x, answers->full.dof_count, 1}, answers->work[0], y);
-}
-
-static DenseView view(const double *values, int64_t rows, int64_t columns)
-{
-    return (DenseView){values, (int32_t)rows, (int32_t)columns};
-}
-
 // The products by the mesh that two points need, as bits of their terms. Where inertia differs it
 // gives M, the point with less of it that of K and C which weighs more there, and the lighter one
 // is multiplied.
@@ -129,7 +119,7 @@ static void multiply_columns(const Multiplication *all, int32_t which, int64_t f
     const Answers *answers = all->answers;
     const AnswerBlock *next = &answers->blocks[answers->block_count];
     int64_t dofs = answers->full.dof_count, rows = answers->count + next->count;
-    DenseView image = view(answers->image[which], dofs, columns);
+    DenseView image = dense_view(answers->image[which], dofs, columns);
     for (int term = 0; term < BULK_TERMS; term++) {
         bool imaged = false;
         for (int32_t k = 0; k <= answers->block_count; k++) {
@@ -137,11 +127,11 @@ static void multiply_columns(const Multiplication *all, int32_t which, int64_t f
             int64_t first = block == next ? from : 0;
             if (!(needed_products(answers, block->point, next->point) & 1u << term)) continue;
             if (!imaged)
-                apply(answers, (BulkTerm)term, view(next->field + from * dofs, dofs, columns),
+                apply(answers, (BulkTerm)term, dense_view(next->field + from * dofs, dofs, columns),
                       answers->work[which], answers->image[which]);
             imaged = true;
             dense_multiply_transposed_rows(
-                view(block->field + first * dofs, dofs, block->count - first), image, 1, 0,
+                dense_view(block->field + first * dofs, dofs, block->count - first), image, 1, 0,
                 all->gram[term] + from * rows + block->first + first, rows);
         }
     }
@@ -193,10 +183,10 @@ static void complete_block(const Answers *answers, const AnswerBlock *block, dou
     const AnswerBlock *next = &answers->blocks[answers->block_count];
     int64_t m = answers->full.interface_count, rows = answers->count + next->count;
     unsigned known = needed_products(answers, block->point, next->point);
-    dense_multiply_transposed(view(block->reaction, m + 1, block->count),
-                              view(next->motion, m + 1, next->count), 1, 0, a);
-    dense_multiply_transposed(view(block->motion, m + 1, block->count),
-                              view(next->reaction, m + 1, next->count), 1, 0, b);
+    dense_multiply_transposed(dense_view(block->reaction, m + 1, block->count),
+                              dense_view(next->motion, m + 1, next->count), 1, 0, a);
+    dense_multiply_transposed(dense_view(block->motion, m + 1, block->count),
+                              dense_view(next->reaction, m + 1, next->count), 1, 0, b);
     for (int64_t j = 0; j < next->count; j++) {
         for (int64_t i = block == next ? j : 0; i < block->count; i++) {
             int64_t at = j * rows + block->first + i, own = j * block->count + i;
@@ -244,7 +234,7 @@ void answers_combine(const Answers *answers, double factor, const double *c, int
     int64_t dofs = answers->full.dof_count;
     for (int32_t k = 0; k < answers->block_count; k++) {
         const AnswerBlock *block = &answers->blocks[k];
-        dense_multiply_rows(view(block->field, dofs, block->count), c + block->first,
+        dense_multiply_rows(dense_view(block->field, dofs, block->count), c + block->first,
                             answers->count, columns, factor, y);
     }
 }
@@ -253,11 +243,11 @@ void answers_project(const Answers *answers, BulkTerm term, const double *z, int
                      double *image, double *product)
 {
     int64_t dofs = answers->full.dof_count;
-    apply(answers, term, view(z, dofs, columns), answers->work[0], image);
+    apply(answers, term, dense_view(z, dofs, columns), answers->work[0], image);
     for (int32_t k = 0; k < answers->block_count; k++) {
         const AnswerBlock *block = &answers->blocks[k];
-        dense_multiply_transposed_rows(view(block->field, dofs, block->count),
-                                       view(image, dofs, columns), 1, 0, product + block->first,
-                                       answers->count);
+        dense_multiply_transposed_rows(dense_view(block->field, dofs, block->count),
+                                       dense_view(image, dofs, columns), 1, 0,
+                                       product + block->first, answers->count);
     }
 }

@@ -9,7 +9,6 @@
 #include "bulk/strip.h"
 
 enum {
-    BULK_TERMS = BULK_MASS + 1,
     ANSWER_BLOCKS_MAX = STRIP_VISITS_MAX + 2,
     ANSWERS_TOGETHER = 96   // columns that are multiplied at once: their image stays in the cache
 };
@@ -53,8 +52,5 @@ void answers_combine(const Answers *answers, double factor, const double *c, int
 // product [count * columns] = X' T z; image [dofs * columns]: T z, too.
 void answers_project(const Answers *answers, BulkTerm term, const double *z, int64_t columns,
                      double *image, double *product);
-
-// y [dofs] = M x / (rho L^2) on the full mesh.
-void answers_apply_mass(const Answers *answers, const double *x, double *y);
 
 #endif

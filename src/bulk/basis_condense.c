@@ -9,11 +9,6 @@
 
 #include <string.h>
 
-static DenseView view(const double *values, int64_t rows, int64_t columns)
-{
-    return (DenseView){values, (int32_t)rows, (int32_t)columns};
-}
-
 // Rows `first` to `first + rows` of a column of A, but for its part in K.
 static void fill_column(const ReducedBulk *reduced, const double *factor, int64_t column,
                         int64_t first, int64_t rows, double *out)
@@ -52,7 +47,7 @@ static void square_half(void *context, int32_t which)
     for (int64_t from = which * WIDE; from < m; from += 2 * WIDE) {
         int64_t columns = m - from < WIDE ? m - from : WIDE;
         const double *z = all->z + from * r;
-        dense_multiply_transposed_rows(view(z, r, m - from), view(z, r, columns), -1, 1,
+        dense_multiply_transposed_rows(dense_view(z, r, m - from), dense_view(z, r, columns), -1, 1,
                                        all->schur + from * (m + 1), m);
     }
 }

@@ -65,11 +65,6 @@ static void assembly_destroy(Assembly *work)
     }
 }
 
-static DenseView view(const double *values, int64_t rows, int64_t columns)
-{
-    return (DenseView){values, (int32_t)rows, (int32_t)columns};
-}
-
 // --- layers -------------------------------------------------------------------------------------
 
 // distance: [size] in elements from the interface, -1: out of reach. *farthest of them.
@@ -173,11 +168,11 @@ static bool project(Assembly *work, int32_t k, Error *err)
         [BULK_STIFFNESS] = stiffness, [BULK_DAMPING] = damping, [BULK_MASS] = layer->rotation};
     TRY(far_motions_project(motions, work->mesh->mass, square, err));
     TRY(rotate(stiffness, layer->rotation, (int32_t)q, work->mass[k], err));
-    DenseView rotation = view(layer->rotation, q, q);
-    dense_multiply(view(damping, q, q), rotation, 1, 0, half);
-    dense_multiply_transposed(rotation, view(half, q, q), 1, 0, work->damping[k]);
+    DenseView rotation = dense_view(layer->rotation, q, q);
+    dense_multiply(dense_view(damping, q, q), rotation, 1, 0, half);
+    dense_multiply_transposed(rotation, dense_view(half, q, q), 1, 0, work->damping[k]);
     for (int64_t i = 0; i < size; i++) load[i] = work->mesh->load[motions->dofs[i]];
-    dense_apply_transposed(view(motions->field, size, q), load, 1, 0, sum);
+    dense_apply_transposed(dense_view(motions->field, size, q), load, 1, 0, sum);
     dense_apply_transposed(rotation, sum, 1, 0, work->load[k]);
 cleanup:
     memory_free(stiffness);
@@ -234,14 +229,16 @@ static bool couple(const Assembly *work, int32_t k, const double *matrix, const 
     if (!error_is_clean(err)) goto cleanup;
     multiply_border(work, k, matrix, border, values);
     double *out = k == 0 ? *coupling : turned;
-    dense_multiply(view(values, count, q), view(layer->rotation, q, q), 1, 0, out);
+    dense_multiply(dense_view(values, count, q), dense_view(layer->rotation, q, q), 1, 0, out);
     if (k == 0) goto cleanup;
     for (int64_t c = 0; c < p; c++)
         for (int64_t j = 0; j < count; j++)
             moved[c * count + j] =
                 before->motions.field[c * before->motions.size + work->place[dofs[j]]];
-    dense_multiply_transposed(view(moved, count, p), view(turned, count, q), 1, 0, half);
-    dense_multiply_transposed(view(before->rotation, p, p), view(half, p, q), 1, 0, *coupling);
+    dense_multiply_transposed(dense_view(moved, count, p), dense_view(turned, count, q), 1, 0,
+                              half);
+    dense_multiply_transposed(dense_view(before->rotation, p, p), dense_view(half, p, q), 1, 0,
+                              *coupling);
 cleanup:
     memory_free(values);
     memory_free(moved);
@@ -416,10 +413,10 @@ bool far_field_expand(const FarField *far, const double *motions, int32_t column
         turned = NEW_ARRAY(double, (int64_t)of->count *columns, err);
         fields = NEW_ARRAY(double, (int64_t)of->size *columns, err);
         if (!turned || !fields) goto cleanup;
-        dense_multiply_rows(view(layer->rotation, of->count, of->count), motions + layer->first,
-                            dofs, columns, 1, turned);
-        dense_multiply(view(of->field, of->size, of->count), view(turned, of->count, columns), 1, 0,
-                       fields);
+        dense_multiply_rows(dense_view(layer->rotation, of->count, of->count),
+                            motions + layer->first, dofs, columns, 1, turned);
+        dense_multiply(dense_view(of->field, of->size, of->count),
+                       dense_view(turned, of->count, columns), 1, 0, fields);
         for (int64_t j = 0; j < columns; j++)
             for (int64_t i = 0; i < of->size; i++)
                 full[j * mesh + of->dofs[i]] = fields[j * of->size + i];

@@ -74,11 +74,6 @@ bool far_motions_begin(const Bulk *bulk, double unit, FarMotions *motions, Error
     return done;
 }
 
-static DenseView view(const double *values, int64_t rows, int64_t columns)
-{
-    return (DenseView){values, (int32_t)rows, (int32_t)columns};
-}
-
 static bool make_room(FarMotions *motions, int32_t columns, Error *err)
 {
     int64_t size = motions->size, room = motions->room, needed = motions->count + columns;
@@ -120,12 +115,12 @@ static void take_out_half(void *context, int32_t which)
     int64_t size = motions->size, count = motions->count;
     int64_t first = which ? all->columns / 2 : 0, end = which ? all->columns : all->columns / 2;
     double *fields = all->fields + first * size, *parts = all->parts + first * count;
-    DenseView all_motions = view(motions->field, size, count);
+    DenseView all_motions = dense_view(motions->field, size, count);
     for (bool again = count > 0; again;) {
         double before = square_sum(fields, size * (end - first));
-        dense_multiply_transposed(view(motions->image, size, count),
-                                  view(fields, size, end - first), 1, 0, parts);
-        dense_multiply(all_motions, view(parts, count, end - first), -1, 1, fields);
+        dense_multiply_transposed(dense_view(motions->image, size, count),
+                                  dense_view(fields, size, end - first), 1, 0, parts);
+        dense_multiply(all_motions, dense_view(parts, count, end - first), -1, 1, fields);
         double after = square_sum(fields, size * (end - first));
         again = after > 0 && after < LITTLE * before;
     }
@@ -142,7 +137,8 @@ static bool take_up(FarMotions *motions, Remainder *all, Error *err)
     double *energies = NEW_ARRAY(double, c *c, err), *values = NEW_ARRAY(double, c, err);
     double *work = NEW_ARRAY(double, dense_eigen_work(columns), err);
     if (!energies || !values || !work) goto cleanup;
-    dense_multiply_transposed(view(fields, size, c), view(image, size, c), 1, 0, energies);
+    dense_multiply_transposed(dense_view(fields, size, c), dense_view(image, size, c), 1, 0,
+                              energies);
     if (!dense_eigen(energies, columns, values, work))
         FAIL(err, ERROR_LIBRARY, "LAPACK: no energies of motions far from the interface");
     int64_t first = c;
@@ -151,10 +147,10 @@ static bool take_up(FarMotions *motions, Remainder *all, Error *err)
     all->again = first > 0 && values[first - 1] > all->least;
     for (int64_t j = first; j < c; j++)
         for (int64_t i = 0; i < c; i++) energies[j * c + i] /= sqrt(values[j]);
-    DenseView kept = view(energies + first * c, c, c - first);
+    DenseView kept = dense_view(energies + first * c, c, c - first);
     int64_t end = size * motions->count;
-    dense_multiply(view(fields, size, c), kept, 1, 0, motions->field + end);
-    dense_multiply(view(image, size, c), kept, 1, 0, motions->image + end);
+    dense_multiply(dense_view(fields, size, c), kept, 1, 0, motions->field + end);
+    dense_multiply(dense_view(image, size, c), kept, 1, 0, motions->image + end);
     all->added += (int32_t)(c - first);
     motions->count += (int32_t)(c - first);
 cleanup:
@@ -204,8 +200,10 @@ static void project_half(void *context, int32_t which)
         int64_t columns = count - from < TOGETHER ? count - from : TOGETHER,
                 at = from * (count + 1);
         const double *field = motions->field + from * size;
-        DenseView rest = view(field, size, count - from), part = view(image, size, columns);
-        dense_multiply_transposed_rows(rest, view(motions->image + from * size, size, columns), 1,
+        DenseView rest = dense_view(field, size, count - from),
+                  part = dense_view(image, size, columns);
+        dense_multiply_transposed_rows(rest,
+                                       dense_view(motions->image + from * size, size, columns), 1,
                                        0, all->square[BULK_STIFFNESS] + at, count);
         sparse_apply_many(&motions->pattern, motions->damping, field, columns, image,
                           motions->work[which]);
@@ -223,8 +221,8 @@ static void mirror(double *square, int64_t count)
         for (int64_t i = 0; i < j; i++) square[j * count + i] = square[i * count + j];
 }
 
-bool far_motions_project(const FarMotions *motions, const double *mass, double *const square[3],
-                         Error *err)
+bool far_motions_project(const FarMotions *motions, const double *mass,
+                         double *const square[BULK_TERMS], Error *err)
 {
     int64_t size = motions->size;
     Projection all = {.motions = motions, .mass = mass, .square = square};
@@ -232,7 +230,7 @@ bool far_motions_project(const FarMotions *motions, const double *mass, double *
         all.image[which] = NEW_ARRAY(double, size *TOGETHER, err);
     if (!error_is_clean(err)) goto cleanup;
     share_in_two(project_half, &all);
-    for (int term = 0; term < 3; term++) mirror(square[term], motions->count);
+    for (int term = 0; term < BULK_TERMS; term++) mirror(square[term], motions->count);
 cleanup:
     for (int which = 0; which < 2; which++) memory_free(all.image[which]);
     return error_is_clean(err);

@@ -30,7 +30,7 @@ bool far_motions_add(FarMotions *motions, double *fields, int32_t columns, doubl
                      int32_t *added, Error *err);
 
 // square[term] [count^2]: F'(K/E)F, F'CF, F'MF by BulkTerm; mass: [dofs of the mesh].
-bool far_motions_project(const FarMotions *motions, const double *mass, double *const square[3],
-                         Error *err);
+bool far_motions_project(const FarMotions *motions, const double *mass,
+                         double *const square[BULK_TERMS], Error *err);
 
 #endif

@@ -108,11 +108,6 @@ static bool extension_begin(const GrowingBasis *basis, Extension *x, Error *err)
     return done;
 }
 
-static DenseView view(const double *values, int64_t rows, int64_t columns)
-{
-    return (DenseView){values, (int32_t)rows, (int32_t)columns};
-}
-
 // V' (K, C, M) X_new, X_new' (K, C, M) X_new, f'X_new, and of what is in V the static modes' part.
 static void project(const GrowingBasis *basis, Extension *x)
 {
@@ -125,8 +120,8 @@ static void project(const GrowingBasis *basis, Extension *x)
             memcpy(x->work + j * first, column, (size_t)first * sizeof *column);
             memcpy(x->left[term] + j * added, column + first, (size_t)added * sizeof *column);
         }
-        dense_multiply_transposed(view(basis->mix, first, count), view(x->work, first, added), 1, 0,
-                                  x->old[term]);
+        dense_multiply_transposed(dense_view(basis->mix, first, count),
+                                  dense_view(x->work, first, added), 1, 0, x->old[term]);
     }
     for (int64_t j = 0; j < added; j++) {
         memcpy(x->parts + j * count, motion + j * (m + 1), (size_t)m * sizeof *motion);
@@ -142,17 +137,17 @@ static void take_out(const GrowingBasis *basis, Extension *x)
     const double *projected[BULK_TERMS] = {
         [BULK_DAMPING] = reduced->damping, [BULK_MASS] = reduced->mass};
     int64_t added = x->added, count = x->count, m = reduced->interface_count;
-    DenseView parts = view(x->parts, count, added);
+    DenseView parts = dense_view(x->parts, count, added);
     for (int64_t j = 0; j < added; j++) {
         x->largest = fmax(x->largest, x->left[BULK_STIFFNESS][j * added + j]);
         memcpy(x->parts + j * count + m, x->old[BULK_STIFFNESS] + j * count + m,
                (size_t)(count - m) * sizeof(double));
     }
     for (int term = 0; term < BULK_TERMS; term++) {
-        DenseView old = view(x->old[term], count, added);
+        DenseView old = dense_view(x->old[term], count, added);
         dense_multiply_transposed(parts, old, -1, 1, x->left[term]);
         if (!projected[term]) continue;
-        dense_multiply(view(projected[term], count, count), parts, -1, 1, x->old[term]);
+        dense_multiply(dense_view(projected[term], count, count), parts, -1, 1, x->old[term]);
         dense_multiply_transposed(old, parts, -1, 1, x->left[term]);
     }
     dense_apply_transposed(parts, reduced->load, -1, 1, x->lacking);
@@ -177,7 +172,7 @@ cleanup:
 
 static DenseView rotation_kept(const Extension *x)
 {
-    return view(x->rotation + (x->added - x->kept) * x->added, x->added, x->kept);
+    return dense_view(x->rotation + (x->added - x->kept) * x->added, x->added, x->kept);
 }
 
 // *matrix := V'TV with the modes that were added.
@@ -186,15 +181,15 @@ static bool extend_square(BulkTerm term, double **matrix, Extension *x, Error *e
     int64_t count = x->count, added = x->added, kept = x->kept, size = count + kept;
     DenseView rotation = rotation_kept(x);
     if (!grow_matrix(matrix, count, count, size, size, err)) return false;
-    dense_multiply(view(x->old[term], count, added), rotation, 1, 0, x->work);
+    dense_multiply(dense_view(x->old[term], count, added), rotation, 1, 0, x->work);
     for (int64_t j = 0; j < kept; j++)
         for (int64_t i = 0; i < count; i++)
             (*matrix)[(count + j) * size + i] = (*matrix)[i * size + count + j] =
                 x->work[j * count + i];
     // R' (left R), in the memory of `gram`, which is done with.
     double *half = x->gram[0], *square = x->gram[1];
-    dense_multiply(view(x->left[term], added, added), rotation, 1, 0, half);
-    dense_multiply_transposed(rotation, view(half, added, kept), 1, 0, square);
+    dense_multiply(dense_view(x->left[term], added, added), rotation, 1, 0, half);
+    dense_multiply_transposed(rotation, dense_view(half, added, kept), 1, 0, square);
     for (int64_t j = 0; j < kept; j++)
         for (int64_t i = 0; i <= j; i++)
             (*matrix)[(count + j) * size + count + i] = (*matrix)[(count + i) * size + count + j] =
@@ -218,9 +213,10 @@ static bool extend_mix(GrowingBasis *basis, Extension *x, Error *err)
     int64_t added = x->added, count = x->count, kept = x->kept, first = x->next->first;
     int64_t answers = first + added;
     DenseView rotation = rotation_kept(x);
-    dense_multiply(view(x->parts, count, added), rotation, 1, 0, x->work);
+    dense_multiply(dense_view(x->parts, count, added), rotation, 1, 0, x->work);
     double *taken = x->gram[0];
-    dense_multiply(view(basis->mix, first, count), view(x->work, count, kept), 1, 0, taken);
+    dense_multiply(dense_view(basis->mix, first, count), dense_view(x->work, count, kept), 1, 0,
+                   taken);
     TRY(grow_matrix(&basis->mix, first, count, answers, count + kept, err));
     for (int64_t j = 0; j < kept; j++) {
         double *column = basis->mix + (count + j) * answers;
@@ -268,8 +264,8 @@ static bool multiply_modes(const GrowingBasis *basis, int64_t from, int64_t colu
     for (int term = 0; term < BULK_TERMS; term++) {
         double *product = x->gram[0], *of_modes = x->gram[1];
         answers_project(answers, (BulkTerm)term, field, columns, image, product);
-        dense_multiply_transposed(view(basis->mix, answers->count, size),
-                                  view(product, answers->count, columns), 1, 0, of_modes);
+        dense_multiply_transposed(dense_view(basis->mix, answers->count, size),
+                                  dense_view(product, answers->count, columns), 1, 0, of_modes);
         for (int64_t j = 0; j < columns; j++) {
             const double *column = of_modes + j * size;
             memcpy(x->old[term] + (from + j) * count, column, (size_t)count * sizeof *column);
@@ -277,7 +273,8 @@ static bool multiply_modes(const GrowingBasis *basis, int64_t from, int64_t colu
                    (size_t)x->added * sizeof *column);
         }
     }
-    dense_apply_transposed(view(field, dofs, columns), answers->unit_load, 1, 0, x->lacking + from);
+    dense_apply_transposed(dense_view(field, dofs, columns), answers->unit_load, 1, 0,
+                           x->lacking + from);
 cleanup:
     memory_free(field);
     memory_free(image);
@@ -307,8 +304,9 @@ bool basis_renew(GrowingBasis *basis, int32_t first, Error *err)
     take_out(basis, &x);
     TRY(take_up(basis, &x, err));
     double *modes = basis->mix + count * answers;
-    dense_multiply(view(basis->mix, answers, count), view(x.parts, count, added), -1, 1, modes);
-    dense_multiply(view(modes, answers, added), rotation_kept(&x), 1, 0, x.work);
+    dense_multiply(dense_view(basis->mix, answers, count), dense_view(x.parts, count, added), -1, 1,
+                   modes);
+    dense_multiply(dense_view(modes, answers, added), rotation_kept(&x), 1, 0, x.work);
     memcpy(modes, x.work, (size_t)(answers * x.kept) * sizeof *modes);
 cleanup:
     extension_destroy(&x);

@@ -17,6 +17,7 @@
 #include "bulk/reduced_bulk.h"
 
 typedef enum BulkTerm { BULK_STIFFNESS, BULK_DAMPING, BULK_MASS } BulkTerm;
+enum { BULK_TERMS = BULK_MASS + 1 };
 
 typedef struct BulkOperator {
     int32_t dof_count;
