@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Strains are taken at the nodes of each element. On a regular mesh the mean over the elements at
-// an inner node is a central difference, one order better than each of them.
+// an inner node is a central difference, one order better than each of them. The means are one
+// sparse operator, made once; the stress of a point is that of its mean strain.
 //
 // The mean is not weighted by the elements' sizes. Arrays are [3 * nodes]: xx, zz, xz of node 0, of
 // node 1, ...; the strain's third entry is the engineering shear 2 xz, as in bulk/element.
@@ -13,11 +14,11 @@
 #include <string.h>
 
 // The point of a node in a material, a new one where there is none yet; next: [points] the
-// following point of a node, -1: none; region: [points].
+// following point of a node, -1: none.
 static int32_t find_point(NodalStress *stress, int32_t node, int32_t own, int32_t *next,
-                          int32_t *region, int32_t nodes)
+                          int32_t nodes)
 {
-    int32_t point = node;
+    int32_t point = node, *region = stress->region;
     while (region[point] != own && next[point] >= 0) point = next[point];
     if (region[point] == own) return point;
     int32_t made = stress->point_count++;
@@ -33,7 +34,7 @@ static bool split_nodes(const Mesh *mesh, NodalStress *stress, Error *err)
 {
     int32_t nodes = mesh->node_count, places = mesh->first_node[mesh->element_count];
     int32_t *next = NEW_ARRAY(int32_t, (int64_t)nodes + places, err);
-    int32_t *region = NEW_ARRAY(int32_t, (int64_t)nodes + places, err);
+    int32_t *region = stress->region = NEW_ARRAY(int32_t, (int64_t)nodes + places, err);
     stress->points = NEW_ARRAY(int32_t, places, err);
     stress->extra_node = NEW_ARRAY(int32_t, places, err);
     if (!error_is_clean(err)) goto cleanup;
@@ -48,11 +49,10 @@ static bool split_nodes(const Mesh *mesh, NodalStress *stress, Error *err)
         }
     for (int32_t e = 0; e < mesh->element_count; e++)
         for (int32_t a = mesh->first_node[e]; a < mesh->first_node[e + 1]; a++)
-            stress->points[a] = find_point(stress, mesh->element_nodes[a], mesh_region(mesh, e),
-                                           next, region, nodes);
+            stress->points[a] =
+                find_point(stress, mesh->element_nodes[a], mesh_region(mesh, e), next, nodes);
 cleanup:
     memory_free(next);
-    memory_free(region);
     return error_is_clean(err);
 }
 
@@ -61,37 +61,55 @@ const int32_t *nodal_stress_points(const NodalStress *stress, const Mesh *mesh, 
     return (stress->points ? stress->points : mesh->element_nodes) + mesh->first_node[e];
 }
 
-// Of element `e` at its node `at`: the slopes d/dx, d/dz of its shape functions.
-static void slopes_at(const Mesh *mesh, int32_t e, int32_t at, double (*slope)[2])
+// To the row of `point`: `share` of the slopes d/dx, d/dz of element `e`'s shape functions at its
+// node `at`. What other elements said of a node is added to; rows are short.
+static void add_to_row(const Mesh *mesh, int32_t e, int32_t at, double share, NodalStress *stress)
 {
     const int32_t *element = mesh->element_nodes + mesh->first_node[e];
     int32_t nodes = mesh->first_node[e + 1] - mesh->first_node[e];
-    double position[ELEMENT_NODES_MAX][2], point[2], b[3][ELEMENT_DOFS_MAX];
+    int32_t point = nodal_stress_points(stress, mesh, e)[at];
+    int32_t first = stress->row[point], *length = &stress->row_length[point];
+    double position[ELEMENT_NODES_MAX][2], place[2], b[3][ELEMENT_DOFS_MAX];
     for (int32_t a = 0; a < nodes; a++)
         memcpy(position[a], mesh->position + 2 * element[a], sizeof position[a]);
-    shape_node(mesh->kind[e], at, &point[0], &point[1]);
-    element_strain_matrix(mesh->kind[e], (const double(*)[2])position, point, b);
+    shape_node(mesh->kind[e], at, &place[0], &place[1]);
+    element_strain_matrix(mesh->kind[e], (const double(*)[2])position, place, b);
     for (int32_t a = 0; a < nodes; a++) {
-        slope[a][0] = b[0][2 * a];
-        slope[a][1] = b[1][2 * a + 1];
+        int32_t k = first;
+        while (k < first + *length && stress->column[k] != element[a]) k++;
+        *length += k == first + *length;
+        stress->column[k] = element[a];
+        stress->slope[k][0] += share * b[0][2 * a];
+        stress->slope[k][1] += share * b[1][2 * a + 1];
     }
 }
 
-static bool prepare_slopes(const Mesh *mesh, NodalStress *stress, Error *err)
+// A row has room for all nodes of its point's elements.
+static bool prepare_rows(const Mesh *mesh, NodalStress *stress, Error *err)
 {
-    int64_t count = 0;
-    for (int32_t e = 0; e < mesh->element_count; e++) {
-        int64_t nodes = mesh->first_node[e + 1] - mesh->first_node[e];
-        count += nodes * nodes;
+    int32_t points = stress->point_count, room = 0;
+    const int32_t *point = nodal_stress_points(stress, mesh, 0);
+    int32_t *shares = NEW_ARRAY(int32_t, points, err);
+    stress->row = NEW_ARRAY(int32_t, points, err);
+    stress->row_length = NEW_ARRAY(int32_t, points, err);
+    if (!error_is_clean(err)) goto cleanup;
+    for (int32_t e = 0; e < mesh->element_count; e++)
+        for (int32_t a = mesh->first_node[e]; a < mesh->first_node[e + 1]; a++) {
+            stress->row[point[a]] += mesh->first_node[e + 1] - mesh->first_node[e];
+            shares[point[a]]++;
+        }
+    for (int32_t k = 0; k < points; k++) {
+        room += stress->row[k];
+        stress->row[k] = room - stress->row[k];
     }
-    stress->slope = memory_array(count, sizeof *stress->slope, err);
-    if (!stress->slope) return false;
-    double(*slope)[2] = stress->slope;
-    for (int32_t e = 0; e < mesh->element_count; e++) {
-        int32_t nodes = mesh->first_node[e + 1] - mesh->first_node[e];
-        for (int32_t a = 0; a < nodes; a++, slope += nodes) slopes_at(mesh, e, a, slope);
-    }
-    return true;
+    TRY(stress->column = NEW_ARRAY(int32_t, room, err));
+    TRY(stress->slope = memory_array(room, sizeof *stress->slope, err));
+    for (int32_t e = 0; e < mesh->element_count; e++)
+        for (int32_t a = mesh->first_node[e]; a < mesh->first_node[e + 1]; a++)
+            add_to_row(mesh, e, a - mesh->first_node[e], 1.0 / shares[point[a]], stress);
+cleanup:
+    memory_free(shares);
+    return error_is_clean(err);
 }
 
 // Kept over a run and filled anew at each time that is written.
@@ -99,12 +117,11 @@ bool nodal_stress_create(const Mesh *mesh, NodalStress *stress, Error *err)
 {
     *stress = (NodalStress){.point_count = mesh->node_count};
     if (mesh->region) TRY(split_nodes(mesh, stress, err));
-    TRY(prepare_slopes(mesh, stress, err));
+    TRY(prepare_rows(mesh, stress, err));
     int64_t count = stress->point_count;
     stress->elastic = NEW_ARRAY(double, 3 * count, err);
     stress->total = NEW_ARRAY(double, 3 * count, err);
     stress->von_mises = NEW_ARRAY(double, count, err);
-    stress->shares = NEW_ARRAY(int32_t, count, err);
 cleanup:
     return error_is_clean(err);
 }
@@ -114,8 +131,11 @@ void nodal_stress_destroy(NodalStress *stress)
     memory_free(stress->elastic);
     memory_free(stress->total);
     memory_free(stress->von_mises);
-    memory_free(stress->shares);
+    memory_free(stress->row);
+    memory_free(stress->row_length);
+    memory_free(stress->column);
     memory_free(stress->slope);
+    memory_free(stress->region);
     memory_free(stress->points);
     memory_free(stress->extra_node);
     *stress = (NodalStress){0};
@@ -125,22 +145,22 @@ typedef struct Strains {
     double strain[3], rate[3];   // xx, zz, 2 xz
 } Strains;
 
-// element: [nodes] of the mesh; slope: [nodes] at the place asked for; B u_e and B v_e.
-static Strains strains_of(const int32_t *element, int32_t nodes, const double (*slope)[2],
-                          const double *displacement, const double *velocity)
+// A row of the operator times displacement and velocity.
+static Strains strains_at(const NodalStress *stress, int32_t point, const double *displacement,
+                          const double *velocity)
 {
     Strains found = {0};
-    for (int32_t a = 0; a < nodes; a++) {
-        const double *u = displacement + 2 * element[a], *v = velocity + 2 * element[a];
-        double x = slope[a][0], z = slope[a][1];
+    int32_t end = stress->row[point] + stress->row_length[point];
+    for (int32_t k = stress->row[point]; k < end; k++) {
+        const double *u = displacement + 2 * stress->column[k];
+        const double *v = velocity + 2 * stress->column[k];
+        double x = stress->slope[k][0], z = stress->slope[k][1];
         found.strain[0] += x * u[0];
         found.strain[1] += z * u[1];
-        found.strain[2] += z * u[0];   // two sums, as B's columns stand
-        found.strain[2] += x * u[1];
+        found.strain[2] += z * u[0] + x * u[1];
         found.rate[0] += x * v[0];
         found.rate[1] += z * v[1];
-        found.rate[2] += z * v[0];
-        found.rate[2] += x * v[1];
+        found.rate[2] += z * v[0] + x * v[1];
     }
     return found;
 }
@@ -156,47 +176,26 @@ static double von_mises(const double stress[3], double out_of_plane)
 // Von Mises is that of the mean stress, not the mean of the elements' von Mises.
 // displacement, velocity: [2 * nodes] of the full mesh. stress->total has the viscous part, C's
 // stress at this velocity, stress->elastic has not.
-void nodal_stress_recover(const Mesh *mesh, const Material *materials, const double *displacement,
+void nodal_stress_recover(const Material *materials, const double *displacement,
                           const double *velocity, NodalStress *stress)
 {
     double elastic[3][3], viscous[3][3];
-    const double(*slope)[2] = (const double(*)[2])stress->slope;
-    size_t points = (size_t)stress->point_count;
-    memset(stress->elastic, 0, 3 * points * sizeof(double));
-    memset(stress->total, 0, 3 * points * sizeof(double));
-    memset(stress->von_mises, 0, points * sizeof(double));
-    memset(stress->shares, 0, points * sizeof(int32_t));
-    for (int32_t e = 0; e < mesh->element_count; e++) {
-        const int32_t *point = nodal_stress_points(stress, mesh, e);
-        const int32_t *element = mesh->element_nodes + mesh->first_node[e];
-        int32_t count = mesh->first_node[e + 1] - mesh->first_node[e];
-        const Material *material = &materials[mesh_region(mesh, e)];
+    for (int32_t point = 0; point < stress->point_count; point++) {
+        const Material *material = &materials[stress->region ? stress->region[point] : 0];
         material_elastic(material, elastic);
         material_viscous(material, viscous);
-        for (int32_t a = 0; a < count; a++, slope += count) {
-            Strains at = strains_of(element, count, slope, displacement, velocity);
-            int32_t node = point[a];
-            for (int r = 0; r < 3; r++) {
-                double held = 0, damped = 0;
-                for (int c = 0; c < 3; c++) {
-                    held += elastic[r][c] * at.strain[c];
-                    damped += viscous[r][c] * at.rate[c];
-                }
-                stress->elastic[3 * node + r] += held;
-                stress->total[3 * node + r] += held + damped;
-            }
-            // Until the mean is taken the array holds the out-of-plane stress.
-            stress->von_mises[node] += material_out_of_plane(material, at.strain, at.rate);
-            stress->shares[node]++;
-        }
-    }
-    for (int32_t node = 0; node < stress->point_count; node++) {
-        double share = 1.0 / stress->shares[node];
+        Strains at = strains_at(stress, point, displacement, velocity);
+        double *held = stress->elastic + 3 * point, *total = stress->total + 3 * point;
         for (int r = 0; r < 3; r++) {
-            stress->elastic[3 * node + r] *= share;
-            stress->total[3 * node + r] *= share;
+            double damped = 0;
+            held[r] = 0;
+            for (int c = 0; c < 3; c++) {
+                held[r] += elastic[r][c] * at.strain[c];
+                damped += viscous[r][c] * at.rate[c];
+            }
+            total[r] = held[r] + damped;
         }
-        stress->von_mises[node] =
-            von_mises(stress->total + 3 * node, share * stress->von_mises[node]);
+        stress->von_mises[point] =
+            von_mises(total, material_out_of_plane(material, at.strain, at.rate));
     }
 }

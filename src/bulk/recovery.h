@@ -14,11 +14,13 @@ typedef struct NodalStress {
     double *elastic;   // [point_count * 3] stress; owned
     double *total;   // [point_count * 3] elastic and viscous, stress; owned
     double *von_mises;   // [point_count] of the total stress, stress; owned
-    int32_t *shares;   // [point_count] work: elements that met at the point; owned
-    double (*slope)[2];   // d/dx, d/dz of an element's shape functions at each of its nodes; owned
+    int32_t *row, *row_length;   // [point_count] where a point's row of the operator begins; owned
+    int32_t *column;   // a row's nodes, and at each:
+    double (*slope)[2];   // d/dx, d/dz of shape functions, means over the point's elements; owned
     int32_t point_count;   // from the mesh's nodes on
     int32_t *points;   // [mesh->first_node[elements]] in the place of element_nodes; owned; NULL:
         // points are nodes
+    int32_t *region;   // [point_count] number of the point's material; owned; NULL: one material
     int32_t *extra_node;   // [point_count - nodes] of the points that follow; owned
 } NodalStress;
 
@@ -29,7 +31,7 @@ bool nodal_stress_create(const Mesh *mesh, NodalStress *stress, Error *err);
 void nodal_stress_destroy(NodalStress *stress);
 
 // displacement, velocity: [2 * node_count]
-void nodal_stress_recover(const Mesh *mesh, const Material *materials, const double *displacement,
+void nodal_stress_recover(const Material *materials, const double *displacement,
                           const double *velocity, NodalStress *stress);
 
 #endif

@@ -48,7 +48,7 @@ static double largest_error(const BlockDef *def, const Material *material, bool 
         }
     }
     for (int32_t round = 0; round < 2; round++)   // a second call starts from nothing
-        nodal_stress_recover(&mesh, material, u, v, &stress);
+        nodal_stress_recover(material, u, v, &stress);
     double elastic[3][3], viscous[3][3], worst = 0, nu = material->poisson;
     material_elastic(material, elastic);
     material_viscous(material, viscous);
@@ -146,6 +146,52 @@ static void test_convergence(void **state)
     }
 }
 
+// Columns of elements in turns of two materials, one twice the other: nodes between them are two
+// points, each with the stress of its own material.
+static void test_two_materials(void **state)
+{
+    (void)state;
+    Error err = {0};
+    BlockDef def = {.kind = ELEMENT_Q4, .nx = 4, .nz = 3, .length = 1, .height = 0.7};
+    Mesh mesh;
+    NodalStress stress;
+    Material material[2] = {test_material(true), test_material(true)};
+    material[1].young *= 2;
+    material[1].eta1 *= 2;
+    material[1].eta2 *= 2;
+    block_build(&def, &mesh);
+    mesh.region = NEW_ARRAY(int32_t, mesh.element_count, &err);
+    for (int32_t e = 0; e < mesh.element_count; e++) {
+        double x = mesh.position[2 * mesh.element_nodes[mesh.first_node[e]]];
+        mesh.region[e] = lround(x * def.nx) % 2 == 0;
+    }
+    assert_true(nodal_stress_create(&mesh, &stress, &err));
+    assert_int_equal(stress.point_count, mesh.node_count + 3 * (def.nz + 1));
+    double *u = calloc(2 * (size_t)mesh.node_count, sizeof *u);
+    for (int32_t k = 0; k < mesh.node_count; k++) {
+        Field at = linear_field(mesh.position[2 * k], mesh.position[2 * k + 1]);
+        memcpy(u + 2 * k, at.u, sizeof at.u);
+    }
+    nodal_stress_recover(material, u, u, &stress);
+    for (int32_t e = 0; e < mesh.element_count; e++)
+        for (int32_t a = 0; a < 4; a++) {
+            int32_t point = nodal_stress_points(&stress, &mesh, e)[a];
+            double times = 1 + mesh.region[e], nu = 0.3, shear = 2 / (2 * (1 + nu));
+            double trace = 0.3 + 0.2, lame = 2 * nu / ((1 + nu) * (1 - 2 * nu));
+            double held[] = {2 * shear * 0.3 + lame * trace, 2 * shear * 0.2 + lame * trace,
+                             shear * 0.3};
+            double damped[] = {0.4 * 0.3 + 0.9 * trace, 0.4 * 0.2 + 0.9 * trace, 0.4 * 0.3 / 2};
+            for (int r = 0; r < 3; r++) {
+                assert_near("elastic", stress.elastic[3 * point + r], times * held[r], 1e-13);
+                assert_near("total", stress.total[3 * point + r], times * (held[r] + damped[r]),
+                            1e-13);
+            }
+        }
+    free(u);
+    nodal_stress_destroy(&stress);
+    mesh_destroy(&mesh);
+}
+
 static void test_memory_faults(void **state)
 {
     (void)state;
@@ -170,9 +216,8 @@ static void test_memory_faults(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_linear),
-        cmocka_unit_test(test_quadratic),
-        cmocka_unit_test(test_convergence),
+        cmocka_unit_test(test_linear),        cmocka_unit_test(test_quadratic),
+        cmocka_unit_test(test_convergence),   cmocka_unit_test(test_two_materials),
         cmocka_unit_test(test_memory_faults),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
