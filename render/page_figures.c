@@ -127,6 +127,31 @@ cleanup:
 
 // --- several force curves ------------------------------------------------------------------------
 
+typedef struct Curves {
+    ResultView views[RENDER_CURVES_MAX];   // [count] owned
+    const char *names[RENDER_CURVES_MAX];   // [count]
+    int32_t count;
+} Curves;
+
+// A history that cannot be drawn is left out, and the page says why.
+static bool add_curve(Curves *curves, const char *folder, const char *name, HtmlWriter *html,
+                      Error *err)
+{
+    ResultView *view = &curves->views[curves->count];
+    if (result_view_open(folder, view, err)) {
+        curves->names[curves->count++] = name;
+        return true;
+    }
+    if (err->code == ERROR_MEMORY || err->code == ERROR_LIBRARY) return false;
+    html_markup(html, "<p class='note'>");
+    html_text(html, name);
+    html_markup(html, " has no curve here: ");
+    html_text(html, err->message);
+    html_markup(html, "</p>\n");
+    error_clear(err);
+    return true;
+}
+
 // The range of all curves.
 static Axes fit_curves(const ResultView *views, int32_t count)
 {
@@ -169,31 +194,30 @@ __attribute__((visibility("default"))) bool amontons_render_curves(const char *c
                                                                    int32_t count, HtmlWriter *html,
                                                                    bool *drawn, Error *err)
 {
-    ResultView views[RENDER_CURVES_MAX] = {0};
+    Curves curves = {0};
+    const ResultView *views = curves.views;
     *drawn = true;
-    for (int32_t k = 0; k < count; ++k) {
-        TRY(result_view_open(folders[k], &views[k], err));
-        *drawn = *drawn && views[k].si == views[0].si;
-    }
-    if (!*drawn) goto cleanup;
-    Axes axes = fit_curves(views, count);
+    for (int32_t k = 0; k < count; ++k) TRY(add_curve(&curves, folders[k], names[k], html, err));
+    for (int32_t k = 1; k < curves.count; ++k) *drawn = *drawn && views[k].si == views[0].si;
+    if (!*drawn || curves.count == 0) goto cleanup;
+    Axes axes = fit_curves(views, curves.count);
     html_markup(html,
                 "<figure id='figure-force'><svg class='chart' viewBox='0 0 %d %d' role='img' "
                 "aria-label='Friction force over load against the displacement of the rod, a "
                 "curve for each run'>",
                 CURVES_WIDTH, CURVES_HEIGHT);
     svg_axes(html, &axes, true);
-    for (int32_t k = 0; k < count; ++k) {
+    for (int32_t k = 0; k < curves.count; ++k) {
         char class[16];
         snprintf(class, sizeof class, "curve%d", k + 1);
         svg_curve(html, &axes, class, views[k].U, views[k].mu, views[k].rows);
     }
     html_markup(html, "</svg>");
-    write_legend(html, names, count);
+    write_legend(html, curves.names, curves.count);
     html_markup(html,
                 "<figcaption><i>F</i><sub>T</sub>/<i>F</i><sub>N</sub> against the rod\u2019s "
                 "displacement <i>U</i></figcaption></figure>\n");
 cleanup:
-    for (int32_t k = 0; k < RENDER_CURVES_MAX; ++k) result_view_close(&views[k]);
+    for (int32_t k = 0; k < curves.count; ++k) result_view_close(&curves.views[k]);
     return error_is_clean(err);
 }

@@ -96,8 +96,8 @@ typedef bool (*RenderFramesFunction)(const char *folder, HtmlWriter *html, Rende
                                      Error *err);
 bool amontons_render_frames(const char *folder, HtmlWriter *html, RenderFrames *found, Error *err);
 
-// Force curves of several histories over each other, with their names. *drawn false: some are
-// in SI and some are not.
+// Force curves of several histories over each other, with their names; of one that cannot be drawn
+// the page says why. *drawn false: some are in SI and some are not.
 typedef bool (*RenderCurvesFunction)(const char *const *folders, const char *const *names,
                                      int32_t count, HtmlWriter *html, bool *drawn, Error *err);
 bool amontons_render_curves(const char *const *folders, const char *const *names, int32_t count,

@@ -4,11 +4,14 @@ many values, without figures, arrays or a report."""
 import json
 import os
 import pty
+import re
 import shutil
 import subprocess
 import tempfile
 import unittest
 from pathlib import Path
+
+import h5py
 
 SOURCE = Path(os.environ["AMONTONS_SOURCE"])
 PROGRAM = Path(os.environ["AMONTONS_BIN"], "amontons")
@@ -33,8 +36,8 @@ class Odd(unittest.TestCase):
     def call(self, *words):
         return subprocess.run([PROGRAM, *map(str, words)], cwd=self.folder, capture_output=True, text=True, timeout=120)
 
-    def page(self, name):
-        done = self.call("report", name, "-o", "page.html")
+    def page(self, *names):
+        done = self.call("report", *names, "-o", "page.html")
         self.assertEqual(done.returncode, 0, done.stderr)
         return (self.folder / "page.html").read_text()
 
@@ -56,6 +59,24 @@ class Odd(unittest.TestCase):
         self.assertIn("image/gif", self.page("run"))
         (self.folder / "run/history.h5").write_bytes(b"damaged")
         self.assertIn("history.h5", self.page("run"))
+
+    def test_comparison_without_a_curve(self):
+        """A run of one step and one whose history is damaged cost the page their own curves only."""
+        for name in ("one", "two", "three", "four"):
+            done = self.call("run", FIG1, *TINY, f"title={name}", "-o", name, "--quiet")
+            self.assertEqual(done.returncode, 0, done.stderr)
+        with h5py.File(self.folder / "two/history.h5", "a") as history:
+            for series in history["series"].values():
+                series.resize(1, axis=0)
+        (self.folder / "three/history.h5").write_bytes(b"damaged")
+        page = self.page("one", "two", "three", "four")
+        self.assertIn("two has no curve here: while reading the result in two: the history holds 1 step", page)
+        self.assertIn("three has no curve here: while reading the result in three", page)
+        self.assertEqual(re.findall(r"class='(curve\d)' d='M70\.0 [^']{60}", page), ["curve1", "curve2"])
+        self.assertRegex(page, r"curve1' d='M2 6h30'/></svg> one</li><li>.*curve2' d='M2 6h30'/></svg> four</li></ul>")
+        page = self.page("two", "three")
+        self.assertIn("two has no curve here", page)
+        self.assertNotIn("<svg class='chart'", page)
 
     def test_events_in_metres(self):
         """More of them than a page lists; films in every format, and one that is none."""
