@@ -419,9 +419,9 @@ bool amontons_run(const Scene *scene, const RunOptions *options, RunSummary *sum
     result_folder_release(&folder);   // the last run claims it for itself
     TRY(run_in_full(accuracy, summary, err));
 cleanup:
-    if (err->code == ERROR_INTERRUPT && folder.path[0])   // before the run in full
-        accuracy_stopped(&accuracy->levels, scene->title, folder.has_earlier ? NULL : folder.path,
-                         err);
+    if (err->code == ERROR_INTERRUPT)
+        accuracy_stopped(&accuracy->levels, scene->title,
+                         folder.has_earlier ? NULL : options->folder, err);
     result_folder_release(&folder);
     memory_free(accuracy);
     return error_is_clean(err);

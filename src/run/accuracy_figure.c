@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { FIGURE_PATH_SIZE = AMONTONS_PATH_SIZE + 32 };
+enum { FIGURE_PATH_SIZE = AMONTONS_PATH_SIZE + 32, ESTIMATES_SIZE = 40 * LEVELS_MAX };
 
 static const ErrorBar *answer_of(const Levels *levels, int32_t level)
 {
@@ -93,23 +93,37 @@ bool accuracy_figure(const Levels *levels, const char *title, const char *folder
     return json_finish(json, err) && amontons_render_plot_file(path, png, NULL, err);
 }
 
+// The estimate after each mesh: "0.3320 on 21 contact nodes, 0.3301 +- 0.004 on 29". One mesh alone
+// has no bar.
+static void name_estimates(const Levels *levels, char words[ESTIMATES_SIZE])
+{
+    for (int32_t l = 0, used = 0; l < levels->count && used < ESTIMATES_SIZE; l++) {
+        const ErrorBar *answer = answer_of(levels, l);
+        char bar[24] = "";
+        if (answer->parts.mesh >= 0) snprintf(bar, sizeof bar, " +- %.1g", answer->bar);
+        used += snprintf(words + used, (size_t)(ESTIMATES_SIZE - used), "%s%.4f%s on %d%s",
+                         l > 0 ? ", " : "", answer->value, bar, levels->list[l].contact_nodes,
+                         l > 0 ? "" : " contact nodes");
+    }
+}
+
 void accuracy_stopped(Levels *levels, const char *title, const char *folder, Error *err)
 {
     Error stopped = *err, failed = {0};
+    char estimates[ESTIMATES_SIZE];
     while (levels->count > 0 && levels->list[levels->count - 1].run_count == 0) levels->count--;
-    const ErrorBar *answer = levels->count > 0 ? answer_of(levels, levels->count - 1) : NULL;
-    if (!answer || isnan(answer->value)) {
+    if (levels->count == 0 || isnan(answer_of(levels, levels->count - 1)->value)) {
         error_context(err, "no run has ended yet, nothing was written");
         return;
     }
     bool kept = folder && accuracy_figure(levels, title, folder, &failed);
+    name_estimates(levels, estimates);
     *err = (Error){0};
     FAIL(err, ERROR_INTERRUPT,
-         "%s; so far %s = %.4f +- %.1g from %d meshes%s%s%s; it does not go on from here: the same "
-         "command begins anew",
-         stopped.message, ANSWER_NAMES[levels->asked], answer->value, answer->bar, levels->count,
-         kept ? " (" : "", kept ? folder : "",
-         kept ? "/figures/accuracy.json)" : ", which was not written");
+         "%s; so far %s = %s%s%s%s; it does not go on from here: the same command begins anew, and "
+         "--within ends it in time",
+         stopped.message, ANSWER_NAMES[levels->asked], estimates, kept ? " (" : "",
+         kept ? folder : "", kept ? "/figures/accuracy.json)" : "");
 cleanup:
     return;
 }

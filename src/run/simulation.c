@@ -391,8 +391,9 @@ static bool stop_here(Simulation *simulation, Error *err)
 {
     Error unseen = {0};
     bool kept = checkpoint_is_kept(simulation) && checkpoint_now(simulation, &unseen);
-    FAIL(err, ERROR_INTERRUPT, "stopped at U = %g (t = %g); what was computed is kept in %s%s",
-         simulation->seen.U, simulation->seen.t, simulation->folder.path,
+    const char *folder = simulation->folder.path;
+    FAIL(err, ERROR_INTERRUPT, "stopped at U = %g (t = %g)%s%s%s", simulation->seen.U,
+         simulation->seen.t, *folder ? "; what was computed is kept in " : "", folder,
          kept ? "; the same command with --resume goes on from there" : "");
 cleanup:
     return false;

@@ -15,6 +15,8 @@ typedef struct Watch {
     int32_t runs_left;
     int32_t mesh, run;
     int32_t levels;
+    char reached[200];   // what the last mesh that was done gave, as the message says it
+    bool in_full;   // stops in the run in full
     volatile sig_atomic_t stop;
 } Watch;
 
@@ -24,12 +26,20 @@ static void watch_step(const StepView *view, void *context)
     if (view->mesh == watch->mesh && view->run == watch->run) return;
     watch->mesh = view->mesh;
     watch->run = view->run;
-    watch->stop = view->mesh > 0 && watch->runs_left-- == 0;
+    watch->stop = view->mesh > 0 ? watch->runs_left-- == 0 : watch->in_full;
 }
 
 static void watch_level(const LevelView *view, void *context)
 {
-    ((Watch *)context)->levels = view->level;
+    Watch *watch = context;
+    size_t used = strlen(watch->reached);
+    char bar[24] = "";
+    if (!isnan(view->mesh)) snprintf(bar, sizeof bar, " +- %.1g", view->bar);
+    if (view->level == watch->levels) return;   // more runs on the same mesh
+    snprintf(watch->reached + used, sizeof watch->reached - used, "%s%.4f%s on %d%s",
+             used ? ", " : "so far mu_M = ", view->value, bar, view->contact_nodes,
+             used ? "" : " contact nodes");
+    watch->levels = view->level;
 }
 
 static Scene *scene_of(const char *one, const char *other)
@@ -39,12 +49,13 @@ static Scene *scene_of(const char *one, const char *other)
         "accuracy.mu=0.001", "accuracy.within=1e-3", one, other, NULL});
 }
 
-// The message of a search that was stopped in its run `runs`.
-static void stop_in(int32_t runs, const char *folder, bool overwrite, Error *err)
+// The message of a search that was stopped in its run `runs`, -1: in the run in full after it.
+static Watch stop_in(int32_t runs, const char *folder, bool overwrite, Error *err)
 {
-    Scene *scene = scene_of("accuracy.within=0", NULL);
+    bool in_full = runs < 0;
+    Scene *scene = scene_of("accuracy.within=0", in_full ? "accuracy.mu=0.3" : NULL);
     RunSummary summary;
-    Watch watch = {.runs_left = runs};
+    Watch watch = {.runs_left = runs, .in_full = in_full};
     RunOptions options = {.folder = folder,
                           .overwrite = overwrite,
                           .on_step = watch_step,
@@ -55,8 +66,9 @@ static void stop_in(int32_t runs, const char *folder, bool overwrite, Error *err
     assert_false(amontons_run(scene, &options, &summary, err));
     assert_int_equal(err->code, ERROR_INTERRUPT);
     assert_int_equal(memory_counters().live, live);
-    assert_int_equal(watch.levels, runs / 2);
+    if (!in_full) assert_int_equal(watch.levels, runs / 2);
     amontons_scene_destroy(scene);
+    return watch;
 }
 
 static void test_stopped_in_the_first_run(void **state)
@@ -74,19 +86,36 @@ static void test_stopped_on_the_second_mesh(void **state)
 {
     (void)state;
     static char text[8000];
-    char kept[PLACE_SIZE + 60];
+    char said[PLACE_SIZE + 300];
     Error err = {0};
-    stop_in(2, place, false, &err);
-    snprintf(kept, sizeof kept, "from 1 meshes (%s/figures/accuracy.json); it does not go on",
-             place);
-    if (!strstr(err.message, "so far mu_M = 0.") || !strstr(err.message, kept))
-        fail_msg("%s", err.message);
+    Watch watch = stop_in(2, place, false, &err);
+    snprintf(said, sizeof said, "%s (%s/figures/accuracy.json); it does not go on from here",
+             watch.reached, place);
+    if (!strstr(err.message, said)) fail_msg("%s", err.message);
     place_read(place, "figures/accuracy.json", text, sizeof text);
     assert_non_null(strstr(text, "contact nodes"));
     assert_true(place_has(place, "figures/accuracy.png"));
+}
+
+// Without a folder the message is all that is left.
+static void test_stopped_without_a_folder(void **state)
+{
+    (void)state;
+    char said[400];
+    Error err = {0};
+    Watch watch = stop_in(4, NULL, false, &err);
+    snprintf(said, sizeof said,
+             "stopped on mesh 3 of an error bar; %s; it does not go on from here: the same command "
+             "begins anew, and --within ends it in time",
+             watch.reached);
+    assert_string_equal(err.message, said);
+    assert_non_null(strstr(watch.reached, " +- "));
     err = (Error){0};
-    stop_in(2, NULL, false, &err);
-    assert_string_equal(err.message, "stopped on mesh 2 of an error bar");   // no files wanted
+    watch = stop_in(-1, NULL, false, &err);
+    assert_true(watch.levels > 1);
+    if (!strstr(err.message, watch.reached) || strncmp(err.message, "stopped at U = ", 15) != 0 ||
+        strstr(err.message, "kept in"))
+        fail_msg("%s", err.message);
 }
 
 static void test_stopped_over_an_earlier_result(void **state)
@@ -100,7 +129,7 @@ static void test_stopped_over_an_earlier_result(void **state)
     if (!amontons_run(scene, &options, &summary, &err)) fail_msg("%s", err.message);
     amontons_scene_destroy(scene);
     stop_in(2, place, true, &err);
-    assert_non_null(strstr(err.message, "which was not written"));
+    assert_null(strstr(err.message, place));
     assert_true(place_has(place, "run.json") && place_has(place, "history.h5"));
     assert_false(place_has(place, "figures/accuracy.json"));
 }
@@ -204,6 +233,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_stopped_in_the_first_run, begin, end),
         cmocka_unit_test_setup_teardown(test_stopped_on_the_second_mesh, begin, end),
+        cmocka_unit_test(test_stopped_without_a_folder),
         cmocka_unit_test_setup_teardown(test_stopped_over_an_earlier_result, begin, end),
         cmocka_unit_test(test_loads_of_the_runs),
         cmocka_unit_test_teardown(test_no_room_for_refine, end),
