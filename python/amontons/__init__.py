@@ -5,18 +5,19 @@
     result = amontons.run("scene.yaml", {"load.pressure": 0.006})
     print(result.mu_M, result.history.mu.max())
 
-run, static, stability, model1d, sweep, render, film, info are the commands of the program `amontons`; Simulation steps one
-simulation; errors are AmontonsError and what is derived from it. docs/python.md shows all of it.
+run, forecast, static, stability, model1d, sweep, render, film, info, cache are the commands of the program `amontons`;
+Simulation steps one simulation; errors are AmontonsError and what is derived from it. docs/python.md shows all of it.
 """
 from ._library import AmontonsError, ComputeError, FileError, InputError, LibraryError
 from ._structs import NODE_OPEN, NODE_SLIPS, NODE_STICKS, NODE_WEAKENS
-from .commands import (cache, clean_cache, data_folder, film, info, keys, model1d, open_result, read_table, render,
-                       render_plot, render_sweep, run, stability, static, sweep, version)
+from .commands import (cache, clean_cache, data_folder, film, forecast, info, keys, measure_machine, model1d,
+                       open_result, read_table, render, render_plot, render_sweep, run, stability, static, sweep,
+                       version)
 from .results import Answer, Field, History, Result
 from .simulation import Simulation
 
 __version__ = version()
 __all__ = ["AmontonsError", "Answer", "ComputeError", "Field", "FileError", "History", "InputError", "LibraryError",
            "NODE_OPEN", "NODE_SLIPS", "NODE_STICKS", "NODE_WEAKENS", "Result", "Simulation", "cache", "clean_cache",
-           "data_folder", "film", "info", "keys", "model1d", "open_result", "read_table", "render", "render_plot", "render_sweep", "run", "stability", "static",
-           "sweep", "version"]
+           "data_folder", "film", "forecast", "info", "keys", "measure_machine", "model1d", "open_result",
+           "read_table", "render", "render_plot", "render_sweep", "run", "stability", "static", "sweep", "version"]

@@ -84,6 +84,15 @@ def _run_in(read: Scene, folder: Any, overwrite: bool, resume: bool, progress: P
     return result
 
 
+def forecast(scene: Any, settings: Settings | None = None) -> Answer:
+    """What a run would be and roughly what it would cost: `amontons run --dry-run`. Attributes: those of RunForecast
+    (elements, contact_nodes, unknowns, reduced, stages; mesh, reduction, steps: processor seconds, ...)."""
+    read = Scene(scene, settings)
+    expected = c.RunForecast()
+    call(lib.amontons_forecast, read.handle, ctypes.byref(expected))
+    return Answer(expected)
+
+
 def open_result(folder: Any) -> Result:
     """The result of an earlier run."""
     return Result(folder)
@@ -248,6 +257,14 @@ def clean_cache() -> dict[str, Any]:
     removed = c.CacheSummary()
     call(lib.amontons_cache_clean, ctypes.byref(removed))
     return plain(removed)
+
+
+def measure_machine() -> dict[str, float]:
+    """Measures how fast this machine is and keeps it for `reduction.use: auto`: `amontons cache --measure`. factor, pass:
+    times over the usual ones, of a mesh's factors and of a pass through them."""
+    speed = c.CacheSpeed()
+    call(lib.amontons_cache_measure, ctypes.byref(speed))
+    return plain(speed)
 
 
 def data_folder() -> Path:

@@ -254,6 +254,20 @@ class Commands(InFolder):
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stdout
 
+    def test_forecast(self):
+        """Numbers of the mesh and the choice as in the run that follows; seconds as the program prints them."""
+        expected = amontons.forecast(FIG1, SMALL)
+        model = amontons.run(FIG1, SMALL).report["model"]
+        self.assertEqual((expected.contact_nodes, expected.unknowns), (model["contact_nodes"], model["full_dofs"]))
+        said = self.program("run", FIG1, "--dry-run", *[
+            word for key, value in SMALL.items()
+            for word in ("--set", f"{key}={'none' if value is None else json.dumps(value)}")])
+        self.assertIn(f"{expected.elements} elements, {expected.contact_nodes} contact nodes", said)
+        self.assertRegex(said, rf"steps +{expected.steps:.2f} s   some {expected.stages:.0f} stages")
+        self.assertIn("On the full mesh" if expected.reduced else "Reduced", said)
+        with self.assertRaisesRegex(amontons.InputError, "pressure"):
+            amontons.forecast(FIG1, {"load.pressure": "much"})
+
     def test_static(self):
         scene = SOURCE / "validation/freefem/friction.yaml"
         answer = amontons.static(scene, folder=self.folder / "static")
@@ -333,6 +347,10 @@ class Commands(InFolder):
             self.assertEqual(sorted(name for name, *_ in found["entries"]), files)
             self.assertEqual(found["bytes"], sum(size for _, size, _ in found["entries"]))
             self.assertEqual((amontons.clean_cache()["files"], amontons.cache()["files"]), (len(files), 0))
+            speed = amontons.measure_machine()
+            self.assertTrue(all(0.01 < times < 100 for times in speed.values()), speed)
+            self.assertEqual(amontons.clean_cache()["files"], 0)
+            self.assertEqual([path.name for path in (self.folder / "cache").iterdir()], ["processor.speed"])
         finally:
             os.environ["AMONTONS_CACHE"] = ""
 
