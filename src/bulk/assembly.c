@@ -5,14 +5,14 @@
 //
 //     unknown 2 i: u_x of node i;  2 i + 1: u_z;  row-compressed, columns ascending
 //
-// Entries are found by bisection in a row: little beside computing an element's matrices.
+// Entries are found by bisection in a row.
 #include "bulk/assembly.h"
 
+#include "base/hash.h"
 #include "base/memory.h"
 #include "bulk/element.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 // The nodes that share an element with each node, ascending, itself included.
@@ -21,14 +21,19 @@ typedef struct NodeGraph {
     int32_t *neighbour;   // [start[nodes]]
 } NodeGraph;
 
-// For qsort: ascending, without the overflow of a difference.
-static int compare_indices(const void *a, const void *b)
+// Puts a node into an ascending list of `count` that has room for it; returns how many there are
+// then. Lists are short.
+static int32_t insert_node(int32_t node, int32_t *list, int32_t count)
 {
-    int32_t left = *(const int32_t *)a, right = *(const int32_t *)b;
-    return (left > right) - (left < right);
+    int32_t place = count;
+    while (place > 0 && list[place - 1] > node) place--;
+    if (place > 0 && list[place - 1] == node) return count;
+    memmove(list + place + 1, list + place, (size_t)(count - place) * sizeof *list);
+    list[place] = node;
+    return count + 1;
 }
 
-// Lists every pair of every element, then sorts each node's list and drops repetitions.
+// Room for every pair of every element, then close together.
 static bool build_graph(const Mesh *mesh, NodeGraph *graph, Error *err)
 {
     int32_t nodes = mesh->node_count;
@@ -47,19 +52,17 @@ static bool build_graph(const Mesh *mesh, NodeGraph *graph, Error *err)
         const int32_t *element = mesh->element_nodes + mesh->first_node[e];
         int32_t count = mesh->first_node[e + 1] - mesh->first_node[e];
         for (int32_t a = 0; a < count; a++) {
-            int32_t *list = graph->neighbour + graph->start[element[a]] + filled[element[a]];
-            memcpy(list, element, (size_t)count * sizeof *list);
-            filled[element[a]] += count;
+            int32_t node = element[a], *list = graph->neighbour + graph->start[node];
+            for (int32_t b = 0; b < count; b++)
+                filled[node] = insert_node(element[b], list, filled[node]);
         }
     }
     int32_t kept = 0;
     for (int32_t i = 0; i < nodes; i++) {
-        int32_t *list = graph->neighbour + graph->start[i];
-        qsort(list, (size_t)filled[i], sizeof *list, compare_indices);
+        memmove(graph->neighbour + kept, graph->neighbour + graph->start[i],
+                (size_t)filled[i] * sizeof *graph->neighbour);
         graph->start[i] = kept;
-        for (int32_t k = 0; k < filled[i]; k++) {
-            if (k == 0 || list[k] != list[k - 1]) graph->neighbour[kept++] = list[k];
-        }
+        kept += filled[i];
     }
     graph->start[nodes] = kept;
 cleanup:
@@ -93,17 +96,20 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Unknowns 2 b and 2 b + 1 of a node stand side by side in every row, so one look-up serves both.
+// Unknowns 2 b and 2 b + 1 of a node stand side by side in every row, and both rows of a node are
+// alike, so one look-up serves four entries.
 static void add_element(const Mesh *mesh, int32_t e, const ElementMatrices *matrices, Bulk *bulk)
 {
-    const int32_t *element = mesh->element_nodes + mesh->first_node[e];
+    const int32_t *element = mesh->element_nodes + mesh->first_node[e],
+                  *start = bulk->pattern.start;
     int32_t nodes = matrices->dof_count / 2;
     for (int32_t a = 0; a < nodes; a++) {
-        for (int32_t d = 0; d < 2; d++) {
-            int32_t row = 2 * element[a] + d;
-            bulk->mass[row] += matrices->mass[a];
-            for (int32_t b = 0; b < nodes; b++) {
-                int32_t entry = sparse_entry(&bulk->pattern, row, 2 * element[b]);
+        int32_t row = 2 * element[a], length = start[row + 1] - start[row];
+        bulk->mass[row] += matrices->mass[a];
+        bulk->mass[row + 1] += matrices->mass[a];
+        for (int32_t b = 0; b < nodes; b++) {
+            int32_t entry = sparse_entry(&bulk->pattern, row, 2 * element[b]);
+            for (int32_t d = 0; d < 2; d++, entry += length) {
                 for (int32_t f = 0; f < 2; f++) {
                     bulk->stiffness[entry + f] += matrices->stiffness[2 * a + d][2 * b + f];
                     bulk->damping[entry + f] += matrices->damping[2 * a + d][2 * b + f];
@@ -114,32 +120,76 @@ static void add_element(const Mesh *mesh, int32_t e, const ElementMatrices *matr
     bulk->area += matrices->area;
 }
 
-// Of a checked mesh (bulk/mesh_build) every determinant is positive: no element can fail here.
-bool bulk_assemble(const Mesh *mesh, const Material *materials, Bulk *bulk, Error *err)
+// Elements of one shape and material have the same matrices: what some of the last ones had.
+enum { SHAPES_KEPT = 16 };
+typedef struct KnownShape {
+    int32_t nodes;   // 0: none yet
+    ElementKind kind;
+    int32_t region;
+    double offset[ELEMENT_NODES_MAX][2];   // from the first node
+    ElementMatrices matrices;
+} KnownShape;
+
+// Matrices follow from offsets alone, so whether they were kept does not show.
+static const ElementMatrices *matrices_of(const Mesh *mesh, int32_t e, const Material *materials,
+                                          KnownShape known[SHAPES_KEPT])
 {
-    *bulk = (Bulk){.dof_count = 2 * mesh->node_count};
-    TRY(build_pattern(mesh, &bulk->pattern, err));
+    const int32_t *element = mesh->element_nodes + mesh->first_node[e];
+    int32_t nodes = mesh->first_node[e + 1] - mesh->first_node[e];
+    double offset[ELEMENT_NODES_MAX][2] = {0};
+    const double *origin = mesh->position + 2 * (int64_t)element[0];
+    for (int32_t a = 0; a < nodes; a++)
+        for (int d = 0; d < 2; d++)
+            offset[a][d] = mesh->position[2 * (int64_t)element[a] + d] - origin[d];
+    Hash hash = hash_start();
+    hash_bytes(&hash, offset, sizeof offset);
+    KnownShape *shape = &known[hash.low % SHAPES_KEPT];
+    ElementKind kind = mesh->kind[e];
+    int32_t region = mesh_region(mesh, e);
+    if (shape->nodes == nodes && shape->kind == kind && shape->region == region &&
+        memcmp(shape->offset, offset, sizeof offset) == 0)
+        return &shape->matrices;
+    *shape = (KnownShape){.nodes = nodes, .kind = kind, .region = region};
+    memcpy(shape->offset, offset, sizeof offset);
+    element_matrices(kind, (const double(*)[2])offset, &materials[region], &shape->matrices);
+    return &shape->matrices;
+}
+
+// On a pattern that is there. Of a checked mesh (bulk/mesh_build) every determinant is positive: no
+// element can fail here.
+static bool fill(const Mesh *mesh, const Material *materials, Bulk *bulk, Error *err)
+{
     int64_t entries = bulk->pattern.start[bulk->dof_count];
+    KnownShape *known = NEW_ARRAY(KnownShape, SHAPES_KEPT, err);
     bulk->stiffness = NEW_ARRAY(double, entries, err);
     bulk->damping = NEW_ARRAY(double, entries, err);
     bulk->mass = NEW_ARRAY(double, bulk->dof_count, err);
     bulk->load = NEW_ARRAY(double, bulk->dof_count, err);
     bulk->held = NEW_ARRAY(uint8_t, bulk->dof_count, err);
-    if (!bulk->stiffness || !bulk->damping || !bulk->mass || !bulk->load || !bulk->held)
-        goto cleanup;
-    for (int32_t e = 0; e < mesh->element_count; e++) {
-        double position[ELEMENT_NODES_MAX][2];
-        int32_t first = mesh->first_node[e], count = mesh->first_node[e + 1] - first;
-        for (int32_t a = 0; a < count; a++)
-            memcpy(position[a], mesh->position + 2 * mesh->element_nodes[first + a],
-                   sizeof position[a]);
-        ElementMatrices matrices;
-        element_matrices(mesh->kind[e], (const double(*)[2])position,
-                         &materials[mesh_region(mesh, e)], &matrices);
-        add_element(mesh, e, &matrices, bulk);
-    }
-cleanup:
+    for (int32_t e = 0; error_is_clean(err) && e < mesh->element_count; e++)
+        add_element(mesh, e, matrices_of(mesh, e, materials, known), bulk);
+    memory_free(known);
     return error_is_clean(err);
+}
+
+bool bulk_assemble(const Mesh *mesh, const Material *materials, Bulk *bulk, Error *err)
+{
+    *bulk = (Bulk){.dof_count = 2 * mesh->node_count};
+    return build_pattern(mesh, &bulk->pattern, err) && fill(mesh, materials, bulk, err);
+}
+
+bool bulk_assemble_like(const Bulk *like, const Mesh *mesh, const Material *materials, Bulk *bulk,
+                        Error *err)
+{
+    const SparsePattern *from = &like->pattern;
+    int64_t rows = from->size + 1, entries = from->start[from->size];
+    *bulk = (Bulk){.dof_count = from->size, .pattern.size = from->size};
+    bulk->pattern.start = NEW_ARRAY(int32_t, rows, err);
+    bulk->pattern.index = NEW_ARRAY(int32_t, entries, err);
+    if (!error_is_clean(err)) return false;
+    memcpy(bulk->pattern.start, from->start, (size_t)rows * sizeof *from->start);
+    memcpy(bulk->pattern.index, from->index, (size_t)entries * sizeof *from->index);
+    return fill(mesh, materials, bulk, err);
 }
 
 void bulk_destroy(Bulk *bulk)

@@ -21,6 +21,9 @@ typedef struct Bulk {
 
 // materials: one, or as many as the mesh has regions, by their numbers.
 bool bulk_assemble(const Mesh *mesh, const Material *materials, Bulk *bulk, Error *err);
+// On the pattern of `like`, a bulk of the same elements.
+bool bulk_assemble_like(const Bulk *like, const Mesh *mesh, const Material *materials, Bulk *bulk,
+                        Error *err);
 void bulk_destroy(Bulk *bulk);
 
 // load += int_curve N_a (traction_x, traction_z) ds. A pressure P on top is (0, -P).

@@ -72,7 +72,7 @@ bool reduction_block_create(const Mesh *mesh, const Bulk *bulk, const Materials 
     }
     Mesh scaled = *mesh;   // borrows all but the positions
     scaled.position = block->position;
-    TRY(bulk_assemble(&scaled, block->materials.list, &block->bulk, err));
+    TRY(bulk_assemble_like(bulk, &scaled, block->materials.list, &block->bulk, err));
     for (int32_t dof = 0; dof < bulk->dof_count; dof++) {
         if (bulk->held[dof]) bulk_hold(dof, &block->bulk);
         block->bulk.load[dof] = load_size > 0 ? put_on_grid(bulk->load[dof] / load_size) : 0;

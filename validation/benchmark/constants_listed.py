@@ -222,6 +222,7 @@ NOT_A_CHOICE = {
     "bulk/interface_operator.h": {"BULK_TERMS": "K, C, M"},
     "bulk/answers.h": {"ANSWER_BLOCKS_MAX": SIZE,
                        "ANSWERS_TOGETHER": "columns whose image stays in the cache"},
+    "bulk/assembly.c": {"SHAPES_KEPT": "of elements with the same matrices, kept; none changes"},
     "bulk/answers.c": {"FAR": "condition of two equations"},
     "bulk/factors_ahead.c": {"SLOTS": "one in use, one in work"},
     "bulk/reduction_block.c": {"GRID": "single precision that a cache stores"},
