@@ -39,6 +39,8 @@ void sparse_apply_many(const SparsePattern *pattern, const double *values, const
 typedef struct SparseAnalysis SparseAnalysis;
 SparseAnalysis *sparse_analyse(const SparsePattern *pattern, const int32_t *border,
                                int32_t border_count, Error *err);
+// Another one, for another thread.
+SparseAnalysis *sparse_analysis_copy(const SparseAnalysis *from, Error *err);
 void sparse_analysis_destroy(SparseAnalysis *analysis);   // NULL is fine
 
 typedef struct SparseFactor SparseFactor;   // of one matrix; the analysis must outlive it

@@ -31,7 +31,6 @@ static void block_destroy(AnswerBlock *block)
 void answers_destroy(Answers *answers)
 {
     for (int32_t k = 0; k <= answers->block_count; k++) block_destroy(&answers->blocks[k]);
-    bulk_operator_destroy(&answers->full);
     memory_free(answers->unit_load);
     for (int which = 0; which < 2; which++) {
         memory_free(answers->image[which]);
@@ -40,11 +39,11 @@ void answers_destroy(Answers *answers)
     *answers = (Answers){0};
 }
 
-bool answers_create(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
-                    const BulkScales *scales, Answers *answers, Error *err)
+bool answers_create(const BulkOperator *full, const BulkScales *scales, Answers *answers,
+                    Error *err)
 {
-    *answers = (Answers){.scales = *scales};
-    TRY(bulk_operator_create(bulk, NULL, interface_dofs, interface_count, &answers->full, err));
+    const Bulk *bulk = full->bulk;
+    *answers = (Answers){.full = full, .scales = *scales};
     answers->unit_load = NEW_ARRAY(double, bulk->dof_count, err);
     for (int which = 0; which < 2; which++) {
         answers->image[which] = NEW_ARRAY(double, (int64_t)bulk->dof_count *ANSWERS_TOGETHER, err);
@@ -61,7 +60,7 @@ cleanup:
 AnswerBlock *answers_next(Answers *answers, StripPoint point, int64_t columns, Error *err)
 {
     AnswerBlock *block = &answers->blocks[answers->block_count];
-    int64_t dofs = answers->full.dof_count, rows = answers->full.interface_count + 1;
+    int64_t dofs = answers->full->dof_count, rows = answers->full->interface_count + 1;
     answers_drop(answers);
     if (answers->block_count == ANSWER_BLOCKS_MAX)
         FAIL(err, ERROR_LIBRARY, "more than %d points to reduce the bulk at", ANSWER_BLOCKS_MAX);
@@ -89,7 +88,7 @@ static void apply(const Answers *answers, BulkTerm term, DenseView x, double *wo
     double scale = term == BULK_STIFFNESS ? answers->scales.stiffness
                    : term == BULK_DAMPING ? answers->scales.damping
                                           : answers->scales.mass;
-    bulk_operator_apply_many(&answers->full, term, x.values, x.columns, y, work);
+    bulk_operator_apply_many(answers->full, term, x.values, x.columns, y, work);
     for (int64_t k = 0; scale != 1 && k < (int64_t)x.rows * x.columns; k++) y[k] /= scale;
 }
 
@@ -118,7 +117,7 @@ static void multiply_columns(const Multiplication *all, int32_t which, int64_t f
 {
     const Answers *answers = all->answers;
     const AnswerBlock *next = &answers->blocks[answers->block_count];
-    int64_t dofs = answers->full.dof_count, rows = answers->count + next->count;
+    int64_t dofs = answers->full->dof_count, rows = answers->count + next->count;
     DenseView image = dense_view(answers->image[which], dofs, columns);
     for (int term = 0; term < BULK_TERMS; term++) {
         bool imaged = false;
@@ -181,7 +180,7 @@ static void complete_block(const Answers *answers, const AnswerBlock *block, dou
                            double *const gram[BULK_TERMS])
 {
     const AnswerBlock *next = &answers->blocks[answers->block_count];
-    int64_t m = answers->full.interface_count, rows = answers->count + next->count;
+    int64_t m = answers->full->interface_count, rows = answers->count + next->count;
     unsigned known = needed_products(answers, block->point, next->point);
     dense_multiply_transposed(dense_view(block->reaction, m + 1, block->count),
                               dense_view(next->motion, m + 1, next->count), 1, 0, a);
@@ -208,7 +207,7 @@ static void mirror_own(const Answers *answers, double *gram)
 bool answers_multiply(const Answers *answers, double *const gram[BULK_TERMS], Error *err)
 {
     const AnswerBlock *next = &answers->blocks[answers->block_count];
-    int64_t dofs = answers->full.dof_count, m = answers->full.interface_count;
+    int64_t dofs = answers->full->dof_count, m = answers->full->interface_count;
     int64_t rows = answers->count + next->count;
     Multiplication by_mesh = {answers, gram};
     double *a = NEW_ARRAY(double, rows * next->count, err);
@@ -231,7 +230,7 @@ cleanup:
 void answers_combine(const Answers *answers, double factor, const double *c, int64_t columns,
                      double *y)
 {
-    int64_t dofs = answers->full.dof_count;
+    int64_t dofs = answers->full->dof_count;
     for (int32_t k = 0; k < answers->block_count; k++) {
         const AnswerBlock *block = &answers->blocks[k];
         dense_multiply_rows(dense_view(block->field, dofs, block->count), c + block->first,
@@ -242,7 +241,7 @@ void answers_combine(const Answers *answers, double factor, const double *c, int
 void answers_project(const Answers *answers, BulkTerm term, const double *z, int64_t columns,
                      double *image, double *product)
 {
-    int64_t dofs = answers->full.dof_count;
+    int64_t dofs = answers->full->dof_count;
     apply(answers, term, dense_view(z, dofs, columns), answers->work[0], image);
     for (int32_t k = 0; k < answers->block_count; k++) {
         const AnswerBlock *block = &answers->blocks[k];

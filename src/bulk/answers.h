@@ -23,7 +23,7 @@ typedef struct AnswerBlock {
 } AnswerBlock;
 
 typedef struct Answers {
-    BulkOperator full;   // of the mesh; owned
+    const BulkOperator *full;   // of the mesh; not owned
     BulkScales scales;
     double *unit_load;   // [dofs] f; owned
     double *image[2];   // [dofs * ANSWERS_TOGETHER] work of two threads; owned
@@ -34,8 +34,9 @@ typedef struct Answers {
     AnswerBlock blocks[ANSWER_BLOCKS_MAX + 1];   // [block_count], and the one that comes next
 } Answers;
 
-bool answers_create(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
-                    const BulkScales *scales, Answers *answers, Error *err);
+// full: must outlive the answers.
+bool answers_create(const BulkOperator *full, const BulkScales *scales, Answers *answers,
+                    Error *err);
 void answers_destroy(Answers *answers);
 
 // Room for `columns` columns, behind all others: a block that counts from answers_keep on.

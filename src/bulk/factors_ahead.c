@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Two slots: what the caller works with, and what the thread factors. Each has an analysis of its
-// own, made in the thread, as factors of one analysis share their work space.
+// Two slots: what the caller works with, and what the thread factors. Each has a copy of the
+// system, made in the thread, as factors of one analysis share their work space.
 #include "bulk/factors_ahead.h"
 
 #include "base/memory.h"
@@ -9,7 +9,7 @@
 enum { SLOTS = 2 };
 
 typedef struct Slot {
-    bool analysed;
+    bool copied;
     BulkOperator system;
     FactoredPoint point;   // owned
     OperatorTerms terms;
@@ -32,12 +32,11 @@ static bool factor_slot(void *context, int32_t number, int32_t waiting, Error *e
     FactoredPoint *point = &slot->point;
     interface_operator_destroy(point->full);
     point->full = NULL;
-    if (!slot->analysed) {
-        TRY(bulk_operator_create(def->bulk, NULL, def->interface_dofs, def->interface_count,
-                                 &slot->system, err));
-        slot->analysed = true;
-        point->held = NEW_ARRAY(double, def->bulk->dof_count, err);
-        point->pull = NEW_ARRAY(double, def->interface_count, err);
+    if (!slot->copied) {
+        TRY(bulk_operator_copy(def->system, &slot->system, err));
+        slot->copied = true;
+        point->held = NEW_ARRAY(double, def->system->dof_count, err);
+        point->pull = NEW_ARRAY(double, def->system->interface_count, err);
         if (!error_is_clean(err)) goto cleanup;
     }
     point->full = interface_operator_create(&slot->system, slot->terms, err);

@@ -16,9 +16,7 @@ typedef struct FactoredPoint {
 } FactoredPoint;
 
 typedef struct FactorsAheadDef {
-    const Bulk *bulk;
-    const int32_t *interface_dofs;
-    int32_t interface_count;
+    const BulkOperator *system;   // the full mesh's; the caller may work with it meanwhile
     const double *load;   // [dofs]
     const OperatorTerms *terms;   // [count] in this order
     int32_t count;

@@ -40,8 +40,8 @@ typedef struct Assembly {
 
 void far_field_destroy(FarField *far)
 {
+    bulk_operator_destroy(&far->system);
     bulk_destroy(&far->bulk);
-    memory_free(far->interface_dofs);
     memory_free(far->near);
     memory_free(far->stiffness);
     for (int32_t k = 0; k < FAR_LAYERS_MAX; k++) {
@@ -365,16 +365,18 @@ static bool replace(const int32_t *interface_dofs, int32_t m, const FarFieldDef 
     FarSamples samples = {
         .distance = FAR_DISTANCE, .layer_count = far->layer_count, .layers = layers};
     for (int32_t k = 0; k < far->layer_count; k++) layers[k] = &far->layers[k].motions;
-    far->interface_dofs = NEW_ARRAY(int32_t, m, err);
-    if (!far->interface_dofs) goto cleanup;
+    int32_t *place = NEW_ARRAY(int32_t, m, err);
+    if (!place) goto cleanup;
     TRY(far_samples_take(work->mesh, interface_dofs, m, def, &samples, err));
     TRY(build_bulk(work, err));
-    for (int32_t j = 0; j < m; j++) far->interface_dofs[j] = work->place[interface_dofs[j]];
+    for (int32_t j = 0; j < m; j++) place[j] = work->place[interface_dofs[j]];
+    TRY(bulk_operator_create(&far->bulk, NULL, place, m, &far->system, err));
     far->stiffness = samples.stiffness;
     samples.stiffness = NULL;
-    TRY(far_samples_compare(&samples, &far->bulk, far->interface_dofs, m, &far->error, err));
+    TRY(far_samples_compare(&samples, &far->system, &far->error, err));
     if (!(far->error < ERROR_MAX)) far->layer_count = 0;
 cleanup:
+    memory_free(place);
     far_samples_destroy(&samples);
     return error_is_clean(err);
 }

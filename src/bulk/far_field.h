@@ -26,7 +26,7 @@ typedef struct FarLayer {
 
 typedef struct FarField {
     Bulk bulk;   // near unknowns in the mesh's order, then coordinates; owned, as what follows
-    int32_t *interface_dofs;   // of `bulk`
+    BulkOperator system;   // of `bulk`; owned
     int32_t mesh_dofs, near_count;
     int32_t *near;   // [near_count] unknowns of the mesh, ascending
     int32_t layer_count;   // 0: nothing is replaced

@@ -113,12 +113,8 @@ static bool sampling_begin(const int32_t *interface_dofs, int32_t m, Sampling *w
     list_points(work, levels.inertia[0], strip.element_inertia);
     samples->terms = work->terms[work->count];
     samples->allowed = strip_allowed(&strip, work->points[work->count], work->def->tolerance);
-    FactorsAheadDef def = {.bulk = bulk,
-                           .interface_dofs = interface_dofs,
-                           .interface_count = m,
-                           .load = bulk->load,
-                           .terms = work->terms,
-                           .count = work->count + 1};
+    FactorsAheadDef def = {
+        .system = &work->mesh, .load = bulk->load, .terms = work->terms, .count = work->count + 1};
     TRY(factors_ahead_create(&def, &work->ahead, err));
     for (int32_t k = 0; k < samples->layer_count; k++) {
         samples->layers[k]->columns_max = CHUNK + 1;
@@ -230,18 +226,15 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool far_samples_compare(const FarSamples *samples, const Bulk *bulk, const int32_t *interface_dofs,
-                         int32_t interface_count, double *error, Error *err)
+bool far_samples_compare(const FarSamples *samples, BulkOperator *system, double *error, Error *err)
 {
-    int32_t m = interface_count;
+    int32_t m = system->interface_count;
     int64_t entries = (int64_t)m * m;
-    BulkOperator system = {0};
     InterfaceOperator *condensed = NULL;
     double *excess = NEW_ARRAY(double, entries, err), *lower = NEW_ARRAY(double, entries, err);
     double *work = NEW_ARRAY(double, dense_eigen_work(m), err), *values = NEW_ARRAY(double, m, err);
     if (!error_is_clean(err)) goto cleanup;
-    TRY(bulk_operator_create(bulk, NULL, interface_dofs, m, &system, err));
-    condensed = interface_operator_create(&system, samples->terms, err);
+    condensed = interface_operator_create(system, samples->terms, err);
     if (!condensed) goto cleanup;
     memcpy(excess, interface_operator_schur(condensed), (size_t)entries * sizeof *excess);
     memcpy(lower, samples->schur, (size_t)entries * sizeof *lower);
@@ -254,7 +247,6 @@ bool far_samples_compare(const FarSamples *samples, const Bulk *bulk, const int3
     *error = fmax(fabs(values[0]), fabs(values[m - 1])) / samples->allowed;
 cleanup:
     interface_operator_destroy(condensed);
-    bulk_operator_destroy(&system);
     memory_free(excess);
     memory_free(lower);
     memory_free(work);

@@ -27,9 +27,9 @@ typedef struct FarSamples {
 
 bool far_samples_take(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
                       const FarFieldDef *def, FarSamples *samples, Error *err);
-// *error: the largest relative one of S of `bulk` at that point, over what is allowed.
-bool far_samples_compare(const FarSamples *samples, const Bulk *bulk, const int32_t *interface_dofs,
-                         int32_t interface_count, double *error, Error *err);
+// *error: the largest relative one of S of `system` at that point, over what is allowed.
+bool far_samples_compare(const FarSamples *samples, BulkOperator *system, double *error,
+                         Error *err);
 void far_samples_destroy(FarSamples *samples);
 
 #endif

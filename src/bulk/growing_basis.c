@@ -21,17 +21,15 @@ void basis_destroy(GrowingBasis *basis)
     *basis = (GrowingBasis){0};
 }
 
-bool basis_create(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
-                  ReducedBulk *reduced, GrowingBasis *basis, Error *err)
+bool basis_create(const BulkOperator *full, ReducedBulk *reduced, GrowingBasis *basis, Error *err)
 {
-    int64_t m = interface_count;
+    int64_t m = full->interface_count;
     *basis = (GrowingBasis){.reduced = reduced};
-    *reduced = (ReducedBulk){.full_dofs = bulk->dof_count,
-                             .interface_count = interface_count,
+    *reduced = (ReducedBulk){.full_dofs = full->dof_count,
+                             .interface_count = full->interface_count,
                              .scales = reduced->scales};
     reduced->stiffness = NEW_ARRAY(double, m *m, err);
-    return reduced->stiffness && answers_create(bulk, interface_dofs, interface_count,
-                                                &reduced->scales, &basis->answers, err);
+    return reduced->stiffness && answers_create(full, &reduced->scales, &basis->answers, err);
 }
 
 // a [rows * columns] into the upper left corner of a new one, [new_rows * new_columns], zero
@@ -248,7 +246,7 @@ static void form_modes(const GrowingBasis *basis, int64_t first, int64_t columns
     int64_t dofs = basis->reduced->full_dofs, m = basis->reduced->interface_count;
     answers_combine(answers, 1, basis->mix + first * answers->count, columns, field);
     for (int64_t j = 0; j < columns; j++)
-        for (int64_t i = 0; i < m; i++) field[j * dofs + answers->full.interface_dofs[i]] = 0;
+        for (int64_t i = 0; i < m; i++) field[j * dofs + answers->full->interface_dofs[i]] = 0;
 }
 
 // Products by the mesh of some of the modes from V on, with all: columns of old, left and lacking.

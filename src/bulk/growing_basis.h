@@ -14,9 +14,9 @@ typedef struct GrowingBasis {
     double *mix;   // [answers.count * reduced->count] modes = answers * mix; owned
 } GrowingBasis;
 
-// reduced: zeroed but for its scales; stays the caller's. basis_start fills it first.
-bool basis_create(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
-                  ReducedBulk *reduced, GrowingBasis *basis, Error *err);
+// full: the mesh's, which must outlive the basis. reduced: zeroed but for its scales; stays the
+// caller's. basis_start fills it first.
+bool basis_create(const BulkOperator *full, ReducedBulk *reduced, GrowingBasis *basis, Error *err);
 void basis_destroy(GrowingBasis *basis);   // all but `reduced`
 
 // Static modes, and the static answer to the load. statics: the full mesh at K alone.

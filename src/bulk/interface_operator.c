@@ -25,10 +25,8 @@ struct InterfaceOperator {
     MachineColumn machine;   // empty: the rod is rigid; owned
 };
 
-// The load is copied: later changes of `bulk` do not reach it. mass_total: of one direction, as
-// both have the same.
-bool bulk_operator_create(const Bulk *bulk, const double *position, const int32_t *interface_dofs,
-                          int32_t interface_count, BulkOperator *system, Error *err)
+static bool allocate_full(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
+                          BulkOperator *system, Error *err)
 {
     *system = (BulkOperator){
         .dof_count = bulk->dof_count, .interface_count = interface_count, .bulk = bulk};
@@ -36,8 +34,17 @@ bool bulk_operator_create(const Bulk *bulk, const double *position, const int32_
     system->load = NEW_ARRAY(double, bulk->dof_count, err);
     system->rotation = NEW_ARRAY(double, bulk->dof_count, err);
     system->values = NEW_ARRAY(double, bulk->pattern.start[bulk->dof_count], err);
-    if (!error_is_clean(err)) goto cleanup;
+    if (!error_is_clean(err)) return false;
     memcpy(system->interface_dofs, interface_dofs, (size_t)interface_count * sizeof(int32_t));
+    return true;
+}
+
+// The load is copied: later changes of `bulk` do not reach it. mass_total: of one direction, as
+// both have the same.
+bool bulk_operator_create(const Bulk *bulk, const double *position, const int32_t *interface_dofs,
+                          int32_t interface_count, BulkOperator *system, Error *err)
+{
+    TRY(allocate_full(bulk, interface_dofs, interface_count, system, err));
     memcpy(system->load, bulk->load, (size_t)bulk->dof_count * sizeof(double));
     for (int32_t dof = 0; dof < bulk->dof_count; dof += 2) {
         system->rotation[dof] = position ? -position[dof + 1] : 0;
@@ -45,6 +52,19 @@ bool bulk_operator_create(const Bulk *bulk, const double *position, const int32_
         system->mass_total += bulk->mass[dof];
     }
     system->analysis = sparse_analyse(&bulk->pattern, interface_dofs, interface_count, err);
+cleanup:
+    return error_is_clean(err);
+}
+
+bool bulk_operator_copy(const BulkOperator *from, BulkOperator *system, Error *err)
+{
+    size_t size = (size_t)from->dof_count * sizeof(double);
+    TRY(allocate_full(from->bulk, from->interface_dofs, from->interface_count, system, err));
+    memcpy(system->load, from->load, size);
+    memcpy(system->rotation, from->rotation, size);
+    system->mass_total = from->mass_total;
+    system->machine = from->machine;
+    system->analysis = sparse_analysis_copy(from->analysis, err);
 cleanup:
     return error_is_clean(err);
 }
@@ -195,17 +215,17 @@ double bulk_operator_error(const BulkOperator *system, OperatorTerms terms)
 static double combine_sparse(BulkOperator *system, OperatorTerms terms)
 {
     const Bulk *bulk = system->bulk;
-    const int32_t *start = bulk->pattern.start, *index = bulk->pattern.index;
+    const SparsePattern *pattern = &bulk->pattern;
     double *values = system->values, largest = 0;
-    for (int32_t column = 0; column < bulk->dof_count; column++) {
-        for (int32_t k = start[column]; k < start[column + 1]; k++) {
-            values[k] = terms.damping * bulk->damping[k] + terms.stiffness * bulk->stiffness[k];
-            if (index[k] == column) values[k] += terms.mass * bulk->mass[column];
-        }
+    int32_t entries = pattern->start[bulk->dof_count];
+    for (int32_t k = 0; k < entries; k++)
+        values[k] = terms.damping * bulk->damping[k] + terms.stiffness * bulk->stiffness[k];
+    for (int32_t dof = 0; terms.mass != 0 && dof < bulk->dof_count; dof++)
+        values[sparse_entry(pattern, dof, dof)] += terms.mass * bulk->mass[dof];
+    for (int32_t j = 0; j < system->interface_count; j++) {
+        int32_t dof = system->interface_dofs[j];
+        largest = fmax(largest, values[sparse_entry(pattern, dof, dof)]);
     }
-    for (int32_t j = 0; j < system->interface_count; j++)
-        largest = fmax(largest, values[sparse_entry(&bulk->pattern, system->interface_dofs[j],
-                                                    system->interface_dofs[j])]);
     return largest;
 }
 

@@ -41,6 +41,8 @@ typedef struct BulkOperator {
 // `bulk` must outlive the operator.
 bool bulk_operator_create(const Bulk *bulk, const double *position, const int32_t *interface_dofs,
                           int32_t interface_count, BulkOperator *system, Error *err);
+// Another one of a full bulk, for another thread: nothing is analysed again.
+bool bulk_operator_copy(const BulkOperator *from, BulkOperator *system, Error *err);
 
 // interface_rotation: [interface_count] the unit rotation: -z for a u_x, x for a u_z. `reduced`
 // must outlive the operator.

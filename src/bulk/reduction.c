@@ -42,7 +42,7 @@ enum { FAR_INTERFACE = 100 };
 
 // Work of one build.
 typedef struct Builder {
-    const Bulk *bulk;
+    BulkOperator *full;   // what is reduced: the mesh, or what the far field leaves of it
     const ReductionDef *def;
     GrowingBasis basis;
     Strip strip;
@@ -65,10 +65,10 @@ static void builder_destroy(Builder *work)
     memory_free(work->eigen_work);
 }
 
-static bool builder_create(const int32_t *interface_dofs, int32_t m, ReducedBulk *reduced,
-                           Builder *work, Error *err)
+static bool builder_create(ReducedBulk *reduced, Builder *work, Error *err)
 {
-    TRY(basis_create(work->bulk, interface_dofs, m, reduced, &work->basis, err));
+    int32_t m = work->full->interface_count;
+    TRY(basis_create(work->full, reduced, &work->basis, err));
     work->exact = NEW_ARRAY(double, (int64_t)m *m, err);
     work->excess = NEW_ARRAY(double, (int64_t)m *m, err);
     work->values = NEW_ARRAY(double, m, err);
@@ -152,7 +152,7 @@ static bool answer_motions(Builder *work, InterfaceOperator *full, int32_t wante
 static void take_load(const Builder *work, const FactoredPoint *full, double allowed,
                       AnswerBlock *next)
 {
-    int64_t dofs = work->basis.answers.full.dof_count, m = work->basis.reduced->interface_count;
+    int64_t dofs = work->full->dof_count, m = work->basis.reduced->interface_count;
     double *x = next->field + (next->count - 1) * dofs;
     double *reaction = next->reaction + (next->count - 1) * (m + 1);
     // The load does less work on a Galerkin answer than on the exact one, by the energy of the
@@ -230,15 +230,13 @@ static bool list_visits(Builder *work, double slowest, Error *err)
 {
     const Answers *answers = &work->basis.answers;
     strip_list(&work->def->materials, &work->def->scales, slowest,
-               inertia_element(work->bulk, &work->def->scales, answers->full.interface_dofs,
-                               answers->full.interface_count),
+               inertia_element(work->full->bulk, &work->def->scales, work->full->interface_dofs,
+                               work->full->interface_count),
                &work->basis.reduced->errors, &work->strip);
     work->basis.answers.inertia_least = slowest / 20;
     for (int32_t k = 0; k < work->strip.count; k++)
         work->terms[k] = strip_terms(work->strip.visits[k].point, &work->def->scales);
-    FactorsAheadDef def = {.bulk = work->bulk,
-                           .interface_dofs = answers->full.interface_dofs,
-                           .interface_count = answers->full.interface_count,
+    FactorsAheadDef def = {.system = work->full,
                            .load = answers->unit_load,
                            .terms = work->terms,
                            .count = work->strip.count};
@@ -266,13 +264,13 @@ cleanup:
 static bool compare_beyond(Builder *work, Error *err)
 {
     ReductionErrors *errors = &work->basis.reduced->errors;
-    const BulkOperator *full = &work->basis.answers.full;
+    const BulkOperator *full = work->full;
     int64_t m = full->interface_count;
     StripPoint point = {.viscosity = 0, .inertia = errors->inertia[errors->count - 1]};
     double *schur = NEW_ARRAY(double, m *m, err);
     if (!schur) goto cleanup;
     for (int64_t j = 0; j < m; j++)
-        schur[j * m + j] = point.inertia * work->bulk->mass[full->interface_dofs[j]] /
+        schur[j * m + j] = point.inertia * full->bulk->mass[full->interface_dofs[j]] /
                            work->def->scales.mass;
     TRY(compare_well(work, point, schur, err));
     errors->error[errors->count - 1] = fmax(work->values[m - 1], 0);
@@ -328,17 +326,16 @@ static void add_far_field(const Builder *work, const FarField *far)
     }
 }
 
-static bool build_on(Builder *work, const FarField *far, const int32_t *interface_dofs, int32_t m,
-                     ReducedBulk *reduced, Error *err)
+static bool build_on(Builder *work, const FarField *far, ReducedBulk *reduced, Error *err)
 {
     const ReductionDef *def = work->def;
+    int64_t m = work->full->interface_count;
     InterfaceOperator *statics = NULL;
     OperatorTerms terms = {.stiffness = 1 / def->scales.stiffness, .lift = true};
     double slowest = 0;
-    TRY(builder_create(interface_dofs, m, reduced, work, err));
-    BulkOperator *full = &work->basis.answers.full;
-    if (!(statics = interface_operator_create(full, terms, err))) goto cleanup;
-    TRY(inertia_slowest(full, &def->scales, statics, &slowest, err));
+    TRY(builder_create(reduced, work, err));
+    if (!(statics = interface_operator_create(work->full, terms, err))) goto cleanup;
+    TRY(inertia_slowest(work->full, &def->scales, statics, &slowest, err));
     TRY(list_visits(work, slowest, err));
     work->basis.loss_max = is_uniform(&def->materials) ? LOSS_MAX : 0;
     TRY(basis_start(&work->basis, statics, err));
@@ -357,17 +354,21 @@ cleanup:
 bool reduction_build(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
                      const ReductionDef *def, ReducedBulk *reduced, Error *err)
 {
-    Builder work = {.bulk = bulk, .def = def};
+    BulkOperator mesh = {0};
+    Builder work = {.full = &mesh, .def = def};
     FarFieldDef far_def = {def->tolerance, def->scales, def->materials};
     FarField far = {0};
     *reduced = (ReducedBulk){.scales = def->scales};
     if (interface_count >= FAR_INTERFACE)
         TRY(far_field_create(bulk, interface_dofs, interface_count, &far_def, &far, err));
-    if (far.layer_count > 0) work.bulk = &far.bulk;
-    TRY(build_on(&work, &far, far.layer_count > 0 ? far.interface_dofs : interface_dofs,
-                 interface_count, reduced, err));
+    if (far.layer_count > 0)
+        work.full = &far.system;
+    else
+        TRY(bulk_operator_create(bulk, NULL, interface_dofs, interface_count, &mesh, err));
+    TRY(build_on(&work, &far, reduced, err));
 cleanup:
     builder_destroy(&work);
+    bulk_operator_destroy(&mesh);
     far_field_destroy(&far);
     if (!error_is_clean(err)) error_context(err, "while reducing the bulk");
     return error_is_clean(err);

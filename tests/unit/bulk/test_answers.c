@@ -17,6 +17,7 @@ enum { POINT_COUNT = sizeof POINTS / sizeof *POINTS, COLUMNS = 5, MAX = POINT_CO
 
 typedef struct Rig {
     ReducedBlock block;   // not reduced
+    BulkOperator mesh;
     Answers answers;
     Random random;
 } Rig;
@@ -26,14 +27,16 @@ static void start(Rig *rig)
     Error err = {0};
     *rig = (Rig){.random = {.state = 5}};
     reduced_block_build(&SHAPE, &MATERIAL, 0.7, 0, &rig->block);
-    assert_true(answers_create(&rig->block.bulk, rig->block.dofs, rig->block.interface_count,
-                               &rig->block.def.scales, &rig->answers, &err));
+    assert_true(bulk_operator_create(&rig->block.bulk, NULL, rig->block.dofs,
+                                     rig->block.interface_count, &rig->mesh, &err));
+    assert_true(answers_create(&rig->mesh, &rig->block.def.scales, &rig->answers, &err));
     rig->answers.inertia_least = 0.1;
 }
 
 static void end(Rig *rig)
 {
     answers_destroy(&rig->answers);
+    bulk_operator_destroy(&rig->mesh);
     reduced_block_destroy(&rig->block);
 }
 
@@ -42,12 +45,12 @@ static void answer(Rig *rig, StripPoint point)
 {
     Error err = {0};
     const BulkScales *scales = &rig->block.def.scales;
-    int64_t dofs = rig->answers.full.dof_count, m = rig->answers.full.interface_count;
+    int64_t dofs = rig->mesh.dof_count, m = rig->mesh.interface_count;
     OperatorTerms terms = {.mass = point.inertia / scales->mass,
                            .damping = point.viscosity / scales->damping,
                            .stiffness = (1 - point.viscosity) / scales->stiffness,
                            .lift = true};
-    InterfaceOperator *full = interface_operator_create(&rig->answers.full, terms, &err);
+    InterfaceOperator *full = interface_operator_create(&rig->mesh, terms, &err);
     AnswerBlock *next = answers_next(&rig->answers, point, COLUMNS, &err);
     assert_true(full && next);
     double *motions = hand_matrix((int32_t)m, COLUMNS);
@@ -73,16 +76,16 @@ static double product(const Rig *rig, BulkTerm term, const double *x, const doub
 {
     const BulkScales *scales = &rig->block.def.scales;
     const double unit[] = {scales->stiffness, scales->damping, scales->mass};
-    double *image = hand_matrix(rig->answers.full.dof_count, 1), sum = 0;
-    bulk_operator_apply(&rig->answers.full, term, z, image);
-    for (int32_t k = 0; k < rig->answers.full.dof_count; k++) sum += x[k] * image[k];
+    double *image = hand_matrix(rig->mesh.dof_count, 1), sum = 0;
+    bulk_operator_apply(&rig->mesh, term, z, image);
+    for (int32_t k = 0; k < rig->mesh.dof_count; k++) sum += x[k] * image[k];
     free(image);
     return sum / unit[term];
 }
 
 static const double *column(const Rig *rig, int64_t k)
 {
-    return rig->answers.blocks[k / COLUMNS].field + k % COLUMNS * rig->answers.full.dof_count;
+    return rig->answers.blocks[k / COLUMNS].field + k % COLUMNS * rig->mesh.dof_count;
 }
 
 // An equation loses what the other terms of it weigh more than the one it gives: 1e-10 of the
@@ -125,7 +128,7 @@ static void test_combination_and_projection(void **state)
         answer(&rig, POINTS[p]);
         answers_keep(&rig.answers);
     }
-    int32_t dofs = rig.answers.full.dof_count, all = 3 * COLUMNS;
+    int32_t dofs = rig.mesh.dof_count, all = 3 * COLUMNS;
     double *c = hand_matrix(all, 2), *y = hand_matrix(dofs, 2), *wanted = hand_matrix(dofs, 2);
     double *image = hand_matrix(dofs, 2), *made = hand_matrix(all, 2);
     for (int32_t k = 0; k < 2 * all; k++) c[k] = random_between(&rig.random, -1, 1);

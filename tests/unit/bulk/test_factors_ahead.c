@@ -15,32 +15,37 @@ enum { COUNT = 5 };
 
 typedef struct Rig {
     ReducedBlock block;   // not reduced
+    BulkOperator system;
     OperatorTerms terms[COUNT];
     FactorsAheadDef def;
 } Rig;
 
 static void start(Rig *rig)
 {
+    Error err = {0};
     *rig = (Rig){0};
     reduced_block_build(&SHAPE, &MATERIAL, 0.7, 0, &rig->block);
     for (int32_t k = 0; k < COUNT; k++)
         rig->terms[k] =
             (OperatorTerms){.stiffness = 1, .damping = 0.3 * k, .mass = 2. * k * k, .lift = true};
-    rig->def = (FactorsAheadDef){.bulk = &rig->block.bulk,
-                                 .interface_dofs = rig->block.dofs,
-                                 .interface_count = rig->block.interface_count,
-                                 .load = rig->block.bulk.load,
-                                 .terms = rig->terms,
-                                 .count = COUNT};
+    assert_true(bulk_operator_create(&rig->block.bulk, NULL, rig->block.dofs,
+                                     rig->block.interface_count, &rig->system, &err));
+    rig->def = (FactorsAheadDef){
+        .system = &rig->system, .load = rig->block.bulk.load, .terms = rig->terms, .count = COUNT};
 }
 
-static void assert_point(const Rig *rig, BulkOperator *system, OperatorTerms terms,
-                         const FactoredPoint *point)
+static void end(Rig *rig)
+{
+    bulk_operator_destroy(&rig->system);
+    reduced_block_destroy(&rig->block);
+}
+
+static void assert_point(Rig *rig, OperatorTerms terms, const FactoredPoint *point)
 {
     Error err = {0};
     int32_t dofs = rig->block.bulk.dof_count, m = rig->block.interface_count;
     double *held = hand_matrix(dofs, 1), *pull = hand_matrix(m, 1);
-    InterfaceOperator *here = interface_operator_create(system, terms, &err);
+    InterfaceOperator *here = interface_operator_create(&rig->system, terms, &err);
     assert_non_null(here);
     assert_true(interface_operator_answer_held(here, rig->def.load, held, pull, &err));
     assert_all_near("S", interface_operator_schur(point->full), interface_operator_schur(here),
@@ -56,22 +61,18 @@ static void test_in_order(void **state)
     (void)state;
     Rig rig;
     Error err = {0};
-    BulkOperator system = {0};
     FactorsAhead *ahead = NULL;
     FactoredPoint point;
     start(&rig);
     int64_t live = memory_counters().live;
-    assert_true(bulk_operator_create(&rig.block.bulk, NULL, rig.block.dofs,
-                                     rig.block.interface_count, &system, &err));
     assert_true(factors_ahead_create(&rig.def, &ahead, &err));
     for (int32_t k = 0; k < COUNT; k++) {
         if (!factors_ahead_next(ahead, &point, &err)) fail_msg("%s", err.message);
-        assert_point(&rig, &system, rig.terms[k], &point);
+        assert_point(&rig, rig.terms[k], &point);
     }
     factors_ahead_destroy(ahead);
-    bulk_operator_destroy(&system);
     assert_int_equal(memory_counters().live, live);
-    reduced_block_destroy(&rig.block);
+    end(&rig);
 }
 
 // The points before it are there all the same.
@@ -93,7 +94,7 @@ static void test_a_point_that_cannot_be(void **state)
     assert_non_null(strstr(err.message, "not positive definite"));
     factors_ahead_destroy(ahead);
     assert_int_equal(memory_counters().live, live);
-    reduced_block_destroy(&rig.block);
+    end(&rig);
 }
 
 static void test_stopped_early(void **state)
@@ -114,7 +115,7 @@ static void test_stopped_early(void **state)
     factors_ahead_destroy(ahead);
     factors_ahead_destroy(NULL);
     assert_int_equal(memory_counters().live, live);
-    reduced_block_destroy(&rig.block);
+    end(&rig);
 }
 
 int main(void)

@@ -45,7 +45,7 @@ static void check_response(const BlockDef *shape, int32_t layers, double kept)
                             .inertia = pow(10, random_between(&random, -2, 4))};
         OperatorTerms terms = strip_terms(point, &def.scales);
         double *wanted = full_schur(&block, terms), least, largest;
-        double *left = schur_of(&far.bulk, far.interface_dofs, m, terms);
+        double *left = schur_of(&far.bulk, far.system.interface_dofs, m, terms);
         energy_differences(left, wanted, m, &least, &largest);
         if (least < -1e-9 || largest > 0.15 * TOLERANCE * TOLERANCE)
             fail_msg("viscosity %g, inertia %g: S is off by %g to %g", point.viscosity,

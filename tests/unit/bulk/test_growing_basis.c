@@ -16,6 +16,7 @@ enum { POINT_COUNT = 2, COLUMNS = 5 };
 
 typedef struct Rig {
     ReducedBlock block;   // reduced here
+    BulkOperator mesh;
     GrowingBasis basis;
     InterfaceOperator *full[POINT_COUNT];
 } Rig;
@@ -28,7 +29,7 @@ static InterfaceOperator *factor(Rig *rig, StripPoint point)
                            .damping = point.viscosity / scales->damping,
                            .stiffness = (1 - point.viscosity) / scales->stiffness,
                            .lift = true};
-    InterfaceOperator *full = interface_operator_create(&rig->basis.answers.full, terms, &err);
+    InterfaceOperator *full = interface_operator_create(&rig->mesh, terms, &err);
     assert_non_null(full);
     return full;
 }
@@ -57,8 +58,9 @@ static void start(Rig *rig)
     *rig = (Rig){0};
     reduced_block_build(&SHAPE, &MATERIAL, 0.7, 0, &rig->block);
     rig->block.reduced.scales = rig->block.def.scales;
-    assert_true(basis_create(&rig->block.bulk, rig->block.dofs, rig->block.interface_count,
-                             &rig->block.reduced, &rig->basis, &err));
+    assert_true(bulk_operator_create(&rig->block.bulk, NULL, rig->block.dofs,
+                                     rig->block.interface_count, &rig->mesh, &err));
+    assert_true(basis_create(&rig->mesh, &rig->block.reduced, &rig->basis, &err));
     rig->basis.loss_max = 1e300;
     rig->basis.answers.inertia_least = 0.1;
     InterfaceOperator *statics = factor(rig, (StripPoint){0, 0});
@@ -74,6 +76,7 @@ static void end(Rig *rig)
 {
     for (int32_t k = 0; k < POINT_COUNT; k++) interface_operator_destroy(rig->full[k]);
     basis_destroy(&rig->basis);
+    bulk_operator_destroy(&rig->mesh);
     reduced_block_destroy(&rig->block);
 }
 

@@ -15,6 +15,7 @@ static const BlockDef SHAPE = {
 
 typedef struct Rig {
     ReducedBlock block;   // not reduced
+    BulkOperator mesh;
     ReducedBulk reduced;
     GrowingBasis basis;
 } Rig;
@@ -26,12 +27,13 @@ static void start(Rig *rig, double loss_max)
     memset(rig, 0, sizeof *rig);
     reduced_block_build(&SHAPE, &MATERIAL, 0.7, 0, &rig->block);
     rig->reduced.scales = rig->block.def.scales;
-    assert_true(basis_create(&rig->block.bulk, rig->block.dofs, rig->block.interface_count,
-                             &rig->reduced, &rig->basis, &err));
+    assert_true(bulk_operator_create(&rig->block.bulk, NULL, rig->block.dofs,
+                                     rig->block.interface_count, &rig->mesh, &err));
+    assert_true(basis_create(&rig->mesh, &rig->reduced, &rig->basis, &err));
     rig->basis.loss_max = loss_max;
     rig->basis.answers.inertia_least = 0.1;
     OperatorTerms terms = {.stiffness = 1 / rig->reduced.scales.stiffness, .lift = true};
-    InterfaceOperator *statics = interface_operator_create(&rig->basis.answers.full, terms, &err);
+    InterfaceOperator *statics = interface_operator_create(&rig->mesh, terms, &err);
     assert_non_null(statics);
     if (!basis_start(&rig->basis, statics, &err)) fail_msg("%s", err.message);
     interface_operator_destroy(statics);
@@ -40,6 +42,7 @@ static void start(Rig *rig, double loss_max)
 static void end(Rig *rig)
 {
     basis_destroy(&rig->basis);
+    bulk_operator_destroy(&rig->mesh);
     reduced_bulk_destroy(&rig->reduced);
     reduced_block_destroy(&rig->block);
 }
@@ -55,7 +58,7 @@ static void extend(Rig *rig, StripPoint point, int32_t columns)
                            .damping = point.viscosity / scales->damping,
                            .stiffness = (1 - point.viscosity) / scales->stiffness,
                            .lift = true};
-    InterfaceOperator *full = interface_operator_create(&answers->full, terms, &err);
+    InterfaceOperator *full = interface_operator_create(&rig->mesh, terms, &err);
     AnswerBlock *next = answers_next(answers, point, columns, &err);
     assert_true(full && next);
     double *motions = hand_matrix((int32_t)m, columns);
@@ -76,7 +79,7 @@ static double product(const Rig *rig, BulkTerm term, const double *x, const doub
     const BulkScales *scales = &rig->reduced.scales;
     const double unit[] = {scales->stiffness, scales->damping, scales->mass};
     double *image = hand_matrix(rig->reduced.full_dofs, 1), sum = 0;
-    bulk_operator_apply(&rig->basis.answers.full, term, z, image);
+    bulk_operator_apply(&rig->mesh, term, z, image);
     for (int32_t k = 0; k < rig->reduced.full_dofs; k++) sum += x[k] * image[k];
     free(image);
     return sum / unit[term];
