@@ -45,7 +45,9 @@ def done_faults(case, ended):
     """What is wrong with a run that says it is done."""
     report = ended.report
     bounds = BOUNDS | {"energy": report["scene"]["time"]["energy_tolerance"]}
-    faults = [f"{name} {report['errors'][name]} is above {bound}" for name, bound in bounds.items()
+    shortest = min((rung["dt"] for rung in report["rungs"] if rung["accepted"]), default=math.nan)
+    faults = [f"{name} {report['errors'][name]} is above {bound} (shortest step {shortest:.1g})"
+              for name, bound in bounds.items()
               if not is_number(report["errors"][name]) or report["errors"][name] > bound]
     if not is_number(answer(case, ended)):
         faults.append(f"mu is {answer(case, ended)}")

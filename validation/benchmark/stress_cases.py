@@ -58,7 +58,7 @@ def loads():
                           may_refuse=power > 2, quick=power == -4))
     cases.append(Case("pressure", "1e-4 P, the rod as fast as ever: a blow", ["load.pressure=3e-7",
                       "time.until.U=5e-7"], late=True, may_refuse=True))
-    for power in (-8, 8, -100, 100):
+    for power in (-8, 8, -50, 50):
         factor = 10.0**power
         cases.append(Case("linear", f"P, V, v_c and U times {factor:g}; twin: times 1",
                           [f"load.pressure={PRESSURE * factor}", f"time.until.U={WAY * factor}",
