@@ -242,7 +242,7 @@ static bool place_point(PathTrace *trace, double tau_kept, double distance)
     return false;
 }
 
-// A step to the first bound, or to a point before it (reached->node NOWHERE).
+// A step to the first bound, or to a point before it (reached->node PATH_AT_NO_BOUND).
 // false: no point was found within TRIALS. The length of a first trial is bounded by the scale of
 // velocity beyond tau, as a tangent that meets no bound would lead to infinity.
 static bool advance(PathTrace *trace, PathBound *reached)
@@ -258,7 +258,7 @@ static bool advance(PathTrace *trace, PathBound *reached)
         double least = placed ? path_worst_condition(trace, reached) : -INFINITY;
         if (fabs(least) <= NEAR) return true;
         if (least > 0 && !isfinite(high_value)) {   // the path bends away: on from here
-            reached->node = NOWHERE;
+            reached->node = PATH_AT_NO_BOUND;
             return true;
         }
         if (least > 0) {
@@ -357,14 +357,14 @@ static bool start_pressed(PathTrace *trace)
 static bool trace_path(PathTrace *trace)
 {
     ContactPath *path = trace->path;
-    PathBound reached = {.node = NOWHERE};
+    PathBound reached = {.node = PATH_AT_NO_BOUND};
     double highest = RAY * trace->tau;
     for (int32_t step = 0; step < STEPS_EACH * path->count && trace->tau < highest; step++) {
         if (step > 0 && !find_tangent(trace)) return false;
         path->steps++;
         if (!advance(trace, &reached)) return false;
-        if (reached.node == ALL) return true;
-        if (reached.node == NOWHERE)
+        if (reached.node == PATH_AT_END) return true;
+        if (reached.node == PATH_AT_NO_BOUND)
             memcpy(path->row, path->tangent,
                    ((size_t)trace->system.free_count + 1) * sizeof(double));
         else

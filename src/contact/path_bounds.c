@@ -41,7 +41,7 @@ double path_condition(const PathTrace *trace, int32_t node, int32_t kind, const 
 PathBound path_nearest_bound(const PathTrace *trace)
 {
     const Interface *interface = trace->system.problem->interface;
-    PathBound nearest = {.node = ALL, .distance = INFINITY};
+    PathBound nearest = {.node = PATH_AT_END, .distance = INFINITY};
     if (trace->tau_rate < 0) nearest.distance = trace->tau / -trace->tau_rate;
     for (int32_t node = 0; node < interface->contact_count + interface->rod_count; node++) {
         for (int32_t kind = 0; kind < CONDITIONS; kind++) {
@@ -61,7 +61,7 @@ double path_worst_condition(const PathTrace *trace, PathBound *worst)
 {
     const Interface *interface = trace->system.problem->interface;
     double least = trace->tau / trace->scales.velocity;
-    *worst = (PathBound){.node = ALL};
+    *worst = (PathBound){.node = PATH_AT_END};
     for (int32_t node = 0; node < interface->contact_count + interface->rod_count; node++) {
         for (int32_t kind = 0; kind < CONDITIONS; kind++) {
             double value = path_condition(trace, node, kind, trace->system.at->velocity,

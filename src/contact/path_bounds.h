@@ -5,7 +5,7 @@
 
 #include "contact/contact_equations.h"
 
-enum { ALL = -1, NOWHERE = -2 };   // in place of a node
+enum { PATH_AT_END = -1, PATH_AT_NO_BOUND = -2 };   // in place of a node
 
 // A point of the path and all that stays the same along it. Nothing is owned.
 typedef struct PathTrace {
@@ -17,8 +17,8 @@ typedef struct PathTrace {
     const double *velocity_rate, *reaction_rate;   // [count]
 } PathTrace;
 
-// A bound: condition `kind` of contact node `node`, or of rod node `node` - contact_count, or (ALL)
-// tau = 0.
+// A bound: condition `kind` of contact node `node`, or of rod node `node` - contact_count, or
+// (PATH_AT_END) tau = 0.
 typedef struct PathBound {
     int32_t node, kind;
     double distance;   // along the tangent
@@ -33,7 +33,7 @@ double path_condition(const PathTrace *trace, int32_t node, int32_t kind, const 
 PathBound path_nearest_bound(const PathTrace *trace);
 
 // The least of all conditions at the point, below 0 where one is violated. tau = 0 counts as one,
-// too (ALL), so that a step beyond the path's end is cut back to it.
+// too (PATH_AT_END), so that a step beyond the path's end is cut back to it.
 double path_worst_condition(const PathTrace *trace, PathBound *worst);
 
 #endif

@@ -5,12 +5,13 @@ import json
 import os
 import shutil
 import subprocess
-import tempfile
 import unittest
 from pathlib import Path
 
 import h5py
 import numpy
+
+from cache_fixture import OwnCache
 
 SOURCE = Path(os.environ["AMONTONS_SOURCE"])
 PROGRAM = Path(os.environ["AMONTONS_BIN"], "amontons")
@@ -37,14 +38,12 @@ def width_of(x, force):
     return 2 * (((x - middle) ** 2 * force).sum() / force.sum()) ** 0.5
 
 
-class Gaps(unittest.TestCase):
+class Gaps(OwnCache):
     @classmethod
     def setUpClass(cls):
-        cls.folder = Path(tempfile.mkdtemp(prefix="amontons-gaps-"))
-        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        super().setUpClass()
         cls.scene = cls.folder / "scene.yaml"
         cls.scene.write_text(SCENE)
-        cls.environment = dict(os.environ, AMONTONS_CACHE=str(cls.folder / "cache"))
 
     def call(self, command, *settings, status=0, flags=()):
         words = [word for setting in settings for word in ("--set", setting)]

@@ -5,15 +5,15 @@ other pressures, velocities and laws; what is wrong is told with its place."""
 import json
 import os
 import re
-import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
 import h5py
 import numpy
+
+from cache_fixture import OwnCache
 
 SOURCE = Path(os.environ["AMONTONS_SOURCE"])
 PROGRAM = Path(os.environ["AMONTONS_BIN"], "amontons")
@@ -50,14 +50,12 @@ def mu_at(arrays, U):
     return numpy.interp(U, arrays["series/rod_displacement"], arrays["series/mu"])
 
 
-class Regions(unittest.TestCase):
+class Regions(OwnCache):
     @classmethod
     def setUpClass(cls):
-        cls.folder = Path(tempfile.mkdtemp(prefix="amontons-regions-"))
-        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        super().setUpClass()
         cls.scene = cls.folder / "scene.yaml"
         cls.scene.write_text(SCENE)
-        cls.environment = dict(os.environ, AMONTONS_CACHE=str(cls.folder / "cache"))
 
     def call(self, command, *settings, status=0, flags=(), scene=None):
         words = [word for setting in settings for word in ("--set", setting)]

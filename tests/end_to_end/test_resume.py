@@ -9,11 +9,12 @@ import resource
 import shutil
 import signal
 import subprocess
-import tempfile
 import threading
 import time
 import unittest
 from pathlib import Path
+
+from cache_fixture import OwnCache
 
 SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
 PROGRAM = Path(os.environ.get("AMONTONS_BIN", SOURCE / "build" / "bin")) / "amontons"
@@ -26,12 +27,10 @@ kills = importlib.util.module_from_spec(_found)
 _found.loader.exec_module(kills)
 
 
-class Resume(unittest.TestCase):
+class Resume(OwnCache):
     @classmethod
     def setUpClass(cls):
-        cls.folder = Path(tempfile.mkdtemp(prefix="amontons-resume-"))
-        cls.addClassCleanup(shutil.rmtree, cls.folder)
-        cls.environment = {**os.environ, "AMONTONS_CACHE": str(cls.folder / "cache")}
+        super().setUpClass()
         for _ in range(2):      # the second time from the cache, as all that follow
             done = cls.run_scene("whole", f"time.until.U={END}", "--overwrite")
             assert done.returncode == 0, done.stderr

@@ -183,7 +183,7 @@ ROUNDING = "rounding of coordinates"
 NOT_A_CHOICE = {
     "contact/contact_check.c": {"STILL": "rounding; the judge only reports"},
     "contact/path_bounds.c": {"CONDITIONS": "a node has no more"},
-    "contact/path_bounds.h": {"ALL": "a name", "NOWHERE": "a name"},
+    "contact/path_bounds.h": {"PATH_AT_END": "a name", "PATH_AT_NO_BOUND": "a name"},
     "contact/friction_law.c": {
         "TURN": "the same as BEND for one's own law, which no case of the table has: chosen by "
                 "tests/property/test_contact_problems.c",

@@ -181,6 +181,7 @@ static void test_two_vectors_at_once(void **state)
     (void)state;
     enum { ROWS = 5003, COLUMNS = 37 };
     static double a[ROWS * COLUMNS], x[2][COLUMNS], one[ROWS], y[2][ROWS];
+    dense_use_one_thread();   // as all of the program: two would share the rows otherwise
     Random random = {.state = 8};
     for (int32_t k = 0; k < ROWS * COLUMNS; k++) a[k] = random_between(&random, -1, 1);
     for (int32_t k = 0; k < 2 * COLUMNS; k++)

@@ -5,25 +5,9 @@
 
 #include "base/memory.h"
 #include "io/cache_file.h"
-#include "result_place.h"
+#include "cache_fixture.h"
 
 #include <fcntl.h>
-
-static char place[PLACE_SIZE];
-
-static int make_place(void **state)
-{
-    (void)state;
-    place_make(place);
-    return setenv("AMONTONS_CACHE", place, 1);
-}
-
-static int remove_place(void **state)
-{
-    (void)state;
-    place_remove(place);
-    return unsetenv("AMONTONS_CACHE_LIMIT");
-}
 
 // "aaaa...a.shape", 32 times the letter.
 static const char *name_of(char letter, const char *ending)
@@ -37,11 +21,11 @@ static const char *name_of(char letter, const char *ending)
 // `bytes` long, last used so many seconds after 1970.
 static void make_file(const char *name, int32_t bytes, time_t used)
 {
-    FILE *file = fopen(place_path(place, name), "w");
+    FILE *file = fopen(place_path(cache, name), "w");
     for (int32_t k = 0; k < bytes; k++) fputc('x', file);
     fclose(file);
     const struct timespec times[2] = {{.tv_sec = used}, {.tv_sec = 1}};
-    assert_int_equal(utimensat(AT_FDCWD, place_path(place, name), times, 0), 0);
+    assert_int_equal(utimensat(AT_FDCWD, place_path(cache, name), times, 0), 0);
 }
 
 static CacheFolder folder_now(void)
@@ -69,14 +53,14 @@ static void test_longest_unused_goes_first(void **state)
     assert_string_equal(folder.entries[2].name, name_of('a', "shape"));
     assert_true(folder.entries[1].used == 20);
     assert_int_equal(cache_folder_trim(&folder, 600, NULL, &bytes), 0);   // not above it
-    snprintf(keep, sizeof keep, "%s", place_path(place, name_of('c', "modes")));
+    snprintf(keep, sizeof keep, "%s", place_path(cache, name_of('c', "modes")));
     assert_int_equal(cache_folder_trim(&folder, 500, keep, &bytes), 1);
     assert_int_equal(bytes, 300);
-    assert_false(place_has(place, name_of('b', "basis")));
+    assert_false(place_has(cache, name_of('b', "basis")));
     cache_folder_destroy(&folder);
     folder = folder_now();
     assert_int_equal(cache_folder_trim(&folder, 0, NULL, &bytes), 2);
-    assert_true(place_has(place, "notes.txt") && place_has(place, name_of('d', "lock")));
+    assert_true(place_has(cache, "notes.txt") && place_has(cache, name_of('d', "lock")));
     cache_folder_destroy(&folder);
     assert_int_equal(memory_counters().live, live);
 }
@@ -114,13 +98,13 @@ static void test_writing_keeps_the_limit(void **state)
     setenv("AMONTONS_CACHE_LIMIT", "2.5K", 1);
     write_cache('a', values);
     write_cache('b', values);
-    utimensat(AT_FDCWD, place_path(place, name_of('a', "shape")), old, 0);
-    utimensat(AT_FDCWD, place_path(place, name_of('b', "shape")), newer, 0);
+    utimensat(AT_FDCWD, place_path(cache, name_of('a', "shape")), old, 0);
+    utimensat(AT_FDCWD, place_path(cache, name_of('b', "shape")), newer, 0);
     read_cache('a');
     write_cache('c', values);
-    assert_true(place_has(place, name_of('a', "shape")));
-    assert_false(place_has(place, name_of('b', "shape")));
-    assert_true(place_has(place, name_of('c', "shape")));
+    assert_true(place_has(cache, name_of('a', "shape")));
+    assert_false(place_has(cache, name_of('b', "shape")));
+    assert_true(place_has(cache, name_of('c', "shape")));
     setenv("AMONTONS_CACHE_LIMIT", "0", 1);   // what was just written stays in any case
     write_cache('d', values);
     CacheFolder folder = folder_now();
@@ -149,7 +133,7 @@ static void test_limit(void **state)
 static void test_no_folder(void **state)
 {
     (void)state;
-    setenv("AMONTONS_CACHE", place_path(place, "not-there"), 1);
+    setenv("AMONTONS_CACHE", place_path(cache, "not-there"), 1);
     CacheFolder folder = folder_now();
     assert_int_equal(folder.count, 0);
     setenv("AMONTONS_CACHE", "", 1);
@@ -160,10 +144,10 @@ static void test_no_folder(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_longest_unused_goes_first, make_place, remove_place),
-        cmocka_unit_test_setup_teardown(test_writing_keeps_the_limit, make_place, remove_place),
-        cmocka_unit_test_setup_teardown(test_limit, make_place, remove_place),
-        cmocka_unit_test_setup_teardown(test_no_folder, make_place, remove_place),
+        cmocka_unit_test_setup_teardown(test_longest_unused_goes_first, cache_begin, cache_end),
+        cmocka_unit_test_setup_teardown(test_writing_keeps_the_limit, cache_begin, cache_end),
+        cmocka_unit_test_setup_teardown(test_limit, cache_begin, cache_end),
+        cmocka_unit_test_setup_teardown(test_no_folder, cache_begin, cache_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

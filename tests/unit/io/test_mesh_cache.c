@@ -5,30 +5,14 @@
 
 #include "base/memory.h"
 #include "io/cache_file.h"
-#include "result_place.h"
+#include "cache_fixture.h"
 
 enum { PATH_SIZE = 2 * PLACE_SIZE };
 static const char KEY[] = "0123456789abcdef0123456789abcdef";
 
-static char folder[PLACE_SIZE];
-
-static int make_folder(void **state)
-{
-    (void)state;
-    place_make(folder);
-    return setenv("AMONTONS_CACHE", folder, 1);
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    place_remove(folder);
-    return 0;
-}
-
 static const char *write_text(const char *name, const char *text, char path[PATH_SIZE])
 {
-    snprintf(path, PATH_SIZE, "%s/%s", folder, name);
+    snprintf(path, PATH_SIZE, "%s/%s", cache, name);
     FILE *stream = fopen(path, "wb");
     assert_non_null(stream);
     fputs(text, stream);
@@ -218,7 +202,7 @@ static void test_switched_off(void **state)
     setenv("AMONTONS_CACHE", "", 1);
     mesh_cache_store(KEY, &known);
     assert_false(load(&mesh));
-    setenv("AMONTONS_CACHE", folder, 1);
+    setenv("AMONTONS_CACHE", cache, 1);
 }
 
 int main(void)
@@ -227,5 +211,5 @@ int main(void)
                                        cmocka_unit_test(test_what_cannot_be_is_not_believed),
                                        cmocka_unit_test(test_key),
                                        cmocka_unit_test(test_switched_off)};
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, cache_begin, cache_end);
 }

@@ -6,28 +6,12 @@
 #include "base/memory.h"
 #include "io/cache_file.h"
 #include "random_numbers.h"
-#include "result_place.h"
+#include "cache_fixture.h"
 #include "unit/bulk/reduced_block.h"
 
 enum { PATH_SIZE = 2 * PLACE_SIZE, M = 7, ALL = 11, DOFS = 40, LEVELS = 3 };
 static const char NAME[] = "00112233445566778899aabbccddeeff";
 static const char OTHER[] = "00112233445566778899aabbccddeef0";
-
-static char folder[PLACE_SIZE];
-
-static int make_folder(void **state)
-{
-    (void)state;
-    place_make(folder);
-    return setenv("AMONTONS_CACHE", folder, 1);
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    place_remove(folder);
-    return 0;
-}
 
 static double *random_array(Random *random, int64_t count)
 {
@@ -116,9 +100,9 @@ static void test_not_trusted(void **state)
     (void)state;
     ReducedBulk read;
     char note[CACHE_NOTE_SIZE], path[PATH_SIZE], modes[PATH_SIZE], other[PATH_SIZE];
-    snprintf(path, sizeof path, "%s/%s.basis", folder, NAME);
-    snprintf(modes, sizeof modes, "%s/%s.modes", folder, NAME);
-    snprintf(other, sizeof other, "%s/%s.basis", folder, OTHER);
+    snprintf(path, sizeof path, "%s/%s.basis", cache, NAME);
+    snprintf(modes, sizeof modes, "%s/%s.modes", cache, NAME);
+    snprintf(other, sizeof other, "%s/%s.basis", cache, OTHER);
     int64_t live = memory_counters().live;
     store(NAME, note);
     assert_int_equal(truncate(path, 1000), 0);
@@ -149,7 +133,7 @@ static void test_missing_arrays(void **state)
     Error err = {0};
     ReducedBulk read;
     char note[CACHE_NOTE_SIZE], path[PATH_SIZE];
-    snprintf(path, sizeof path, "%s/%s.basis", folder, NAME);
+    snprintf(path, sizeof path, "%s/%s.basis", cache, NAME);
     double counts[4] = {DOFS, M, ALL - M, LEVELS}, few[LEVELS] = {0};
     CacheArray arrays[] = {{"counts", 4, counts}, {"inertia", LEVELS, few}, {"error", LEVELS, few}};
     // More levels than there is room for; counts that are none, of which fuzzing found the first.
@@ -187,7 +171,7 @@ static void test_memory_faults(void **state)
     note[0] = 0;
     basis_cache_store(NAME, &made, note);
     assert_non_null(strstr(note, "the basis is not kept for the next run: cannot write"));
-    setenv("AMONTONS_CACHE", folder, 1);
+    setenv("AMONTONS_CACHE", cache, 1);
     reduced_bulk_destroy(&made);
 }
 
@@ -236,5 +220,5 @@ int main(void)
         cmocka_unit_test(test_memory_faults),
         cmocka_unit_test(test_format_follows_the_basis),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, cache_begin, cache_end);
 }

@@ -5,23 +5,7 @@
 
 #include "base/hash.h"
 #include "near.h"
-#include "result_place.h"
-
-static char folder[PLACE_SIZE];
-
-static int make_folder(void **state)
-{
-    (void)state;
-    place_make(folder);
-    return setenv("AMONTONS_CACHE", folder, 1);
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    place_remove(folder);
-    return 0;
-}
+#include "cache_fixture.h"
 
 static void keep(double factor, double pass)
 {
@@ -60,7 +44,7 @@ static void test_round_trip(void **state)
     assert_false(processor_keep(&(Processor){1, 1}, &err));
     assert_non_null(strstr(err.message, "AMONTONS_CACHE"));
     assert_kept(1, 1, "");
-    setenv("AMONTONS_CACHE", folder, 1);
+    setenv("AMONTONS_CACHE", cache, 1);
 }
 
 static void test_damaged(void **state)
@@ -69,7 +53,7 @@ static void test_damaged(void **state)
     char bytes[1000], path[PLACE_SIZE + 40];
     keep(4, 0.25);
     assert_kept(4, 0.25, "");
-    snprintf(path, sizeof path, "%s/processor.speed", folder);
+    snprintf(path, sizeof path, "%s/processor.speed", cache);
     FILE *file = fopen(path, "rb");
     size_t size = fread(bytes, 1, sizeof bytes, file);
     fclose(file);
@@ -92,7 +76,7 @@ static void test_impossible(void **state)
     const double wrong[][2] = {{NAN, 1}, {1, -1}, {0, 1}, {1, 1e300}, {INFINITY, 1}};
     char path[PLACE_SIZE + 40], key[HASH_TEXT_SIZE] = "";
     keep(4, 0.25);
-    snprintf(path, sizeof path, "%s/processor.speed", folder);
+    snprintf(path, sizeof path, "%s/processor.speed", cache);
     FILE *file = fopen(path, "rb");
     fseek(file, (long)strlen("amontons-cache 1\n"), SEEK_SET);
     assert_int_equal(fread(key, 1, HASH_TEXT_SIZE - 1, file), HASH_TEXT_SIZE - 1);
@@ -119,9 +103,9 @@ static void test_measured(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_round_trip, make_folder, remove_folder),
-        cmocka_unit_test_setup_teardown(test_damaged, make_folder, remove_folder),
-        cmocka_unit_test_setup_teardown(test_impossible, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(test_round_trip, cache_begin, cache_end),
+        cmocka_unit_test_setup_teardown(test_damaged, cache_begin, cache_end),
+        cmocka_unit_test_setup_teardown(test_impossible, cache_begin, cache_end),
         cmocka_unit_test(test_measured)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

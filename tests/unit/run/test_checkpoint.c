@@ -6,7 +6,7 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "io/result_file.h"
-#include "result_place.h"
+#include "cache_fixture.h"
 #include "small_scene.h"
 
 #include <sys/wait.h>
@@ -358,23 +358,6 @@ static void test_history_is_cut(void **state)
     place_remove(place);
 }
 
-static char cache[PLACE_SIZE];
-
-// Bulks are made once.
-static int make_cache(void **state)
-{
-    (void)state;
-    place_make(cache);
-    return setenv("AMONTONS_CACHE", cache, 1);
-}
-
-static int remove_cache(void **state)
-{
-    (void)state;
-    place_remove(cache);
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -382,5 +365,6 @@ int main(void)
         cmocka_unit_test(test_put_back),      cmocka_unit_test(test_put_back_explicit),
         cmocka_unit_test(test_refused),       cmocka_unit_test(test_of_other_versions),
         cmocka_unit_test(test_history_is_cut)};
-    return cmocka_run_group_tests(tests, make_cache, remove_cache);
+    // One cache: bulks are made once.
+    return cmocka_run_group_tests(tests, cache_begin, cache_end);
 }
