@@ -41,7 +41,7 @@ typedef struct MeshGroup {
     // group: which of the two an element belongs to is not known
 } MeshGroup;
 
-// Who made it: gmsh now, gmsh before (io/mesh_cache), or io/plain_block.
+// Who made it: gmsh now, gmsh before (io/mesh_cache), or io/plain_mesh.
 typedef enum MeshOrigin { MESH_OF_GMSH, MESH_OF_CACHE, MESH_OF_ROWS } MeshOrigin;
 
 typedef struct MeshFile {

@@ -11,7 +11,7 @@
 #include "io/geo_parameters.h"
 #include "io/mesh_apart.h"
 #include "io/mesh_cache.h"
-#include "io/plain_block.h"
+#include "io/plain_mesh.h"
 
 #include <errno.h>
 #include <math.h>
@@ -202,7 +202,7 @@ bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t p
     request.parameters = given.list;
     request.parameter_count = given.count;
     if (request.generate)
-        TRY(plain_block_make(path, parameters, parameter_count, mesh, &found, err));
+        TRY(plain_mesh_make(path, parameters, parameter_count, mesh, &found, err));
     if (found) goto cleanup;
     TRY(mesh_cache_key(path, parameters, parameter_count, key, err));
     TRY(mesh_cache_load(key, mesh, &found, err));
