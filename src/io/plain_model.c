@@ -19,11 +19,22 @@ enum { BELOW, RIGHT, ABOVE, LEFT };
 
 typedef struct Layout {
     const PlainModel *model;
-    int32_t *inside_curve;   // [curve_count + 1] the first node between a curve's ends; owned
-    int32_t *inside_patch;   // [patch_count + 1] the first node inside a patch; owned
-    int32_t most_cells;   // of a curve
-    double *position;   // [node_count * 2] of the mesh; not owned
+    int32_t *inside_curve;   // [curve_count] the first node between a curve's ends; owned
+    int32_t *inside_patch;   // [patch_count] the first node inside a patch; owned
+    int32_t node_count, element_count;
+    int32_t most_cells, most_nodes;   // of a curve; of a patch with its sides
 } Layout;
+
+// The nodes of one patch: at(grid, i, j) in column i and row j.
+typedef struct Grid {
+    int32_t columns, rows;
+    int32_t *node;   // [(columns + 1) * (rows + 1)] column by column; owned
+} Grid;
+
+static int32_t at(const Grid *grid, int32_t i, int32_t j)
+{
+    return grid->node[(int64_t)i * (grid->rows + 1) + j];
+}
 
 // --- the model ----------------------------------------------------------------------------------
 
@@ -87,12 +98,6 @@ static int32_t curve_node(const Layout *layout, int32_t curve, int32_t k)
     return k == of->spacing.cells ? of->point[1] : layout->inside_curve[curve] + k - 1;
 }
 
-// 0: the curve runs along x, 1: along z.
-static int32_t axis_of(const PlainModel *model, const PlainCurve *curve)
-{
-    return model->point[curve->point[0]][0] == model->point[curve->point[1]][0] ? 1 : 0;
-}
-
 // The side's k-th node to the right or upwards, whichever way its curve runs.
 static int32_t side_node(const Layout *layout, int32_t patch, int32_t side, int32_t k)
 {
@@ -103,15 +108,18 @@ static int32_t side_node(const Layout *layout, int32_t patch, int32_t side, int3
     return curve_node(layout, model->patch[patch].side[side], back ? curve->spacing.cells - k : k);
 }
 
-// Column i, row j of a patch.
-static int32_t patch_node(const Layout *layout, int32_t patch, int32_t i, int32_t j)
+static void fill_grid(const Layout *layout, int32_t patch, Grid *grid)
 {
     int32_t columns = columns_of(layout->model, patch), rows = rows_of(layout->model, patch);
-    if (j == 0) return side_node(layout, patch, BELOW, i);
-    if (i == columns) return side_node(layout, patch, RIGHT, j);
-    if (j == rows) return side_node(layout, patch, ABOVE, i);
-    if (i == 0) return side_node(layout, patch, LEFT, j);
-    return layout->inside_patch[patch] + (i - 1) * (rows - 1) + j - 1;
+    int32_t *node = grid->node, inside = layout->inside_patch[patch];
+    *grid = (Grid){.columns = columns, .rows = rows, .node = node};
+    for (int32_t j = 0; j <= rows; j++) *node++ = side_node(layout, patch, LEFT, j);
+    for (int32_t i = 1; i < columns; i++) {
+        *node++ = side_node(layout, patch, BELOW, i);
+        for (int32_t j = 1; j < rows; j++) *node++ = inside++;
+        *node++ = side_node(layout, patch, ABOVE, i);
+    }
+    for (int32_t j = 0; j <= rows; j++) *node++ = side_node(layout, patch, RIGHT, j);
 }
 
 static void layout_destroy(Layout *layout)
@@ -124,56 +132,70 @@ static bool number_nodes(const PlainModel *model, Layout *layout, Error *err)
 {
     int32_t next = model->point_count;
     *layout = (Layout){.model = model};
-    TRY((layout->inside_curve = NEW_ARRAY(int32_t, model->curve_count + 1, err)));
-    TRY((layout->inside_patch = NEW_ARRAY(int32_t, model->patch_count + 1, err)));
+    TRY((layout->inside_curve = NEW_ARRAY(int32_t, model->curve_count, err)));
+    TRY((layout->inside_patch = NEW_ARRAY(int32_t, model->patch_count, err)));
     for (int32_t c = 0; c < model->curve_count; c++) {
         int32_t cells = model->curve[c].spacing.cells;
         layout->inside_curve[c] = next;
         next += cells - 1;
         if (cells > layout->most_cells) layout->most_cells = cells;
     }
-    layout->inside_curve[model->curve_count] = next;
     for (int32_t p = 0; p < model->patch_count; p++) {
+        int32_t columns = columns_of(model, p), rows = rows_of(model, p);
+        int32_t nodes = (columns + 1) * (rows + 1);
         layout->inside_patch[p] = next;
-        next += (columns_of(model, p) - 1) * (rows_of(model, p) - 1);
+        next += (columns - 1) * (rows - 1);
+        layout->element_count += columns * rows;
+        if (nodes > layout->most_nodes) layout->most_nodes = nodes;
     }
-    layout->inside_patch[model->patch_count] = next;
+    layout->node_count = next;
 cleanup:
     return error_is_clean(err);
 }
 
 // --- positions ----------------------------------------------------------------------------------
 
-// Along each curve one coordinate grows or falls, the other stays.
-static bool place_curves(const Layout *layout, double *at, Error *err)
+static bool is_same(const CurveSpacing *one, const CurveSpacing *other)
+{
+    return one->cells == other->cells && one->law == other->law && one->ratio == other->ratio;
+}
+
+// Along each curve one coordinate grows or falls, the other stays. Neighbours that go the same way
+// between the same ends (up the block) have their nodes in common.
+static bool place_curves(const Layout *layout, double *along, double *position, Error *err)
 {
     const PlainModel *model = layout->model;
+    double ends[2] = {NAN, NAN};
     for (int32_t c = 0; c < model->curve_count; c++) {
         const PlainCurve *curve = &model->curve[c];
         const double *from = model->point[curve->point[0]], *to = model->point[curve->point[1]];
-        int32_t axis = axis_of(model, curve);
-        TRY(curve_place_nodes(from[axis], to[axis], &curve->spacing, at, err));
+        int32_t axis = from[0] == to[0] ? 1 : 0;
+        bool known = from[axis] == ends[0] && to[axis] == ends[1] &&
+                     is_same(&curve->spacing, &curve[-1].spacing);
+        if (!known) TRY(curve_place_nodes(from[axis], to[axis], &curve->spacing, along, err));
+        ends[0] = from[axis];
+        ends[1] = to[axis];
         for (int32_t k = 0; k <= curve->spacing.cells; k++) {
-            double *position = layout->position + 2 * curve_node(layout, c, k);
-            position[axis] = at[k];
-            position[1 - axis] = from[1 - axis];
+            double *node = position + 2 * (int64_t)curve_node(layout, c, k);
+            node[axis] = along[k];
+            node[1 - axis] = from[1 - axis];
         }
     }
 cleanup:
     return error_is_clean(err);
 }
 
-// share[k]: how much of a side below (0) or right (1) lies before its node k, of 1.
-static void list_shares(const Layout *layout, int32_t patch, int32_t side, double *share)
+// u[i], v[j]: how much of the sides below and right lies before column i and row j, of 1.
+static void list_shares(const Grid *grid, const double *position, double *u, double *v)
 {
-    int32_t cells = side_curve(layout->model, patch, side)->spacing.cells;
-    share[0] = 0;
-    for (int32_t k = 0; k < cells; k++) {
-        const double *p = layout->position + 2 * side_node(layout, patch, side, k) + side;
-        const double *q = layout->position + 2 * side_node(layout, patch, side, k + 1) + side;
-        share[k + 1] = share[k] + fabs(*p - *q);
-    }
-    for (int32_t k = 1; k < cells; k++) share[k] /= share[cells];
+    u[0] = v[0] = 0;
+    for (int32_t i = 0; i < grid->columns; i++)
+        u[i + 1] = u[i] + fabs(position[2 * at(grid, i, 0)] - position[2 * at(grid, i + 1, 0)]);
+    for (int32_t j = 0; j < grid->rows; j++)
+        v[j + 1] = v[j] + fabs(position[2 * at(grid, grid->columns, j) + 1] -
+                               position[2 * at(grid, grid->columns, j + 1) + 1]);
+    for (int32_t i = 1; i < grid->columns; i++) u[i] /= u[grid->columns];
+    for (int32_t j = 1; j < grid->rows; j++) v[j] /= v[grid->rows];
 }
 
 // gmsh interpolates coordinates along two axes whose lengths are 1 but for rounding: it makes them
@@ -201,47 +223,26 @@ static void measure_axes(const PlainModel *model, int32_t patch, double axis[2])
     }
 }
 
-// The nodes of column i between its ends. axis: [2] of the patch.
-static void place_column(const Layout *layout, int32_t patch, int32_t i, double u, const double *v,
-                         const double *axis)
+// Of the nodes inside, the coordinate d along an axis of length a.
+static void interpolate(const Grid *grid, int32_t d, double a, const double *u, const double *v,
+                        double *position)
 {
-    int32_t columns = columns_of(layout->model, patch), rows = rows_of(layout->model, patch);
-    const double *at = layout->position;
-    for (int32_t j = 1; j < rows; j++)
-        for (int32_t d = 0; d < 2; d++) {
-            double a = axis[d], w = v[j];
-            double below = a * at[2 * patch_node(layout, patch, i, 0) + d];
-            double right = a * at[2 * patch_node(layout, patch, columns, j) + d];
-            double above = a * at[2 * patch_node(layout, patch, i, rows) + d];
-            double left = a * at[2 * patch_node(layout, patch, 0, j) + d];
-            double corner[] = {a * at[2 * patch_node(layout, patch, 0, 0) + d],
-                               a * at[2 * patch_node(layout, patch, columns, 0) + d],
-                               a * at[2 * patch_node(layout, patch, columns, rows) + d],
-                               a * at[2 * patch_node(layout, patch, 0, rows) + d]};
-            double between = (1 - u) * left + u * right + (1 - w) * below + w * above -
-                             ((1 - u) * (1 - w) * corner[0] + u * (1 - w) * corner[1] +
-                              u * w * corner[2] + (1 - u) * w * corner[3]);
-            layout->position[2 * patch_node(layout, patch, i, j) + d] = a * between;
+    int32_t columns = grid->columns, rows = grid->rows;
+    double corner[] = {
+        a * position[2 * at(grid, 0, 0) + d], a * position[2 * at(grid, columns, 0) + d],
+        a * position[2 * at(grid, columns, rows) + d], a * position[2 * at(grid, 0, rows) + d]};
+    for (int32_t i = 1; i < columns; i++) {
+        double below = a * position[2 * at(grid, i, 0) + d];
+        double above = a * position[2 * at(grid, i, rows) + d], s = u[i];
+        for (int32_t j = 1; j < rows; j++) {
+            double left = a * position[2 * at(grid, 0, j) + d];
+            double right = a * position[2 * at(grid, columns, j) + d], t = v[j];
+            double between = (1 - s) * left + s * right + (1 - t) * below + t * above -
+                             ((1 - s) * (1 - t) * corner[0] + s * (1 - t) * corner[1] +
+                              s * t * corner[2] + (1 - s) * t * corner[3]);
+            position[2 * at(grid, i, j) + d] = a * between;
         }
-}
-
-static bool place_nodes(const Layout *layout, Error *err)
-{
-    const PlainModel *model = layout->model;
-    double *u = NEW_ARRAY(double, layout->most_cells + 1, err);
-    double *v = NEW_ARRAY(double, layout->most_cells + 1, err), axis[2];
-    TRY(u && v && place_curves(layout, u, err));
-    for (int32_t p = 0; p < model->patch_count; p++) {
-        list_shares(layout, p, BELOW, u);
-        list_shares(layout, p, RIGHT, v);
-        measure_axes(model, p, axis);
-        for (int32_t i = 1; i < columns_of(model, p); i++)
-            place_column(layout, p, i, u[i], v, axis);
     }
-cleanup:
-    memory_free(u);
-    memory_free(v);
-    return error_is_clean(err);
 }
 
 // --- elements and groups ------------------------------------------------------------------------
@@ -255,23 +256,42 @@ static int64_t count_edges(const PlainModel *model)
     return edges;
 }
 
-static void list_elements(const Layout *layout, MeshFile *mesh)
+// before: edges in groups, which gmsh numbers first. *e: the elements of the patches before.
+static void list_elements(const Grid *grid, int64_t before, MeshFile *mesh, int32_t *e)
+{
+    for (int32_t i = 0; i < grid->columns; i++)
+        for (int32_t j = 0; j < grid->rows; j++, (*e)++) {
+            int32_t *nodes = mesh->element_nodes + 4 * (int64_t)*e;
+            nodes[0] = at(grid, i, j);
+            nodes[1] = at(grid, i + 1, j);
+            nodes[2] = at(grid, i + 1, j + 1);
+            nodes[3] = at(grid, i, j + 1);
+            mesh->kind[*e] = ELEMENT_Q4;
+            mesh->first_node[*e + 1] = 4 * (*e + 1);
+            mesh->element_number[*e] = before + *e + 1;
+        }
+}
+
+static bool fill_mesh(const Layout *layout, MeshFile *mesh, Error *err)
 {
     const PlainModel *model = layout->model;
-    int64_t before = count_edges(model);
-    int32_t e = 0;
-    for (int32_t p = 0; p < model->patch_count; p++)
-        for (int32_t i = 0; i < columns_of(model, p); i++)
-            for (int32_t j = 0; j < rows_of(model, p); j++, e++) {
-                int32_t *nodes = mesh->element_nodes + 4 * (int64_t)e;
-                nodes[0] = patch_node(layout, p, i, j);
-                nodes[1] = patch_node(layout, p, i + 1, j);
-                nodes[2] = patch_node(layout, p, i + 1, j + 1);
-                nodes[3] = patch_node(layout, p, i, j + 1);
-                mesh->kind[e] = ELEMENT_Q4;
-                mesh->first_node[e + 1] = 4 * (e + 1);
-                mesh->element_number[e] = before + e + 1;
-            }
+    Grid grid = {.node = NEW_ARRAY(int32_t, layout->most_nodes, err)};
+    double *u = NEW_ARRAY(double, layout->most_cells + 1, err);
+    double *v = NEW_ARRAY(double, layout->most_cells + 1, err), axis[2];
+    int64_t edges = count_edges(model);
+    TRY(grid.node && u && v && place_curves(layout, u, mesh->position, err));
+    for (int32_t p = 0, e = 0; p < model->patch_count; p++) {
+        fill_grid(layout, p, &grid);
+        list_shares(&grid, mesh->position, u, v);
+        measure_axes(model, p, axis);
+        for (int32_t d = 0; d < 2; d++) interpolate(&grid, d, axis[d], u, v, mesh->position);
+        list_elements(&grid, edges, mesh, &e);
+    }
+cleanup:
+    memory_free(grid.node);
+    memory_free(u);
+    memory_free(v);
+    return error_is_clean(err);
 }
 
 static int32_t patch_cells(const PlainModel *model, int32_t patch)
@@ -339,23 +359,19 @@ cleanup:
 bool plain_model_mesh(const PlainModel *model, MeshFile *mesh, Error *err)
 {
     Layout layout;
-    int32_t elements = 0;
     TRY(number_nodes(model, &layout, err));
-    int32_t nodes = layout.inside_patch[model->patch_count];
-    for (int32_t p = 0; p < model->patch_count; p++) elements += patch_cells(model, p);
-    TRY((mesh->position = NEW_ARRAY(double, 2 * (int64_t)nodes, err)));
+    int64_t nodes = layout.node_count, elements = layout.element_count;
+    TRY((mesh->position = NEW_ARRAY(double, 2 * nodes, err)));
     TRY((mesh->node_number = NEW_ARRAY(int64_t, nodes, err)));
     TRY((mesh->element_number = NEW_ARRAY(int64_t, elements, err)));
     TRY((mesh->kind = NEW_ARRAY(uint8_t, elements, err)));
-    TRY((mesh->first_node = NEW_ARRAY(int32_t, (int64_t)elements + 1, err)));
-    TRY((mesh->element_nodes = NEW_ARRAY(int32_t, 4 * (int64_t)elements, err)));
+    TRY((mesh->first_node = NEW_ARRAY(int32_t, elements + 1, err)));
+    TRY((mesh->element_nodes = NEW_ARRAY(int32_t, 4 * elements, err)));
     mesh->origin = MESH_OF_ROWS;
-    mesh->node_count = nodes;
-    mesh->element_count = elements;
-    for (int32_t k = 0; k < nodes; k++) mesh->node_number[k] = k + 1;
-    layout.position = mesh->position;
-    TRY(place_nodes(&layout, err));
-    list_elements(&layout, mesh);
+    mesh->node_count = layout.node_count;
+    mesh->element_count = layout.element_count;
+    for (int32_t k = 0; k < mesh->node_count; k++) mesh->node_number[k] = k + 1;
+    TRY(fill_mesh(&layout, mesh, err));
     TRY(list_groups(&layout, mesh, err));
 cleanup:
     layout_destroy(&layout);

@@ -31,7 +31,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Through gmsh, the slowest part of a small run (76 ms to load).
+// Where gmsh has to make it, the slowest part of a small run (76 ms to load).
 bool model_read_mesh(Model *model, Error *err)
 {
     const Scene *scene = model->scene;

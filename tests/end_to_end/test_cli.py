@@ -267,9 +267,9 @@ class Run(InFolder):
         self.assertIn("force", wrong.stderr)
 
     def test_a_module_not_needed_is_not_opened(self):
-        """An even block and a shape from the cache need no gmsh, a run without history no HDF5."""
+        """A regular block and a shape from the cache need no gmsh, a run without history no HDF5."""
         even = ["run", FIG1, "-o", "result", *COARSE, *PLAIN, "--set", "time.until.U=1e-5"]
-        scene = [*even, "--set", "mesh.set.grade_z=2"]
+        scene = [*even, "--set", "mesh.set.layout=alternate"]
         brief = [*scene, "--overwrite", "--set", "output.history=false"]
         cache = {"AMONTONS_CACHE": str(self.folder / "cache")}
         none = {**cache, "AMONTONS_MODULES": str(self.folder)}

@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "io/mesh_source.h"
 #include "result_place.h"
+#include "same_mesh.h"
 
 enum { PLAIN_PATH_SIZE = 2 * PLACE_SIZE };
 
@@ -61,40 +62,6 @@ static inline bool plain_make(const char *path, const MeshParameter *parameters,
     return made;
 }
 
-#define PLAIN_SAME(one, other, count)                                                              \
-    assert_memory_equal(one, other, (size_t)(count) * sizeof *(one))
-
-static inline void plain_compare_groups(const MeshGroup *group, const MeshGroup *by_gmsh)
-{
-    assert_string_equal(group->name, by_gmsh->name);
-    assert_int_equal(group->dimension, by_gmsh->dimension);
-    assert_int_equal(group->number, by_gmsh->number);
-    assert_int_equal(group->edge_count, by_gmsh->edge_count);
-    assert_int_equal(group->nodes_per_edge, by_gmsh->nodes_per_edge);
-    assert_int_equal(group->node_count, by_gmsh->node_count);
-    assert_int_equal(group->element_count, by_gmsh->element_count);
-    assert_int_equal(group->blurred, by_gmsh->blurred);
-    int32_t ends = group->edge_count * group->nodes_per_edge;
-    if (ends) PLAIN_SAME(group->edge_nodes, by_gmsh->edge_nodes, ends);
-    if (group->node_count) PLAIN_SAME(group->nodes, by_gmsh->nodes, group->node_count);
-    if (group->element_count) PLAIN_SAME(group->elements, by_gmsh->elements, group->element_count);
-}
-
-static inline void plain_compare(const MeshFile *mesh, const MeshFile *by_gmsh)
-{
-    assert_int_equal(mesh->node_count, by_gmsh->node_count);
-    assert_int_equal(mesh->element_count, by_gmsh->element_count);
-    assert_int_equal(mesh->group_count, by_gmsh->group_count);
-    PLAIN_SAME(mesh->node_number, by_gmsh->node_number, mesh->node_count);
-    PLAIN_SAME(mesh->element_number, by_gmsh->element_number, mesh->element_count);
-    PLAIN_SAME(mesh->kind, by_gmsh->kind, mesh->element_count);
-    PLAIN_SAME(mesh->first_node, by_gmsh->first_node, mesh->element_count + 1);
-    PLAIN_SAME(mesh->element_nodes, by_gmsh->element_nodes, mesh->first_node[mesh->element_count]);
-    PLAIN_SAME(mesh->position, by_gmsh->position, 2 * mesh->node_count);
-    for (int32_t k = 0; k < mesh->group_count; k++)
-        plain_compare_groups(&mesh->groups[k], &by_gmsh->groups[k]);
-}
-
 // true: made without gmsh, as gmsh makes it; false: gmsh refuses it, so it was left to gmsh. (gmsh
 // 4.8 counts the Ifs that an Abort leaves: a process can be refused a hundred times.)
 static inline bool plain_is_gmshs(const MeshParameter *parameters, int32_t count)
@@ -109,7 +76,7 @@ static inline bool plain_is_gmshs(const MeshParameter *parameters, int32_t count
                           parameters[k].text);
         fail_msg("%s, gmsh: %s", made ? "made" : "not made", err.message);
     }
-    if (made) plain_compare(&mesh, &by_gmsh);
+    if (made) assert_same_mesh(&mesh, &by_gmsh);
     mesh_file_destroy(&mesh);
     mesh_file_destroy(&by_gmsh);
     return made;
