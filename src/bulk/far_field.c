@@ -4,341 +4,140 @@
 #include "base/dense.h"
 #include "base/memory.h"
 
-#include <math.h>
-#include <string.h>
-
-// Elements between the interface and the first layer, and the layers' own depths together; below
-// FAR_SHARE of all unknowns nothing is replaced.
-enum { FAR_DISTANCE = 20 };
-static const double FAR_SHARE = 0.4;
-
-// Of what is allowed: a larger error of S and all is done on the whole mesh.
+// Of what is allowed: a larger error of S and all is done on the whole bulk.
 static const double ERROR_MAX = 0.15;
 
-// Between the near unknowns, or a layer, and the layer beyond.
-typedef struct Coupling {
-    int32_t count;
-    int32_t *rows;   // [count] unknowns of the bulk that is left, ascending; owned, as what follows
-    double *stiffness, *damping;   // [count * coordinates of the layer beyond]
-} Coupling;
+enum { FAR = -1, BESIDE = -1 };
 
-// Unknowns of the mesh before a layer that share elements with it.
-typedef struct Border {
-    int32_t count;
-    int32_t *dofs;   // ascending; owned
-} Border;
-
-// What K and C make of it.
-typedef struct Assembly {
+typedef struct Filling {
     const Bulk *mesh;
     FarField *far;
     double unit;   // E
-    int32_t *layer, *place;   // [dofs of the mesh] which layer, -1: near; where in it
-    double *damping[FAR_LAYERS_MAX], *mass[FAR_LAYERS_MAX], *load[FAR_LAYERS_MAX];
-    Coupling couplings[FAR_LAYERS_MAX];   // between it and what is before it
-} Assembly;
+    int32_t *place;   // [dofs of the mesh] among the near ones; FAR
+    int32_t *row_of;   // [near_count] of the coupling with the first layer; BESIDE: none
+    int32_t *border;   // near ones that have such a row, ascending
+    int32_t filled;   // entries of the bulk
+} Filling;
 
 void far_field_destroy(FarField *far)
 {
     bulk_operator_destroy(&far->system);
     bulk_destroy(&far->bulk);
     memory_free(far->near);
-    memory_free(far->stiffness);
-    for (int32_t k = 0; k < FAR_LAYERS_MAX; k++) {
-        far_motions_destroy(&far->layers[k].motions);
-        memory_free(far->layers[k].rotation);
-    }
     *far = (FarField){0};
 }
 
-static void assembly_destroy(Assembly *work)
+static int32_t dof_of(const FarField *far, int32_t dof)
 {
-    memory_free(work->layer);
-    memory_free(work->place);
-    for (int32_t k = 0; k < FAR_LAYERS_MAX; k++) {
-        memory_free(work->damping[k]);
-        memory_free(work->mass[k]);
-        memory_free(work->load[k]);
-        memory_free(work->couplings[k].rows);
-        memory_free(work->couplings[k].stiffness);
-        memory_free(work->couplings[k].damping);
-    }
+    return far->dofs ? far->dofs[dof] : dof;
 }
 
-// --- layers -------------------------------------------------------------------------------------
-
-// distance: [size] in elements from the interface, -1: out of reach. *farthest of them.
-static bool find_distances(const SparsePattern *pattern, const int32_t *interface_dofs, int32_t m,
-                           int32_t *distance, int32_t *farthest, Error *err)
-{
-    int32_t *list = NEW_ARRAY(int32_t, pattern->size, err), end = 0;
-    if (!list) return false;
-    for (int32_t k = 0; k < pattern->size; k++) distance[k] = -1;
-    for (int32_t j = 0; j < m; j++) {
-        distance[interface_dofs[j]] = 0;
-        list[end++] = interface_dofs[j];
-    }
-    for (int32_t at = 0; at < end; at++) {
-        *farthest = distance[list[at]];
-        for (int32_t k = pattern->start[list[at]]; k < pattern->start[list[at] + 1]; k++) {
-            int32_t other = pattern->index[k];
-            if (distance[other] >= 0) continue;
-            distance[other] = *farthest + 1;
-            list[end++] = other;
-        }
-    }
-    memory_free(list);
-    return true;
-}
-
-// -1: near. A layer that would be thinner than half of its depth belongs to the one before.
-static int32_t layer_of(int32_t distance, int32_t farthest)
-{
-    if (distance >= 0 && distance <= FAR_DISTANCE) return -1;
-    int32_t layer = 0, depth = FAR_DISTANCE, end = 2 * FAR_DISTANCE;
-    while ((distance < 0 || distance > end) && farthest > end + depth &&
-           layer < FAR_LAYERS_MAX - 1) {
-        depth *= 2;
-        end += depth;
-        layer++;
-    }
-    return layer;
-}
-
-static bool divide(const int32_t *interface_dofs, int32_t m, Assembly *work, Error *err)
+static bool divide(Filling *work, Error *err)
 {
     FarField *far = work->far;
-    int32_t dofs = work->mesh->dof_count, farthest = 0;
-    far->mesh_dofs = dofs;
-    work->layer = NEW_ARRAY(int32_t, dofs, err);
+    const FarBlock *block = far->block;
+    int32_t dofs = far->mesh_dofs = work->mesh->dof_count;
     work->place = NEW_ARRAY(int32_t, dofs, err);
     far->near = NEW_ARRAY(int32_t, dofs, err);
-    if (!work->layer || !work->place || !far->near) return false;
-    TRY(find_distances(&work->mesh->pattern, interface_dofs, m, work->layer, &farthest, err));
-    for (int32_t k = 0; k < dofs; k++) {
-        int32_t layer = work->layer[k] = layer_of(work->layer[k], farthest);
-        work->place[k] = layer < 0 ? far->near_count : far->layers[layer].motions.size++;
-        if (layer < 0) far->near[far->near_count++] = k;
-        if (layer >= far->layer_count) far->layer_count = layer + 1;
+    work->row_of = NEW_ARRAY(int32_t, dofs, err);
+    work->border = NEW_ARRAY(int32_t, block->layers[0].coupling.count, err);
+    if (!work->place || !far->near || !work->row_of || !work->border) return false;
+    for (int32_t k = 0; k < block->layer_count; k++)
+        for (int32_t i = 0; i < block->layers[k].size; i++)
+            work->place[dof_of(far, block->layers[k].dofs[i])] = FAR;
+    for (int32_t dof = 0; dof < dofs; dof++) {
+        if (work->place[dof] == FAR) continue;
+        work->place[dof] = far->near_count;
+        work->row_of[far->near_count] = BESIDE;
+        far->near[far->near_count++] = dof;
     }
-    if (dofs - far->near_count < FAR_SHARE * dofs) far->layer_count = 0;
-    for (int32_t k = 0; k < far->layer_count; k++) {
-        FarMotions *motions = &far->layers[k].motions;
-        motions->dofs = NEW_ARRAY(int32_t, motions->size, err);
-    }
-    if (!error_is_clean(err)) goto cleanup;
-    for (int32_t k = 0; far->layer_count > 0 && k < dofs; k++)
-        if (work->layer[k] >= 0) far->layers[work->layer[k]].motions.dofs[work->place[k]] = k;
-cleanup:
-    return error_is_clean(err);
-}
-
-// --- the bulk that is left ----------------------------------------------------------------------
-
-// Rotation F = field * rotation, with which K/E is 1 to rounding and M diagonal: eigenvectors z of
-// (L^-1 M L^-T) z = mass z, K/E = L L', and L^-T z.
-static bool rotate(double *stiffness, double *mass, int32_t q, double *values, Error *err)
-{
-    double *work = NEW_ARRAY(double, dense_eigen_work(q), err);
-    if (!work) goto cleanup;
-    if (!dense_cholesky(stiffness, q)) FAIL(err, ERROR_COMPUTE, "motions are not independent");
-    dense_divide_both_sides(stiffness, q, mass);
-    if (!dense_eigen(mass, q, values, work)) FAIL(err, ERROR_LIBRARY, "LAPACK: no modes");
-    for (int32_t j = 0; j < q; j++)
-        dense_lower_solve_transposed(stiffness, q, mass + (int64_t)j * q);
-cleanup:
-    memory_free(work);
-    return error_is_clean(err);
-}
-
-static bool project(Assembly *work, int32_t k, Error *err)
-{
-    FarLayer *layer = &work->far->layers[k];
-    const FarMotions *motions = &layer->motions;
-    int64_t q = motions->count, size = motions->size;
-    double *stiffness = NEW_ARRAY(double, q *q, err), *damping = NEW_ARRAY(double, q *q, err);
-    double *half = NEW_ARRAY(double, q *q, err), *sum = NEW_ARRAY(double, q, err);
-    double *load = NEW_ARRAY(double, size, err);
-    layer->rotation = NEW_ARRAY(double, q *q, err);
-    work->mass[k] = NEW_ARRAY(double, q, err);
-    work->damping[k] = NEW_ARRAY(double, q *q, err);
-    work->load[k] = NEW_ARRAY(double, q, err);
-    if (!error_is_clean(err)) goto cleanup;
-    double *const square[] = {
-        [BULK_STIFFNESS] = stiffness, [BULK_DAMPING] = damping, [BULK_MASS] = layer->rotation};
-    TRY(far_motions_project(motions, work->mesh->mass, square, err));
-    TRY(rotate(stiffness, layer->rotation, (int32_t)q, work->mass[k], err));
-    DenseView rotation = dense_view(layer->rotation, q, q);
-    dense_multiply(dense_view(damping, q, q), rotation, 1, 0, half);
-    dense_multiply_transposed(rotation, dense_view(half, q, q), 1, 0, work->damping[k]);
-    for (int64_t i = 0; i < size; i++) load[i] = work->mesh->load[motions->dofs[i]];
-    dense_apply_transposed(dense_view(motions->field, size, q), load, 1, 0, sum);
-    dense_apply_transposed(rotation, sum, 1, 0, work->load[k]);
-cleanup:
-    memory_free(stiffness);
-    memory_free(damping);
-    memory_free(half);
-    memory_free(sum);
-    memory_free(load);
-    return error_is_clean(err);
-}
-
-static bool list_border(const Assembly *work, int32_t k, Border *border, Error *err)
-{
-    const SparsePattern *pattern = &work->mesh->pattern;
-    border->dofs = NEW_ARRAY(int32_t, pattern->size, err);
-    if (!border->dofs) return false;
-    for (int32_t row = 0; row < pattern->size; row++) {
-        if (work->layer[row] != k - 1) continue;
-        int32_t at = pattern->start[row], end = pattern->start[row + 1];
-        while (at < end && work->layer[pattern->index[at]] != k) at++;
-        if (at < end) border->dofs[border->count++] = row;
-    }
+    const FarCoupling *coupling = &block->layers[0].coupling;
+    for (int32_t j = 0; j < coupling->count; j++)
+        work->row_of[work->place[dof_of(far, coupling->rows[j])]] = j;
+    for (int32_t i = 0, j = 0; i < far->near_count; i++)
+        if (work->row_of[i] != BESIDE) work->border[j++] = i;
     return true;
 }
 
-// values [border->count * columns]: rows of the matrix of the mesh times F of layer k, not rotated.
-static void multiply_border(const Assembly *work, int32_t k, const double *matrix,
-                            const Border *border, double *values)
+static void add_entry(int32_t column, double stiffness, double damping, Filling *work)
 {
-    const int32_t *dofs = border->dofs;
-    int64_t count = border->count;
-    const SparsePattern *pattern = &work->mesh->pattern;
-    const FarMotions *motions = &work->far->layers[k].motions;
-    for (int64_t j = 0; j < count; j++) {
-        for (int32_t at = pattern->start[dofs[j]]; at < pattern->start[dofs[j] + 1]; at++) {
-            if (work->layer[pattern->index[at]] != k) continue;
-            const double *moved = motions->field + work->place[pattern->index[at]];
-            for (int64_t c = 0; c < motions->count; c++)
-                values[c * count + j] += matrix[at] * moved[c * motions->size];
-        }
-    }
-}
-
-// The same with both rotated: of near unknowns, as they are, or of the layer's before.
-static bool couple(const Assembly *work, int32_t k, const double *matrix, const Border *border,
-                   double **coupling, Error *err)
-{
-    const int32_t *dofs = border->dofs;
-    int64_t count = border->count;
-    const FarLayer *layer = &work->far->layers[k], *before = layer - 1;
-    int64_t q = layer->motions.count, p = k == 0 ? count : before->motions.count;
-    double *values = NEW_ARRAY(double, count *q, err), *moved = NEW_ARRAY(double, count *p, err);
-    double *turned = NEW_ARRAY(double, count *q, err), *half = NEW_ARRAY(double, p *q, err);
-    *coupling = NEW_ARRAY(double, p *q, err);
-    if (!error_is_clean(err)) goto cleanup;
-    multiply_border(work, k, matrix, border, values);
-    double *out = k == 0 ? *coupling : turned;
-    dense_multiply(dense_view(values, count, q), dense_view(layer->rotation, q, q), 1, 0, out);
-    if (k == 0) goto cleanup;
-    for (int64_t c = 0; c < p; c++)
-        for (int64_t j = 0; j < count; j++)
-            moved[c * count + j] =
-                before->motions.field[c * before->motions.size + work->place[dofs[j]]];
-    dense_multiply_transposed(dense_view(moved, count, p), dense_view(turned, count, q), 1, 0,
-                              half);
-    dense_multiply_transposed(dense_view(before->rotation, p, p), dense_view(half, p, q), 1, 0,
-                              *coupling);
-cleanup:
-    memory_free(values);
-    memory_free(moved);
-    memory_free(turned);
-    memory_free(half);
-    return error_is_clean(err);
-}
-
-static bool find_coupling(Assembly *work, int32_t k, Error *err)
-{
-    Coupling *coupling = &work->couplings[k];
-    const FarLayer *before = &work->far->layers[k] - 1;
-    Border border = {0};
-    TRY(list_border(work, k, &border, err));
-    coupling->count = k == 0 ? border.count : before->motions.count;
-    coupling->rows = NEW_ARRAY(int32_t, coupling->count, err);
-    if (!coupling->rows) goto cleanup;
-    for (int32_t j = 0; j < coupling->count; j++)
-        coupling->rows[j] = k == 0 ? work->place[border.dofs[j]] : before->first + j;
-    TRY(couple(work, k, work->mesh->stiffness, &border, &coupling->stiffness, err));
-    TRY(couple(work, k, work->mesh->damping, &border, &coupling->damping, err));
-cleanup:
-    memory_free(border.dofs);
-    return error_is_clean(err);
-}
-
-static void add_entry(int32_t column, double stiffness, double damping, int32_t *filled, Bulk *bulk)
-{
-    bulk->pattern.index[*filled] = column;
-    bulk->stiffness[*filled] = stiffness;
-    bulk->damping[(*filled)++] = damping;
+    Bulk *bulk = &work->far->bulk;
+    bulk->pattern.index[work->filled] = column;
+    bulk->stiffness[work->filled] = stiffness;
+    bulk->damping[work->filled++] = damping;
 }
 
 // Row j of a coupling: with all coordinates of layer k.
-static void add_row(const Assembly *work, int32_t k, int64_t j, int32_t *filled, Bulk *bulk)
+static void add_row(int32_t k, int64_t j, Filling *work)
 {
-    const Coupling *coupling = &work->couplings[k];
-    const FarLayer *layer = &work->far->layers[k];
-    for (int64_t c = 0; c < layer->motions.count; c++)
-        add_entry(layer->first + (int32_t)c, coupling->stiffness[c * coupling->count + j],
-                  coupling->damping[c * coupling->count + j], filled, bulk);
+    const FarLayer *layer = &work->far->block->layers[k];
+    const FarCoupling *coupling = &layer->coupling;
+    for (int64_t c = 0; c < layer->count; c++)
+        add_entry(work->far->first[k] + (int32_t)c, coupling->stiffness[c * coupling->count + j],
+                  coupling->damping[c * coupling->count + j], work);
 }
 
-static int32_t fill_near(const Assembly *work, Bulk *bulk)
+static void fill_near(Filling *work)
 {
     const Bulk *from = work->mesh;
-    const Coupling *coupling = &work->couplings[0];
-    int32_t filled = 0, next = 0;
+    Bulk *bulk = &work->far->bulk;
     for (int32_t i = 0; i < work->far->near_count; i++) {
         int32_t row = work->far->near[i];
         for (int32_t at = from->pattern.start[row]; at < from->pattern.start[row + 1]; at++) {
-            int32_t column = from->pattern.index[at];
-            if (work->layer[column] < 0)
-                add_entry(work->place[column], from->stiffness[at], from->damping[at], &filled,
-                          bulk);
+            int32_t column = work->place[from->pattern.index[at]];
+            if (column != FAR) add_entry(column, from->stiffness[at], from->damping[at], work);
         }
-        if (next < coupling->count && coupling->rows[next] == i)
-            add_row(work, 0, next++, &filled, bulk);
-        bulk->pattern.start[i + 1] = filled;
+        if (work->row_of[i] != BESIDE) add_row(0, work->row_of[i], work);
+        bulk->pattern.start[i + 1] = work->filled;
         bulk->mass[i] = from->mass[row];
         bulk->load[i] = from->load[row];
         bulk->held[i] = from->held[row];
     }
-    return filled;
 }
 
-static void fill_layer(const Assembly *work, int32_t k, int32_t *filled, Bulk *bulk)
+// Row c of a layer, columns ascending.
+static void add_layer_row(int32_t k, int64_t c, Filling *work)
 {
-    const FarLayer *layer = &work->far->layers[k];
-    const Coupling *coupling = &work->couplings[k];
-    int64_t q = layer->motions.count;
-    for (int64_t c = 0; c < q; c++) {
-        int32_t row = layer->first + (int32_t)c;
-        for (int64_t j = 0; j < coupling->count; j++)
-            add_entry(coupling->rows[j], coupling->stiffness[c * coupling->count + j],
-                      coupling->damping[c * coupling->count + j], filled, bulk);
-        for (int64_t d = 0; d < q; d++)
-            add_entry(layer->first + (int32_t)d, d == c ? work->unit : 0,
-                      (work->damping[k][c * q + d] + work->damping[k][d * q + c]) / 2, filled,
-                      bulk);
-        if (k + 1 < work->far->layer_count) add_row(work, k + 1, c, filled, bulk);
-        bulk->pattern.start[row + 1] = *filled;
-        bulk->mass[row] = work->mass[k][c];
-        bulk->load[row] = work->load[k][c];
+    const FarField *far = work->far;
+    const FarLayer *layer = &far->block->layers[k];
+    const FarCoupling *coupling = &layer->coupling;
+    int64_t q = layer->count;
+    for (int32_t j = 0; j < coupling->count; j++) {
+        int64_t at = c * coupling->count + (k == 0 ? work->row_of[work->border[j]] : j);
+        add_entry(k == 0 ? work->border[j] : far->first[k - 1] + j, coupling->stiffness[at],
+                  coupling->damping[at], work);
+    }
+    for (int64_t d = 0; d < q; d++)
+        add_entry(far->first[k] + (int32_t)d, d == c ? work->unit : 0,
+                  (layer->damping[c * q + d] + layer->damping[d * q + c]) / 2, work);
+    if (k + 1 < far->block->layer_count) add_row(k + 1, c, work);
+}
+
+static void fill_layer(int32_t k, Filling *work)
+{
+    const FarLayer *layer = &work->far->block->layers[k];
+    Bulk *bulk = &work->far->bulk;
+    for (int64_t c = 0; c < layer->count; c++) {
+        int32_t row = work->far->first[k] + (int32_t)c;
+        add_layer_row(k, c, work);
+        bulk->pattern.start[row + 1] = work->filled;
+        bulk->mass[row] = layer->mass[c];
+        bulk->load[row] = layer->load[c];
     }
 }
 
-static bool build_bulk(Assembly *work, Error *err)
+static bool fill(Filling *work, Error *err)
 {
     FarField *far = work->far;
     Bulk *bulk = &far->bulk;
     int64_t size = far->near_count;
     int64_t entries = work->mesh->pattern.start[work->mesh->dof_count];   // at most, of those near
-    for (int32_t k = 0; k < far->layer_count; k++) {
-        int64_t q = far->layers[k].motions.count;
-        far->layers[k].first = (int32_t)size;
+    for (int32_t k = 0; k < far->block->layer_count; k++) {
+        const FarLayer *layer = &far->block->layers[k];
+        int64_t q = layer->count;
+        far->first[k] = (int32_t)size;
         size += q;
-        TRY(project(work, k, err));
-        TRY(find_coupling(work, k, err));
-        entries += q * (2 * work->couplings[k].count + q);
+        entries += q * (2 * layer->coupling.count + q);
     }
     *bulk = (Bulk){.dof_count = (int32_t)size,
                    .pattern = {.size = (int32_t)size,
@@ -351,51 +150,38 @@ static bool build_bulk(Assembly *work, Error *err)
                    .held = NEW_ARRAY(uint8_t, size, err),
                    .area = work->mesh->area};
     if (!error_is_clean(err)) goto cleanup;
-    int32_t filled = fill_near(work, bulk);
-    for (int32_t k = 0; k < far->layer_count; k++) fill_layer(work, k, &filled, bulk);
+    fill_near(work);
+    for (int32_t k = 0; k < far->block->layer_count; k++) fill_layer(k, work);
 cleanup:
     return error_is_clean(err);
 }
 
-static bool replace(const int32_t *interface_dofs, int32_t m, const FarFieldDef *def,
-                    Assembly *work, Error *err)
+bool far_field_create(const Bulk *mesh, const int32_t *interface_dofs, int32_t interface_count,
+                      double unit, FarField *far, Error *err)
 {
-    FarField *far = work->far;
-    FarMotions *layers[FAR_LAYERS_MAX];
-    FarSamples samples = {
-        .distance = FAR_DISTANCE, .layer_count = far->layer_count, .layers = layers};
-    for (int32_t k = 0; k < far->layer_count; k++) layers[k] = &far->layers[k].motions;
-    int32_t *place = NEW_ARRAY(int32_t, m, err);
-    if (!place) goto cleanup;
-    TRY(far_samples_take(work->mesh, interface_dofs, m, def, &samples, err));
-    TRY(build_bulk(work, err));
-    for (int32_t j = 0; j < m; j++) place[j] = work->place[interface_dofs[j]];
-    TRY(bulk_operator_create(&far->bulk, NULL, place, m, &far->system, err));
-    far->stiffness = samples.stiffness;
-    samples.stiffness = NULL;
-    TRY(far_samples_compare(&samples, &far->system, &far->error, err));
-    if (!(far->error < ERROR_MAX)) far->layer_count = 0;
+    Filling work = {.mesh = mesh, .far = far, .unit = unit};
+    int32_t *dofs = NEW_ARRAY(int32_t, interface_count, err);
+    if (!dofs) goto cleanup;
+    TRY(divide(&work, err));
+    TRY(fill(&work, err));
+    for (int32_t j = 0; j < interface_count; j++) dofs[j] = work.place[interface_dofs[j]];
+    TRY(bulk_operator_create(&far->bulk, NULL, dofs, interface_count, &far->system, err));
 cleanup:
-    memory_free(place);
-    far_samples_destroy(&samples);
+    memory_free(dofs);
+    memory_free(work.place);
+    memory_free(work.row_of);
+    memory_free(work.border);
     return error_is_clean(err);
 }
 
-bool far_field_create(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
-                      const FarFieldDef *def, FarField *far, Error *err)
+bool far_field_measure(FarField *far, FarBlock *block, Error *err)
 {
-    Assembly work = {.mesh = bulk, .far = far, .unit = def->scales.stiffness};
-    *far = (FarField){0};
-    TRY(divide(interface_dofs, interface_count, &work, err));
-    if (far->layer_count > 0) TRY(replace(interface_dofs, interface_count, def, &work, err));
-cleanup:
-    // The whole mesh is tried then, and says what is wrong.
-    if (err->code == ERROR_COMPUTE) {
-        far->layer_count = 0;
-        error_clear(err);
-    }
-    assembly_destroy(&work);
-    if (!error_is_clean(err)) error_context(err, "far from the interface");
+    bool done = far_samples_compare(&block->samples, &far->system, &block->error, err);
+    // The whole bulk is tried then, and says what is wrong.
+    if (err->code == ERROR_COMPUTE) error_clear(err);
+    if (!done || !(block->error < ERROR_MAX)) block->layer_count = 0;
+    memory_free(block->samples.schur);
+    block->samples.schur = NULL;
     return error_is_clean(err);
 }
 
@@ -407,21 +193,20 @@ bool far_field_expand(const FarField *far, const double *motions, int32_t column
     for (int64_t j = 0; j < columns; j++)
         for (int64_t i = 0; i < far->near_count; i++)
             full[j * mesh + far->near[i]] = motions[j * dofs + i];
-    for (int32_t k = 0; k < far->layer_count; k++) {
-        const FarLayer *layer = &far->layers[k];
-        const FarMotions *of = &layer->motions;
+    for (int32_t k = 0; k < far->block->layer_count; k++) {
+        const FarLayer *layer = &far->block->layers[k];
         memory_free(turned);
         memory_free(fields);
-        turned = NEW_ARRAY(double, (int64_t)of->count *columns, err);
-        fields = NEW_ARRAY(double, (int64_t)of->size *columns, err);
+        turned = NEW_ARRAY(double, (int64_t)layer->count *columns, err);
+        fields = NEW_ARRAY(double, (int64_t)layer->size *columns, err);
         if (!turned || !fields) goto cleanup;
-        dense_multiply_rows(dense_view(layer->rotation, of->count, of->count),
-                            motions + layer->first, dofs, columns, 1, turned);
-        dense_multiply(dense_view(of->field, of->size, of->count),
-                       dense_view(turned, of->count, columns), 1, 0, fields);
+        dense_multiply_rows(dense_view(layer->rotation, layer->count, layer->count),
+                            motions + far->first[k], dofs, columns, 1, turned);
+        dense_multiply(dense_view(layer->field, layer->size, layer->count),
+                       dense_view(turned, layer->count, columns), 1, 0, fields);
         for (int64_t j = 0; j < columns; j++)
-            for (int64_t i = 0; i < of->size; i++)
-                full[j * mesh + of->dofs[i]] = fields[j * of->size + i];
+            for (int64_t i = 0; i < layer->size; i++)
+                full[j * mesh + dof_of(far, layer->dofs[i])] = fields[j * layer->size + i];
     }
 cleanup:
     memory_free(turned);

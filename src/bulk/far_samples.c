@@ -141,18 +141,19 @@ static int32_t take_load(const Sampling *work, const double *held)
     return 1;
 }
 
-// *wanted: some layer has found much that is new.
-static bool add_to_layers(Sampling *work, int32_t columns, double least, bool *wanted, Error *err)
+// To those of the layers before `count` that found much that was new in the answers before. *count:
+// the layers that did so now; deeper ones find less.
+static bool add_to_layers(Sampling *work, int32_t columns, double least, int32_t *count, Error *err)
 {
-    int32_t dofs = work->bulk->dof_count, added = 0;
-    *wanted = false;
-    for (int32_t k = 0; k < work->samples->layer_count; k++) {
+    int32_t dofs = work->bulk->dof_count, added = 0, layers = *count;
+    *count = 0;
+    for (int32_t k = 0; k < layers; k++) {
         FarMotions *layer = work->samples->layers[k];
         for (int64_t j = 0; j < columns; j++)
             for (int64_t i = 0; i < layer->size; i++)
                 work->rows[j * layer->size + i] = work->fields[j * dofs + layer->dofs[i]];
         TRY(far_motions_add(layer, work->rows, columns, least, &added, err));
-        *wanted = *wanted || added > NEW_SHARE * columns;
+        if (added > NEW_SHARE * columns) *count = k + 1;
     }
 cleanup:
     return error_is_clean(err);
@@ -163,14 +164,15 @@ static bool sample(Sampling *work, InterfaceOperator *full, const double *held, 
                    Error *err)
 {
     int32_t m = work->mesh.interface_count;
-    bool wanted = true;
+    int32_t layers = work->samples->layer_count;
     // m motions are all there are.
-    for (int32_t loads = take_load(work, held), asked = 0; wanted && asked < m; asked += CHUNK) {
+    for (int32_t loads = take_load(work, held), asked = 0; layers > 0 && asked < m;
+         asked += CHUNK) {
         for (int32_t k = 0; k < m * CHUNK; k++) work->asked[k] = draw_sign(&work->drawn);
         for (int32_t j = 0; j < CHUNK; j++)
             dense_lower_solve_transposed(work->lower, m, work->asked + (int64_t)j * m);
         TRY(interface_operator_answer(full, work->asked, CHUNK, work->fields, err));
-        TRY(add_to_layers(work, CHUNK + loads, least, &wanted, err));
+        TRY(add_to_layers(work, CHUNK + loads, least, &layers, err));
         loads = 0;
     }
 cleanup:

@@ -36,10 +36,6 @@ static const double LOSS_MAX = 5e4, UNLIKE = 4;
 // basis has lost too many digits.
 static const double NEGATIVE_MAX = 1e-3;
 
-// Unknowns of an interface below which factors take more of the time than the products that a far
-// field saves (20 x 160 cells, 59 of them: a third slower with it; 60 x 120: an eighth faster).
-enum { FAR_INTERFACE = 100 };
-
 // Work of one build.
 typedef struct Builder {
     BulkOperator *full;   // what is reduced: the mesh, or what the far field leaves of it
@@ -52,6 +48,9 @@ typedef struct Builder {
     double *exact, *excess;   // [m^2] S, then its Cholesky factor; S_r - S
     double *values;   // [m] eigenvalues
     double *eigen_work;   // [dense_eigen_work(m)]
+    BulkOperator mesh;   // the whole, where it was needed itself
+    FarBlock own;   // where no upper block is known; its `stiffness` also where one is
+    FarField far;   // far.block NULL: nothing is replaced
 } Builder;
 
 // All but the reduced bulk.
@@ -63,6 +62,9 @@ static void builder_destroy(Builder *work)
     memory_free(work->excess);
     memory_free(work->values);
     memory_free(work->eigen_work);
+    bulk_operator_destroy(&work->mesh);
+    far_field_destroy(&work->far);
+    far_block_destroy(&work->own);
 }
 
 static bool builder_create(ReducedBulk *reduced, Builder *work, Error *err)
@@ -299,11 +301,12 @@ static bool is_uniform(const Materials *materials)
 }
 
 // What is far from the interface comes back into the modes.
-static bool write_modes(Builder *work, const FarField *far, Error *err)
+static bool write_modes(Builder *work, Error *err)
 {
+    const FarField *far = &work->far;
     ReducedBulk *reduced = work->basis.reduced;
     TRY(basis_write_modes(&work->basis, err));
-    if (far->layer_count == 0) goto cleanup;
+    if (!far->block) goto cleanup;
     double *motions = reduced->modes, *modes = NULL;
     int64_t size = far->mesh_dofs;
     reduced->modes = modes = NEW_ARRAY(double, size * reduced->count, err);
@@ -314,19 +317,20 @@ cleanup:
 }
 
 // The far field's own error is part of what is allowed at each level; statics are the mesh's own.
-static void add_far_field(const Builder *work, const FarField *far)
+static void add_far_field(const Builder *work)
 {
+    const FarField *far = &work->far;
     ReducedBulk *reduced = work->basis.reduced;
     int64_t m = reduced->interface_count;
     reduced->full_dofs = far->mesh_dofs;
-    memcpy(reduced->stiffness, far->stiffness, (size_t)(m * m) * sizeof(double));
+    memcpy(reduced->stiffness, work->own.stiffness, (size_t)(m * m) * sizeof(double));
     for (int32_t level = 0; level < reduced->errors.count - 1; level++) {
         StripPoint point = {.inertia = reduced->errors.inertia[level]};
-        reduced->errors.error[level] += far->error * allowed_error(work, point);
+        reduced->errors.error[level] += far->block->error * allowed_error(work, point);
     }
 }
 
-static bool build_on(Builder *work, const FarField *far, ReducedBulk *reduced, Error *err)
+static bool build_on(Builder *work, ReducedBulk *reduced, Error *err)
 {
     const ReductionDef *def = work->def;
     int64_t m = work->full->interface_count;
@@ -344,32 +348,65 @@ static bool build_on(Builder *work, const FarField *far, ReducedBulk *reduced, E
     TRY(find_viscous(work, err));
     TRY(reduced_bulk_narrow(reduced, work->basis.mix + m * work->basis.answers.count,
                             work->basis.answers.count, err));
-    if (def->modes) TRY(write_modes(work, far, err));
-    if (far->layer_count > 0) add_far_field(work, far);
+    if (def->modes) TRY(write_modes(work, err));
+    if (work->far.block) add_far_field(work);
 cleanup:
     interface_operator_destroy(statics);
+    return error_is_clean(err);
+}
+
+// S of K/E on the whole mesh.
+static bool find_statics(Builder *work, Error *err)
+{
+    int64_t m = work->mesh.interface_count, entries = m * m;
+    OperatorTerms terms = {
+        .stiffness = 1 / work->def->scales.stiffness, .lift = true, .schur_only = true};
+    InterfaceOperator *statics = interface_operator_create(&work->mesh, terms, err);
+    work->own.stiffness = NEW_ARRAY(double, entries, err);
+    if (statics && work->own.stiffness)
+        memcpy(work->own.stiffness, interface_operator_schur(statics),
+               (size_t)entries * sizeof(double));
+    interface_operator_destroy(statics);
+    return error_is_clean(err);
+}
+
+// What is far is that of the upper block, where its motions are known, else of the whole.
+static bool replace_far(Builder *work, const Bulk *bulk, const int32_t *interface_dofs, int32_t m,
+                        Error *err)
+{
+    const ReductionDef *def = work->def;
+    FarFieldDef far_def = {def->tolerance, def->scales, def->materials};
+    const FarBlock *above = def->above.block;
+    bool known = above && above->layer_count > 0;
+    work->far.block = known ? above : &work->own;
+    if (known) {
+        work->far.dofs = def->above.dofs;
+        TRY(bulk_operator_create(bulk, NULL, interface_dofs, m, &work->mesh, err));
+        TRY(find_statics(work, err));
+    } else {
+        TRY(far_block_create(bulk, interface_dofs, m, &far_def, &work->own, err));
+    }
+    if (work->far.block->layer_count > 0)
+        TRY(far_field_create(bulk, interface_dofs, m, def->scales.stiffness, &work->far, err));
+    if (work->own.layer_count > 0) TRY(far_field_measure(&work->far, &work->own, err));
+    if (work->far.block->layer_count == 0) work->far.block = NULL;
+cleanup:
     return error_is_clean(err);
 }
 
 bool reduction_build(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
                      const ReductionDef *def, ReducedBulk *reduced, Error *err)
 {
-    BulkOperator mesh = {0};
-    Builder work = {.full = &mesh, .def = def};
-    FarFieldDef far_def = {def->tolerance, def->scales, def->materials};
-    FarField far = {0};
+    Builder work = {.def = def};
     *reduced = (ReducedBulk){.scales = def->scales};
     if (interface_count >= FAR_INTERFACE)
-        TRY(far_field_create(bulk, interface_dofs, interface_count, &far_def, &far, err));
-    if (far.layer_count > 0)
-        work.full = &far.system;
-    else
-        TRY(bulk_operator_create(bulk, NULL, interface_dofs, interface_count, &mesh, err));
-    TRY(build_on(&work, &far, reduced, err));
+        TRY(replace_far(&work, bulk, interface_dofs, interface_count, err));
+    work.full = work.far.block ? &work.far.system : &work.mesh;
+    if (!work.far.block)
+        TRY(bulk_operator_create(bulk, NULL, interface_dofs, interface_count, &work.mesh, err));
+    TRY(build_on(&work, reduced, err));
 cleanup:
     builder_destroy(&work);
-    bulk_operator_destroy(&mesh);
-    far_field_destroy(&far);
     if (!error_is_clean(err)) error_context(err, "while reducing the bulk");
     return error_is_clean(err);
 }

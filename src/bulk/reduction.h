@@ -27,11 +27,17 @@
 #include "bulk/assembly.h"
 #include "bulk/reduced_bulk.h"
 
+typedef struct FarBlock FarBlock;   // bulk/far_block
+
 typedef struct ReductionDef {
     double tolerance;   // of responses, relative, in the energy norm
     BulkScales scales;   // of the bulk to reduce
     Materials materials;   // likewise
     bool modes;   // of the whole mesh are wanted, to see what happens inside
+    struct {
+        const FarBlock *block;   // NULL: what is far is found in the whole bulk
+        const int32_t *dofs;   // [block->dof_count] its unknowns
+    } above;   // of the upper block (bulk/upper_block); not owned
 } ReductionDef;
 
 // interface_dofs: [interface_count] unknowns of `bulk` that stay.

@@ -52,7 +52,8 @@ int64_t cache_folder_limit(void)
 // 32 digits and letters, and an ending that only we use.
 static bool is_ours(const char *name)
 {
-    static const char *const endings[] = {".mesh", ".shape", ".basis", ".modes"};
+    static const char *const endings[] = {".mesh",  ".shape", ".basis",
+                                          ".modes", ".upper", ".field"};
     size_t key = strspn(name, "0123456789abcdef");
     if (key != 32) return false;
     for (size_t k = 0; k < sizeof endings / sizeof *endings; k++)

@@ -11,6 +11,7 @@
 #include "model/assemble.h"
 #include "model/basis_cache.h"
 #include "model/contact_laws.h"
+#include "model/far_cache.h"
 #include "model/gaps.h"
 #include "model/shape_cache.h"
 #include "scene/materials.h"
@@ -99,6 +100,32 @@ static bool list_rotation(const Model *model, const ReductionBlock *block, Shape
     return shape->rotation != NULL;
 }
 
+// What is far from the contact, of the upper block alone, and the basis with it.
+static bool build_basis(Model *model, const ReductionBlock *block, const Interface *interface,
+                        ReductionDef *def, Error *err)
+{
+    UpperBlock upper = {0};
+    FarBlock far = {0};
+    FarCacheDef far_def = {.upper = &upper,
+                           .far = {def->tolerance, def->scales, def->materials},
+                           .with_fields = def->modes,
+                           .keep = model->scene->reduction.cache};
+    if (interface->count >= FAR_INTERFACE)
+        TRY(upper_block_create(&model->mesh, block, interface->dofs, interface->count, &upper,
+                               err));
+    if (upper.interface_count > 0) {
+        TRY(far_cache_obtain(&far_def, &far, &model->upper_from_cache, model->cache_note, err));
+        def->above.block = &far;
+        def->above.dofs = upper.dofs;
+    }
+    TRY(reduction_build(&block->bulk, interface->dofs, interface->count, def, &model->reduced,
+                        err));
+cleanup:
+    far_block_destroy(&far);
+    upper_block_destroy(&upper);
+    return error_is_clean(err);
+}
+
 // The basis of `block`, from the cache or built and kept there; where it is kept, its name goes
 // into the shape. Of processes that need it at once one builds it and the others wait.
 static bool obtain_basis(Model *model, const ReductionBlock *block, Shape *shape, Error *err)
@@ -125,8 +152,7 @@ static bool obtain_basis(Model *model, const ReductionBlock *block, Shape *shape
     if (basis_cache_lock(shape->basis, &lock))
         TRY(basis_cache_load(shape->basis, with_modes, &model->reduced, found, note, err));
     if (*found) goto cleanup;
-    TRY(reduction_build(&block->bulk, interface->dofs, interface->count, &def, &model->reduced,
-                        err));
+    TRY(build_basis(model, block, interface, &def, err));
     if (!basis_cache_store(shape->basis, &model->reduced, note)) shape->basis[0] = 0;
 cleanup:
     file_lock_release(&lock);

@@ -93,6 +93,7 @@ static void write_model(JsonWriter *json, const Model *model, int64_t relaxation
     json_integer(json, "reduced_dofs", model->system.dof_count);
     json_text(json, "mesh_by", mesh_maker(model));
     json_boolean(json, "from_cache", model->from_cache);
+    json_boolean(json, "upper_from_cache", model->upper_from_cache);
     write_expected(json, model);
     json_number(json, "length", model->length);
     json_number(json, "height", model->height);

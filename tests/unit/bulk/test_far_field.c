@@ -30,14 +30,16 @@ static void check_response(const BlockDef *shape, int32_t layers, double kept)
 {
     Error err = {0};
     ReducedBlock block;
-    FarField far;
+    FarBlock motions;
+    FarField far = {.block = &motions};
     Random random = {.state = 5};
     reduced_block_build(shape, &MATERIAL, LOAD, 0, &block);
     int32_t m = block.interface_count;
     FarFieldDef def = far_def(&block);
-    if (!far_field_create(&block.bulk, block.dofs, m, &def, &far, &err))
+    if (!far_block_create(&block.bulk, block.dofs, m, &def, &motions, &err) ||
+        !far_field_create(&block.bulk, block.dofs, m, MATERIAL.young, &far, &err))
         fail_msg("%s", err.message);
-    assert_int_equal(far.layer_count, layers);
+    assert_int_equal(motions.layer_count, layers);
     if (far.bulk.dof_count > kept * block.bulk.dof_count)
         fail_msg("%d of %d unknowns are left", far.bulk.dof_count, block.bulk.dof_count);
     for (int32_t k = 0; k < 8; k++) {
@@ -53,6 +55,7 @@ static void check_response(const BlockDef *shape, int32_t layers, double kept)
         free(wanted), free(left);
     }
     far_field_destroy(&far);
+    far_block_destroy(&motions);
     reduced_block_destroy(&block);
 }
 
@@ -114,13 +117,14 @@ static void test_nothing_far(void **state)
     (void)state;
     Error err = {0};
     ReducedBlock block;
-    FarField far;
+    FarBlock motions;
     const BlockDef shape = {.kind = ELEMENT_Q4, .nx = 10, .nz = 30, .length = 1, .height = 1};
     reduced_block_build(&shape, &MATERIAL, LOAD, 0, &block);
     FarFieldDef def = far_def(&block);
-    assert_true(far_field_create(&block.bulk, block.dofs, block.interface_count, &def, &far, &err));
-    assert_int_equal(far.layer_count, 0);
-    far_field_destroy(&far);
+    int32_t m = block.interface_count;
+    assert_true(far_block_create(&block.bulk, block.dofs, m, &def, &motions, &err));
+    assert_int_equal(motions.layer_count, 0);
+    far_block_destroy(&motions);
     reduced_block_destroy(&block);
 }
 
@@ -135,13 +139,18 @@ static void test_memory_faults(void **state)
     bool done = false;
     for (int32_t k = 0; !done; k += 1 + k / 40) {   // later ones are alike, motion by motion
         Error err = {0};
-        FarField far;
+        FarBlock motions = {0};
+        FarField far = {.block = &motions};
+        int32_t m = block.interface_count;
         memory_fail_after(k);
-        done = far_field_create(&block.bulk, block.dofs, block.interface_count, &def, &far, &err);
+        done = far_block_create(&block.bulk, block.dofs, m, &def, &motions, &err) &&
+               far_field_create(&block.bulk, block.dofs, m, MATERIAL.young, &far, &err) &&
+               far_field_measure(&far, &motions, &err);
         memory_fail_after(-1);
         assert_int_equal(err.code, done ? ERROR_NONE : ERROR_MEMORY);
-        assert_int_equal(far.layer_count > 0 || !done, 1);
+        assert_int_equal(motions.layer_count > 0 || !done, 1);
         far_field_destroy(&far);
+        far_block_destroy(&motions);
         assert_int_equal(memory_counters().live, live);
         assert_true(k < 3000);
     }
