@@ -9,9 +9,9 @@
 #include <string.h>
 #include <unistd.h>
 
-// Stands in every key: motions that come out otherwise than before, or arrays with a new meaning,
-// need a new number.
-static const char FORMAT[] = "upper 1 " AMONTONS_VERSION;
+// Stands in every key, beside the basis's, which motions that come out otherwise than before are part
+// of: a new meaning of the arrays below needs a new number.
+static const char FORMAT[] = "upper 1";
 
 enum { COUNTS = 3 };   // unknowns, layers, rows of the first coupling
 
@@ -21,6 +21,7 @@ static void find_name(const FarCacheDef *def, char name[HASH_TEXT_SIZE])
     Hash hash = hash_start();
     name[0] = 0;
     if (!def->keep) return;
+    hash_text(&hash, BASIS_FORMAT);
     hash_text(&hash, FORMAT);
     hash_number(&hash, def->far.tolerance);
     reduction_block_hash(&upper->block, &upper->mesh, upper->interface_dofs, upper->interface_count,

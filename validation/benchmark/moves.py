@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Designs of pads one after another, as a designer asks for them, each on a new mesh: what their reductions take.
+
+    validation/benchmark/moves.py [--turns 3] [--size 0.003125] PROGRAM ...
+
+Programs take turns; each turn begins with an empty cache. Of each design the least of all turns (moves.md): seconds of the
+reduction by the clock, and processor seconds of the whole run, of which gmsh takes 0.4.
+"""
+import argparse
+import json
+import os
+import resource
+import subprocess
+import tempfile
+from pathlib import Path
+
+SCENE = Path(__file__).resolve().parents[1] / "pads" / "pads.yaml"
+# The first one, its pads longer, its pads at the ends of the block, eight pads.
+DESIGNS = {"4 pads, fill 0.6": [], "fill 0.7": ["mesh.set.fill=0.7"], "gap 0.075": ["mesh.set.gap=0.075"],
+           "8 pads": ["mesh.set.n=8"]}
+SHORT = ["time.until.U=1e-7", "output.figures=[]", "output.fields=none", "output.history=false"]
+
+
+def reduce(program, design, size, folder):
+    """run.json of a design, processor seconds of the run."""
+    settings = [f"mesh.set.size_contact={size}", f"mesh.set.size_bulk={size}", "reduction.use=always", *SHORT, *design]
+    environment = dict(os.environ, AMONTONS_CACHE=str(folder / "cache"))
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    subprocess.run([program, "run", SCENE, "-o", folder / "run", "--overwrite", "--quiet", "--set", *settings],
+                   env=environment, check=True)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    spent = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return json.loads((folder / "run" / "run.json").read_text()), spent
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("programs", nargs="+", metavar="PROGRAM")
+    parser.add_argument("--turns", type=int, default=3)
+    parser.add_argument("--size", type=float, default=0.003125, help="of cells")
+    arguments = parser.parse_args()
+    least = {}
+    for _ in range(arguments.turns):
+        for number, program in enumerate(arguments.programs):
+            with tempfile.TemporaryDirectory(prefix="amontons-moves-") as name:
+                for title, design in DESIGNS.items():
+                    report, spent = reduce(program, design, arguments.size, Path(name))
+                    clock, model = report["timing_s"]["reduce"], report["model"]
+                    before = least.get((title, number), (clock, spent))
+                    least[title, number] = min(before[0], clock), min(before[1], spent)
+                    print(f"{title:18s} {program}: {clock:.2f} s, {spent:.2f} s;", model["contact_nodes"], "nodes,",
+                          model["full_dofs"], "unknowns",
+                          "upper block from the cache" if model.get("upper_from_cache") else "", flush=True)
+    for title in DESIGNS:
+        print(f"{title:18s}", *("{:6.2f} {:6.2f}".format(*least[title, k]) for k in range(len(arguments.programs))))
+
+
+if __name__ == "__main__":
+    main()
