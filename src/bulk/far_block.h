@@ -58,8 +58,8 @@ typedef struct FarBlock {
     double error;   // of S, over what is allowed
 } FarBlock;
 
-// interface_dofs: [interface_count] unknowns of `bulk`. No error if nothing can be replaced. What it
-// leaves is not measured yet (far_field_measure).
+// interface_dofs: [interface_count] unknowns of `bulk`. No error if nothing can be replaced. What
+// error it leaves is not measured yet (far_field_measure).
 bool far_block_create(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
                       const FarFieldDef *def, FarBlock *block, Error *err);
 // Makes room for all but the fields: counts and sizes of the layers and of their couplings are set.

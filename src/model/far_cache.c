@@ -9,8 +9,8 @@
 #include <string.h>
 #include <unistd.h>
 
-// Stands in every key, beside the basis's, which motions that come out otherwise than before are part
-// of: a new meaning of the arrays below needs a new number.
+// Stands in every key, beside the basis's: a new meaning of the arrays below needs a new number,
+// motions that come out otherwise than before are a new basis.
 static const char FORMAT[] = "upper 1";
 
 enum { COUNTS = 3 };   // unknowns, layers, rows of the first coupling
