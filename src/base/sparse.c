@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/sparse.h"
 
+#include "base/lanes.h"
 #include "base/memory.h"
 
 void sparse_pattern_destroy(SparsePattern *pattern)
@@ -35,31 +36,33 @@ void sparse_apply(const SparsePattern *pattern, const double *values, const doub
     }
 }
 
-// `wide` columns share a pass, their entries of a row side by side; a constant where inlined.
-static inline void apply_together(const SparsePattern *pattern, const double *values,
-                                  const double *x, int wide, double *y, double *work)
+// Columns of `lanes` share a pass, their entries of a row side by side; a constant.
+WITH_CONSTANTS void apply_together(const SparsePattern *pattern, const double *values,
+                                   const double *x, int lanes, double *y, double *work)
 {
-    int64_t size = pattern->size;
-    for (int64_t k = 0; k < size * wide; k++) work[k] = x[k % wide * size + k / wide];
+    int64_t size = pattern->size, wide = lanes * LANE;
+    for (int64_t k = 0; k < size; k++)
+        for (int64_t j = 0; j < wide; j++) work[k * wide + j] = x[j * size + k];
     for (int64_t row = 0; row < size; row++) {
-        double sum[SPARSE_WIDE] = {0};
+        Lane sum[SPARSE_WIDE / LANE] = {0};
         for (int32_t k = pattern->start[row]; k < pattern->start[row + 1]; k++) {
-            const double *from = work + (int64_t)pattern->index[k] * wide;
-            for (int j = 0; j < wide; j++) sum[j] += values[k] * from[j];
+            const Lane *from = (const Lane *)work + (int64_t)pattern->index[k] * lanes;
+            UNROLLED
+            for (int j = 0; j < lanes; j++) sum[j] += values[k] * from[j];
         }
-        for (int j = 0; j < wide; j++) y[j * size + row] = sum[j];
+        for (int64_t j = 0; j < wide; j++) y[j * size + row] = sum[j / LANE][j % LANE];
     }
 }
 
-void sparse_apply_many(const SparsePattern *pattern, const double *values, const double *x,
-                       int64_t columns, double *y, double *work)
+FOR_EACH_PROCESSOR void sparse_apply_many(const SparsePattern *pattern, const double *values,
+                                          const double *x, int64_t columns, double *y, double *work)
 {
-    enum { WIDE = SPARSE_WIDE, HALF = WIDE / 2 };
+    enum { WIDE = SPARSE_WIDE };
     int64_t size = pattern->size, column = 0;
     for (; column + WIDE <= columns; column += WIDE)
-        apply_together(pattern, values, x + column * size, WIDE, y + column * size, work);
-    for (; column + HALF <= columns; column += HALF)
-        apply_together(pattern, values, x + column * size, HALF, y + column * size, work);
+        apply_together(pattern, values, x + column * size, WIDE / LANE, y + column * size, work);
+    for (; column + LANE <= columns; column += LANE)
+        apply_together(pattern, values, x + column * size, 1, y + column * size, work);
     for (; column < columns; column++)
         sparse_apply(pattern, values, x + column * size, y + column * size);
 }

@@ -9,30 +9,6 @@
 
 #define NO_MEMORY "no memory for a sparse matrix of %d unknowns"
 
-static void close_passage(Passage *passage)
-{
-    if (!passage->columns && !passage->work) return;
-    cholmod_free_dense(&passage->columns, &passage->common);
-    cholmod_free_dense(&passage->work, &passage->common);
-    cholmod_finish(&passage->common);
-}
-
-bool sparse_open_passage(const SparseAnalysis *analysis, Passage *passage, Error *err)
-{
-    if (passage->columns) return true;
-    cholmod_start(&passage->common);
-    passage->common.print = 0;
-    passage->columns =
-        cholmod_zeros((size_t)analysis->size, PASSAGE_COLUMNS, CHOLMOD_REAL, &passage->common);
-    passage->work = cholmod_zeros(analysis->symbolic->maxesize + 1, PASSAGE_COLUMNS, CHOLMOD_REAL,
-                                  &passage->common);
-    if (!passage->columns || !passage->work)
-        FAIL(err, ERROR_MEMORY, "no memory for %d answers of a factor", PASSAGE_COLUMNS);
-cleanup:
-    if (!error_is_clean(err)) close_passage(passage);
-    return error_is_clean(err);
-}
-
 // Also of one half built. Factors made from it must have been destroyed.
 void sparse_analysis_destroy(SparseAnalysis *analysis)
 {
@@ -46,7 +22,8 @@ void sparse_analysis_destroy(SparseAnalysis *analysis)
         cholmod_free_dense(&analysis->work_y, common);
         cholmod_free_dense(&analysis->work_e, common);
         cholmod_free_dense(&analysis->permuted, common);
-        for (int which = 0; which < 2; which++) close_passage(&analysis->passages[which]);
+        for (int which = 0; which < 2; which++)
+            cholmod_free_dense(&analysis->passages[which], common);
         cholmod_finish(common);
     }
     memory_free(analysis->source);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What base/sparse_analysis makes and base/sparse_factor, which alone includes this, works with.
+// What base/sparse_analysis makes and base/sparse_factor and base/sparse_expand work with; nobody
+// else includes this.
 #ifndef AMONTONS_BASE_SPARSE_ANALYSIS_H
 #define AMONTONS_BASE_SPARSE_ANALYSIS_H
 
@@ -7,14 +8,7 @@
 
 #include <cholmod.h>
 
-enum { PASSAGE_COLUMNS = 48 };   // columns of one pass over a factor
-
-// Work space of passes over a factor with many columns, of one thread.
-typedef struct Passage {
-    cholmod_common common;
-    cholmod_dense *columns;   // [size * TOGETHER]; NULL: not open
-    cholmod_dense *work;
-} Passage;
+enum { PASSAGE_COLUMNS = 16 };   // of one pass over a factor with many columns
 
 struct SparseAnalysis {
     cholmod_common common;
@@ -29,10 +23,15 @@ struct SparseAnalysis {
     cholmod_dense *forward;   // solve2's workspaces, shared by all factors
     cholmod_dense *work_y, *work_e;
     cholmod_dense *permuted;   // right-hand side in L's order
-    Passage passages[2];
+    cholmod_dense *passages[2];   // [size, PASSAGE_COLUMNS] work of two threads; NULL: not used yet
 };
 
-// Kept from call to call: memory that is asked for anew comes page by page.
-bool sparse_open_passage(const SparseAnalysis *analysis, Passage *passage, Error *err);
+struct SparseFactor {
+    SparseAnalysis *analysis;   // not owned
+    cholmod_factor *numeric;
+    double *border_factor;   // L_bb, in L's order
+    double *schur;   // S, in the caller's order
+    double *border_work;   // [border_count]
+};
 
 #endif

@@ -9,21 +9,12 @@
 
 #include "base/dense.h"
 #include "base/memory.h"
-#include "base/share.h"
 
 #include <string.h>
 
 // Of GNU's OpenMP, which Debian's CHOLMOD comes with.
 int omp_get_max_active_levels(void) __attribute__((weak));
 void omp_set_max_active_levels(int levels) __attribute__((weak));
-
-struct SparseFactor {
-    SparseAnalysis *analysis;   // not owned
-    cholmod_factor *numeric;
-    double *border_factor;   // L_bb, in L's order
-    double *schur;   // S, in the caller's order
-    double *border_work;   // [border_count]
-};
 
 // Copies L_bb out of the supernodes: column c of supernode s holds rows s.rows[0 .. n) from its own
 // first row down; only rows and columns from `first` on belong to the border.
@@ -169,56 +160,6 @@ bool sparse_expand(SparseFactor *factor, const double *x_border, double *x, Erro
     analysis->permuted = solution;
     const double *permuted = solution->x;
     for (int32_t k = 0; k < size; k++) x[permutation[k]] = permuted[k];
-cleanup:
-    return error_is_clean(err);
-}
-
-typedef struct Expansion {
-    SparseFactor *factor;
-    const double *border;   // [border_count * count]
-    int32_t count;
-    double *x;   // [size * count]
-} Expansion;
-
-// One half's columns, PASSAGE_COLUMNS at a time: one pass over the factor for them all, more would
-// leave the cache. The halves share nothing that either writes to.
-static void expand_half(void *context, int32_t which)
-{
-    const Expansion *all = context;
-    SparseAnalysis *analysis = all->factor->analysis;
-    Passage *passage = &analysis->passages[which];
-    cholmod_factor *numeric = all->factor->numeric;
-    const int32_t *permutation = numeric->Perm, *position = analysis->border_position;
-    int32_t border_count = analysis->border_count;
-    int32_t first = which ? all->count / 2 : 0, end = which ? all->count : all->count / 2;
-    int64_t size = (int64_t)numeric->n;
-    int32_t passes = (end - first + PASSAGE_COLUMNS - 1) / PASSAGE_COLUMNS, columns = 0;
-    for (int32_t pass = 0; pass < passes; pass++, first += columns) {
-        columns = (end - first) / (passes - pass);   // alike: a few alone take as long as many
-        double *values = passage->columns->x;
-        passage->columns->ncol = (size_t)columns;
-        memset(values, 0, (size_t)(size * columns) * sizeof *values);
-        for (int32_t j = 0; j < columns; j++) {
-            const double *given = all->border + (int64_t)(first + j) * border_count;
-            double *border = values + (j + 1) * size - border_count;
-            for (int32_t k = 0; k < border_count; k++) border[position[k]] = given[k];
-            dense_lower_apply_transposed(all->factor->border_factor, border_count, border);
-        }
-        cholmod_super_ltsolve(numeric, passage->columns, passage->work, &passage->common);
-        for (int32_t j = 0; j < columns; j++) {
-            double *out = all->x + (first + j) * size;
-            for (int64_t k = 0; k < size; k++) out[permutation[k]] = values[j * size + k];
-        }
-    }
-}
-
-bool sparse_expand_many(SparseFactor *factor, const double *x_border, int32_t count, double *x,
-                        Error *err)
-{
-    Expansion all = {factor, x_border, count, x};
-    for (int which = 0; which < 2; which++)
-        TRY(sparse_open_passage(factor->analysis, &factor->analysis->passages[which], err));
-    share_in_two(expand_half, &all);
 cleanup:
     return error_is_clean(err);
 }

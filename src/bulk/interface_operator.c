@@ -393,13 +393,7 @@ bool interface_operator_expand(InterfaceOperator *condensed, const double *inter
 bool interface_operator_answer(InterfaceOperator *condensed, const double *motions, int32_t count,
                                double *v, Error *err)
 {
-    const BulkOperator *system = condensed->system;
-    int64_t dofs = system->dof_count, m = system->interface_count;
-    if (!sparse_expand_many(condensed->factor, motions, count, v, err)) return false;
-    for (int64_t k = 0; k < count; k++)   // exactly
-        for (int64_t j = 0; j < m; j++)
-            v[k * dofs + system->interface_dofs[j]] = motions[k * m + j];
-    return true;
+    return sparse_expand_many(condensed->factor, motions, count, v, err);
 }
 
 bool interface_operator_answer_held(InterfaceOperator *condensed, const double *rhs, double *v,
