@@ -22,7 +22,6 @@ static const double FAR = 4;
 
 static void block_destroy(AnswerBlock *block)
 {
-    memory_free(block->field);
     memory_free(block->motion);
     memory_free(block->reaction);
     *block = (AnswerBlock){0};
@@ -31,6 +30,7 @@ static void block_destroy(AnswerBlock *block)
 void answers_destroy(Answers *answers)
 {
     for (int32_t k = 0; k <= answers->block_count; k++) block_destroy(&answers->blocks[k]);
+    for (int32_t k = 0; k < answers->shelf_count; k++) memory_free(answers->shelves[k].field);
     memory_free(answers->unit_load);
     for (int which = 0; which < 2; which++) {
         memory_free(answers->image[which]);
@@ -43,7 +43,7 @@ bool answers_create(const BulkOperator *full, const BulkScales *scales, Answers 
                     Error *err)
 {
     const Bulk *bulk = full->bulk;
-    *answers = (Answers){.full = full, .scales = *scales};
+    *answers = (Answers){.full = full, .scales = *scales, .shelf_count = 2, .shelf_of = {0, 1}};
     answers->unit_load = NEW_ARRAY(double, bulk->dof_count, err);
     for (int which = 0; which < 2; which++) {
         answers->image[which] = NEW_ARRAY(double, (int64_t)bulk->dof_count *ANSWERS_TOGETHER, err);
@@ -57,15 +57,37 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Those that are multiplied by the same matrix (needed_products) stand together.
+static int kind_of(StripPoint point)
+{
+    return point.viscosity < 0.5 ? 0 : 1;
+}
+
+// A new shelf has room for many blocks; memory that is never written to is never there.
+static double *shelf_room(Answers *answers, int kind, int64_t columns, Error *err)
+{
+    int32_t which = answers->shelf_of[kind];
+    AnswerShelf *shelf = &answers->shelves[which];
+    int64_t dofs = answers->full->dof_count, m = answers->full->interface_count;
+    if (shelf->filled + columns <= shelf->room) return shelf->field + shelf->filled * dofs;
+    if (shelf->filled == 0) memory_free(shelf->field);
+    if (shelf->filled > 0) which = answers->shelf_of[kind] = answers->shelf_count++;
+    shelf = &answers->shelves[which];
+    *shelf = (AnswerShelf){.room = columns > m ? columns : m};
+    shelf->field = memory_bytes(dofs * shelf->room * (int64_t)sizeof(double), err);
+    if (!shelf->field) shelf->room = 0;
+    return shelf->field;
+}
+
 AnswerBlock *answers_next(Answers *answers, StripPoint point, int64_t columns, Error *err)
 {
     AnswerBlock *block = &answers->blocks[answers->block_count];
-    int64_t dofs = answers->full->dof_count, rows = answers->full->interface_count + 1;
+    int64_t rows = answers->full->interface_count + 1;
     answers_drop(answers);
     if (answers->block_count == ANSWER_BLOCKS_MAX)
         FAIL(err, ERROR_LIBRARY, "more than %d points to reduce the bulk at", ANSWER_BLOCKS_MAX);
     *block = (AnswerBlock){.point = point, .first = answers->count, .count = columns};
-    block->field = memory_bytes(dofs * columns * (int64_t)sizeof(double), err);   // all is written
+    block->field = shelf_room(answers, kind_of(point), columns, err);
     block->motion = NEW_ARRAY(double, rows *columns, err);
     block->reaction = NEW_ARRAY(double, rows *columns, err);
 cleanup:
@@ -74,7 +96,9 @@ cleanup:
 
 void answers_keep(Answers *answers)
 {
-    answers->count += answers->blocks[answers->block_count++].count;
+    const AnswerBlock *block = &answers->blocks[answers->block_count++];
+    answers->count += block->count;
+    answers->shelves[answers->shelf_of[kind_of(block->point)]].filled += block->count;
 }
 
 void answers_drop(Answers *answers)
@@ -111,28 +135,75 @@ typedef struct Multiplication {
     double *const *gram;
 } Multiplication;
 
-// Of the block itself only rows from `from` on: the products are symmetric.
+// Blocks whose fields stand side by side: multiplied as one.
+typedef struct Run {
+    const double *field;
+    int64_t columns;
+    int32_t count;
+    const AnswerBlock *blocks[ANSWER_BLOCKS_MAX + 1];   // [count]
+} Run;
+
+// Puts the products of a run with `image`, the columns of the next block `from` on, into their
+// places. Of the next block itself only rows from `from` on: the products are symmetric.
+static void multiply_run(const Multiplication *all, Run *run, DenseView image, int64_t from,
+                         double *product, double *gram)
+{
+    const Answers *answers = all->answers;
+    const AnswerBlock *next = &answers->blocks[answers->block_count];
+    int64_t rows = answers->count + next->count;
+    dense_multiply_transposed(dense_view(run->field, image.rows, run->columns), image, 1, 0,
+                              product);
+    for (int32_t k = 0; k < run->count; k++) {
+        const AnswerBlock *block = run->blocks[k];
+        int64_t skipped = block == next ? from : 0, count = block->count - skipped;
+        double *out = gram + from * rows + block->first + skipped;
+        for (int64_t j = 0; j < image.columns; j++)
+            memcpy(out + j * rows, product + j * run->columns, (size_t)count * sizeof *out);
+        product += count;
+    }
+    *run = (Run){0};
+}
+
+// All blocks of a kind that need this product.
+static void multiply_kind(const Multiplication *all, int kind, BulkTerm term, int32_t which,
+                          int64_t from, int64_t columns)
+{
+    const Answers *answers = all->answers;
+    const AnswerBlock *next = &answers->blocks[answers->block_count];
+    int64_t dofs = answers->full->dof_count;
+    DenseView image = dense_view(answers->image[which], dofs, columns);
+    double *product = answers->product[which], *gram = all->gram[term];
+    Run run = {0};
+    for (int32_t k = 0; k <= answers->block_count; k++) {
+        const AnswerBlock *block = &answers->blocks[k];
+        int64_t skipped = block == next ? from : 0;
+        const double *field = block->field + skipped * dofs;
+        unsigned needed = needed_products(answers, block->point, next->point);
+        if (kind_of(block->point) != kind || !(needed & 1u << term)) continue;
+        bool beside = run.count > 0 && field == run.field + run.columns * dofs;
+        if (run.count > 0 && !beside) multiply_run(all, &run, image, from, product, gram);
+        if (run.count == 0) run.field = field;
+        run.blocks[run.count++] = block;
+        run.columns += block->count - skipped;
+    }
+    if (run.count > 0) multiply_run(all, &run, image, from, product, gram);
+}
+
 static void multiply_columns(const Multiplication *all, int32_t which, int64_t from,
                              int64_t columns)
 {
     const Answers *answers = all->answers;
     const AnswerBlock *next = &answers->blocks[answers->block_count];
-    int64_t dofs = answers->full->dof_count, rows = answers->count + next->count;
-    DenseView image = dense_view(answers->image[which], dofs, columns);
+    int64_t dofs = answers->full->dof_count;
     for (int term = 0; term < BULK_TERMS; term++) {
-        bool imaged = false;
-        for (int32_t k = 0; k <= answers->block_count; k++) {
-            const AnswerBlock *block = &answers->blocks[k];
-            int64_t first = block == next ? from : 0;
-            if (!(needed_products(answers, block->point, next->point) & 1u << term)) continue;
-            if (!imaged)
-                apply(answers, (BulkTerm)term, dense_view(next->field + from * dofs, dofs, columns),
-                      answers->work[which], answers->image[which]);
-            imaged = true;
-            dense_multiply_transposed_rows(
-                dense_view(block->field + first * dofs, dofs, block->count - first), image, 1, 0,
-                all->gram[term] + from * rows + block->first + first, rows);
-        }
+        unsigned needed = 0;
+        for (int32_t k = 0; k <= answers->block_count; k++)
+            needed |= needed_products(answers, answers->blocks[k].point, next->point);
+        if (!(needed & 1u << term)) continue;
+        apply(answers, (BulkTerm)term, dense_view(next->field + from * dofs, dofs, columns),
+              answers->work[which], answers->image[which]);
+        for (int kind = 0; kind < 2; kind++)
+            multiply_kind(all, kind, (BulkTerm)term, which, from, columns);
     }
 }
 
@@ -204,7 +275,7 @@ static void mirror_own(const Answers *answers, double *gram)
             gram[j * rows + next->first + i] = gram[i * rows + next->first + j];
 }
 
-bool answers_multiply(const Answers *answers, double *const gram[BULK_TERMS], Error *err)
+bool answers_multiply(Answers *answers, double *const gram[BULK_TERMS], Error *err)
 {
     const AnswerBlock *next = &answers->blocks[answers->block_count];
     int64_t dofs = answers->full->dof_count, m = answers->full->interface_count;
@@ -212,7 +283,9 @@ bool answers_multiply(const Answers *answers, double *const gram[BULK_TERMS], Er
     Multiplication by_mesh = {answers, gram};
     double *a = NEW_ARRAY(double, rows * next->count, err);
     double *b = NEW_ARRAY(double, rows * next->count, err);
-    if (!a || !b) goto cleanup;
+    for (int which = 0; which < 2; which++)
+        answers->product[which] = NEW_ARRAY(double, rows *ANSWERS_TOGETHER, err);
+    if (!error_is_clean(err)) goto cleanup;
     for (int64_t j = 0; j < next->count; j++)
         next->motion[j * (m + 1) + m] =
             dense_dot(next->field + j * dofs, answers->unit_load, (int32_t)dofs);
@@ -221,6 +294,10 @@ bool answers_multiply(const Answers *answers, double *const gram[BULK_TERMS], Er
         complete_block(answers, &answers->blocks[k], a, b, gram);
     for (int term = 0; term < BULK_TERMS; term++) mirror_own(answers, gram[term]);
 cleanup:
+    for (int which = 0; which < 2; which++) {
+        memory_free(answers->product[which]);
+        answers->product[which] = NULL;
+    }
     memory_free(a);
     memory_free(b);
     return error_is_clean(err);

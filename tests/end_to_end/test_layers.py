@@ -177,7 +177,7 @@ class Layers(unittest.TestCase):
         """Each library is behind one of our files: nothing else includes its header."""
         owners = {
             "gmshc.h": r"src/io/mesh_\w+_module\.c",
-            "cholmod.h": r"src/base/sparse\w*\.c",
+            "cholmod.h": r"src/base/sparse\w*\.[ch]",
             "hdf5.h": r"src/io/array_(file_module|attribute|disk|series)\.[ch]",
             "libfyaml.h": r"src/io/yaml_\w+\.[ch]",
             "cairo[\\w-]*.h": CAIRO,
