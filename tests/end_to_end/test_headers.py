@@ -14,6 +14,7 @@ COMPILE = ["cc", "-std=c17", "-D_GNU_SOURCE", "-Wall", "-Wextra", "-Wshadow", "-
            "-Wstrict-prototypes", "-Werror", "-fsyntax-only", "-x", "c", "-"]
 HDF5_FLAGS = subprocess.run(["pkg-config", "--cflags", "hdf5-serial"], capture_output=True,
                             text=True).stdout.split()   # for io/array_disk.h
+CHOLMOD_FLAGS = ["-I/usr/include/suitesparse"]   # for base/sparse_analysis.h: it has no .pc file
 
 
 def headers(root):
@@ -26,7 +27,8 @@ def headers(root):
 def compile_alone(root, include):
     """What the compiler says about a file that includes `include` twice and nothing else."""
     text = f'#include "{include}"\n#include "{include}"\n'
-    done = subprocess.run([*COMPILE, f"-I{root / 'src'}", f"-I{root}", *HDF5_FLAGS], input=text,
+    done = subprocess.run([*COMPILE, f"-I{root / 'src'}", f"-I{root}", *HDF5_FLAGS,
+                           *CHOLMOD_FLAGS], input=text,
                           text=True, capture_output=True)
     return done.stderr if done.returncode else ""
 
