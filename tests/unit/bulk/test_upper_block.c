@@ -5,6 +5,7 @@
 #include "bulk/reduction.h"
 #include "pad_design.h"
 #include "random_numbers.h"
+#include "unit/bulk/mesh_by_hand.h"
 #include "unit/bulk/reduced_block.h"
 
 static const double TOLERANCE = 2e-2;
@@ -110,6 +111,45 @@ static void test_no_line(void **state)
     pad_block_build(loose, &made);
     assert_int_equal(made.upper.interface_count, 0);
     pad_block_destroy(&made);
+}
+
+// One element below two; their common edge bulges upwards by `rise` at its middle. The interface
+// are the two corners on the ground.
+static int32_t interface_above(double rise)
+{
+    static const double at[][2] = {{0, 0},   {1, 0},  {1, 1},   {0, 1},   {2, 1},   {2, 2},
+                                   {1, 2},   {0, 2},  {.5, 0},  {1, .5},  {.5, 1},  {0, .5},
+                                   {1, 1.5}, {.5, 2}, {0, 1.5}, {1.5, 1}, {2, 1.5}, {1.5, 2}};
+    static const int32_t corners[] = {0,  1,  2,  3,  8, 9, 10, 11, 3,  2,  6,  7,
+                                      10, 12, 13, 14, 2, 4, 5,  6,  15, 16, 17, 12};
+    const int32_t dofs[] = {0, 1, 2, 3};
+    Error err = {0};
+    Bulk bulk;
+    Mesh mesh;
+    ReductionBlock block;
+    UpperBlock upper;
+    Material material = {1, 0.3, 1, 1, 1, false};
+    Materials materials = materials_of(&material);
+    MeshFile file = hand_mesh(18, at, ELEMENT_Q8, 3, corners);
+    if (!mesh_build(&file, "three", &mesh, &err)) fail_msg("%s", err.message);
+    mesh.position[2 * 10 + 1] += rise;
+    assert_true(bulk_assemble(&mesh, &material, &bulk, &err));
+    assert_true(reduction_block_create(&mesh, &bulk, &materials, 0, &block, &err));
+    assert_true(upper_block_create(&mesh, &block, dofs, 4, &upper, &err));
+    int32_t count = upper.interface_count;
+    upper_block_destroy(&upper);
+    reduction_block_destroy(&block);
+    bulk_destroy(&bulk);
+    mesh_destroy(&mesh);
+    return count;
+}
+
+static void test_curved_edge(void **state)
+{
+    (void)state;
+    assert_int_equal(interface_above(0), 2 * 5);
+    assert_int_equal(interface_above(0.1), 0);
+    assert_int_equal(interface_above(-0.1), 0);
 }
 
 static double *whole_schur(const Bulk *bulk, const int32_t *dofs, int32_t m, OperatorTerms terms)
@@ -220,7 +260,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_shared_by_designs), cmocka_unit_test(test_places),
         cmocka_unit_test(test_other_blocks),      cmocka_unit_test(test_no_line),
-        cmocka_unit_test(test_reused_motions),    cmocka_unit_test(test_memory_faults),
+        cmocka_unit_test(test_curved_edge),       cmocka_unit_test(test_reused_motions),
+        cmocka_unit_test(test_memory_faults),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
