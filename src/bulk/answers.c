@@ -116,17 +116,19 @@ static void apply(const Answers *answers, BulkTerm term, DenseView x, double *wo
     for (int64_t k = 0; scale != 1 && k < (int64_t)x.rows * x.columns; k++) y[k] /= scale;
 }
 
-// The products by the mesh that two points need, as bits of their terms. Where inertia differs it
-// gives M, the point with less of it that of K and C which weighs more there, and the lighter one
-// is multiplied.
+// The products by the mesh that two points need, as bits of their terms. M costs next to nothing and
+// is enough where viscosities differ: what is lost then goes with the root of the quotient of
+// inertias. Where only inertia differs it gives M, the point with less of it that of K and C which
+// weighs more there, and the lighter one is multiplied.
 static unsigned needed_products(const Answers *answers, StripPoint old, StripPoint new)
 {
     bool ascends = old.inertia < new.inertia;
     StripPoint low = ascends ? old : new, high = ascends ? new : old;
     unsigned mass = 1u << BULK_MASS;
     unsigned light = 1u << (low.viscosity < 0.5 ? BULK_DAMPING : BULK_STIFFNESS);
-    if (high.inertia > fmax(FAR * low.inertia, answers->inertia_least)) return light;
-    return fabs(low.viscosity - high.viscosity) * FAR >= 1 ? mass : mass | light;
+    if (fabs(low.viscosity - high.viscosity) * FAR >= 1) return mass;
+    bool apart = high.inertia > fmax(FAR * low.inertia, answers->inertia_least);
+    return apart ? light : mass | light;
 }
 
 // What two threads do to each half of the next block's columns.

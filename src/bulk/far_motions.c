@@ -25,6 +25,7 @@ void far_motions_destroy(FarMotions *motions)
     memory_free(motions->damping);
     memory_free(motions->field);
     memory_free(motions->image);
+    memory_free(motions->rows);
     memory_free(motions->next);
     memory_free(motions->work[0]);
     memory_free(motions->work[1]);
@@ -58,22 +59,6 @@ static bool copy_matrices(const Bulk *bulk, const int32_t *place, double unit, F
     return true;
 }
 
-bool far_motions_begin(const Bulk *bulk, double unit, FarMotions *motions, Error *err)
-{
-    int64_t size = motions->size;
-    motions->next = NEW_ARRAY(double, size * motions->columns_max, err);
-    for (int which = 0; which < 2; which++)
-        motions->work[which] = NEW_ARRAY(double, size *SPARSE_WIDE, err);
-    if (!error_is_clean(err)) return false;
-    int32_t *place = NEW_ARRAY(int32_t, bulk->dof_count, err);
-    if (!place) return false;
-    for (int32_t k = 0; k < bulk->dof_count; k++) place[k] = -1;
-    for (int32_t j = 0; j < motions->size; j++) place[motions->dofs[j]] = j;
-    bool done = copy_matrices(bulk, place, unit, motions, err);
-    memory_free(place);
-    return done;
-}
-
 static bool make_room(FarMotions *motions, int32_t columns, Error *err)
 {
     int64_t size = motions->size, room = motions->room, needed = motions->count + columns;
@@ -89,6 +74,24 @@ static bool make_room(FarMotions *motions, int32_t columns, Error *err)
     return true;
 }
 
+bool far_motions_begin(const Bulk *bulk, double unit, int32_t expected, FarMotions *motions,
+                       Error *err)
+{
+    int64_t size = motions->size;
+    motions->rows = NEW_ARRAY(double, size * motions->columns_max, err);
+    motions->next = NEW_ARRAY(double, size * motions->columns_max, err);
+    for (int which = 0; which < 2; which++)
+        motions->work[which] = NEW_ARRAY(double, size *SPARSE_WIDE, err);
+    if (!error_is_clean(err)) return false;
+    int32_t *place = NEW_ARRAY(int32_t, bulk->dof_count, err);
+    if (!place) return false;
+    for (int32_t k = 0; k < bulk->dof_count; k++) place[k] = -1;
+    for (int32_t j = 0; j < motions->size; j++) place[motions->dofs[j]] = j;
+    bool done = make_room(motions, expected, err) && copy_matrices(bulk, place, unit, motions, err);
+    memory_free(place);
+    return done;
+}
+
 static double square_sum(const double *values, int64_t count)
 {
     double sum = 0;
@@ -96,11 +99,14 @@ static double square_sum(const double *values, int64_t count)
     return sum;
 }
 
-// Fields less what F has of them, and their image; each thread does half of the columns.
+// Fields less what F has of them, and their image; each thread does half of the columns, and takes
+// their rows out of the mesh's first.
 // Twice where little is left: what rounding put back is large beside it.
 typedef struct Remainder {
     const FarMotions *motions;
     int32_t columns;
+    const double *whole;   // [mesh_dofs * columns]; NULL: their rows are in `fields`
+    int64_t mesh_dofs;
     double *fields, *image;   // [size * columns]
     double least;   // energy of what is taken up
     int32_t added;
@@ -116,6 +122,9 @@ static void take_out_half(void *context, int32_t which)
     int64_t first = which ? all->columns / 2 : 0, end = which ? all->columns : all->columns / 2;
     double *fields = all->fields + first * size, *parts = all->parts + first * count;
     DenseView all_motions = dense_view(motions->field, size, count);
+    for (int64_t j = first; all->whole && j < end; j++)
+        for (int64_t i = 0; i < size; i++)
+            all->fields[j * size + i] = all->whole[j * all->mesh_dofs + motions->dofs[i]];
     for (bool again = count > 0; again;) {
         double before = square_sum(fields, size * (end - first));
         dense_multiply_transposed(dense_view(motions->image, size, count),
@@ -160,19 +169,23 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool far_motions_add(FarMotions *motions, double *fields, int32_t columns, double least,
-                     int32_t *added, Error *err)
+bool far_motions_add(FarMotions *motions, DenseView fields, double least, int32_t *added,
+                     Error *err)
 {
+    int32_t columns = fields.columns;
     if (!make_room(motions, columns, err)) return false;
     Remainder all = {.motions = motions,
                      .columns = columns,
                      .least = least,
-                     .fields = fields,
+                     .whole = fields.values,
+                     .mesh_dofs = fields.rows,
+                     .fields = motions->rows,
                      .image = motions->next,
                      .parts = NEW_ARRAY(double, (int64_t)motions->room *columns, err)};
     if (!all.parts) goto cleanup;
     do {
         share_in_two(take_out_half, &all);
+        all.whole = NULL;
         TRY(take_up(motions, &all, err));
     } while (all.again && all.added < columns);
     *added = all.added;

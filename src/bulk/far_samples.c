@@ -42,7 +42,7 @@ typedef struct Sampling {
     FactorsAhead *ahead;
     double *lower;   // [m^2] Cholesky factor of S
     double *asked;   // [m * CHUNK] motions of the interface
-    double *fields, *rows;   // [dofs * (CHUNK + 1)] answers, those of a layer
+    double *fields;   // [dofs * (CHUNK + 1)] answers
     uint64_t drawn;   // random numbers
 } Sampling;
 
@@ -54,7 +54,6 @@ static void sampling_destroy(Sampling *work)
     memory_free(work->lower);
     memory_free(work->asked);
     memory_free(work->fields);
-    memory_free(work->rows);
 }
 
 void far_samples_destroy(FarSamples *samples)
@@ -118,14 +117,13 @@ static bool sampling_begin(const int32_t *interface_dofs, int32_t m, Sampling *w
     TRY(factors_ahead_create(&def, &work->ahead, err));
     for (int32_t k = 0; k < samples->layer_count; k++) {
         samples->layers[k]->columns_max = CHUNK + 1;
-        TRY(far_motions_begin(bulk, scales->stiffness, samples->layers[k], err));
+        TRY(far_motions_begin(bulk, scales->stiffness, m, samples->layers[k], err));
     }
     samples->stiffness = NEW_ARRAY(double, (int64_t)m *m, err);
     samples->schur = NEW_ARRAY(double, (int64_t)m *m, err);
     work->lower = NEW_ARRAY(double, (int64_t)m *m, err);
     work->asked = NEW_ARRAY(double, (int64_t)m *CHUNK, err);
     work->fields = NEW_ARRAY(double, (int64_t)bulk->dof_count *(CHUNK + 1), err);
-    work->rows = NEW_ARRAY(double, (int64_t)bulk->dof_count *(CHUNK + 1), err);
 cleanup:
     return error_is_clean(err);
 }
@@ -149,10 +147,7 @@ static bool add_to_layers(Sampling *work, int32_t columns, double least, int32_t
     *count = 0;
     for (int32_t k = 0; k < layers; k++) {
         FarMotions *layer = work->samples->layers[k];
-        for (int64_t j = 0; j < columns; j++)
-            for (int64_t i = 0; i < layer->size; i++)
-                work->rows[j * layer->size + i] = work->fields[j * dofs + layer->dofs[i]];
-        TRY(far_motions_add(layer, work->rows, columns, least, &added, err));
+        TRY(far_motions_add(layer, dense_view(work->fields, dofs, columns), least, &added, err));
         if (added > NEW_SHARE * columns) *count = k + 1;
     }
 cleanup:
