@@ -59,17 +59,26 @@ static bool copy_matrices(const Bulk *bulk, const int32_t *place, double unit, F
     return true;
 }
 
+// Not zeroed: what is not written to stays without memory behind it.
+static bool lengthen(double **columns, int64_t filled, int64_t needed, Error *err)
+{
+    double *longer = memory_bytes(needed * (int64_t)sizeof *longer, err);
+    if (!longer) return false;
+    if (filled > 0) memcpy(longer, *columns, (size_t)filled * sizeof *longer);
+    memory_free(*columns);
+    *columns = longer;
+    return true;
+}
+
 static bool make_room(FarMotions *motions, int32_t columns, Error *err)
 {
-    int64_t size = motions->size, room = motions->room, needed = motions->count + columns;
+    int64_t size = motions->size, filled = size * motions->count;
+    int64_t room = motions->room, needed = motions->count + columns;
     if (needed <= room) return true;
     if (needed < 2 * room) needed = 2 * room;
-    double *field = memory_resize(motions->field, size * room, size * needed, sizeof *field, err);
-    if (!field) return false;
-    motions->field = field;
-    double *image = memory_resize(motions->image, size * room, size * needed, sizeof *image, err);
-    if (!image) return false;
-    motions->image = image;
+    if (!lengthen(&motions->field, filled, size * needed, err) ||
+        !lengthen(&motions->image, filled, size * needed, err))
+        return false;
     motions->room = (int32_t)needed;
     return true;
 }
