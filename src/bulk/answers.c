@@ -9,7 +9,7 @@
 // Linear Algebra Appl. 425, 2007.)
 #include "bulk/answers.h"
 
-#include "base/dense.h"
+#include "base/dense_halves.h"
 #include "base/memory.h"
 #include "base/share.h"
 
@@ -255,10 +255,10 @@ static void complete_block(const Answers *answers, const AnswerBlock *block, dou
     const AnswerBlock *next = &answers->blocks[answers->block_count];
     int64_t m = answers->full->interface_count, rows = answers->count + next->count;
     unsigned known = needed_products(answers, block->point, next->point);
-    dense_multiply_transposed(dense_view(block->reaction, m + 1, block->count),
-                              dense_view(next->motion, m + 1, next->count), 1, 0, a);
-    dense_multiply_transposed(dense_view(block->motion, m + 1, block->count),
-                              dense_view(next->reaction, m + 1, next->count), 1, 0, b);
+    dense_multiply_transposed_halves(dense_view(block->reaction, m + 1, block->count),
+                                     dense_view(next->motion, m + 1, next->count), 1, 0, a);
+    dense_multiply_transposed_halves(dense_view(block->motion, m + 1, block->count),
+                                     dense_view(next->reaction, m + 1, next->count), 1, 0, b);
     for (int64_t j = 0; j < next->count; j++) {
         for (int64_t i = block == next ? j : 0; i < block->count; i++) {
             int64_t at = j * rows + block->first + i, own = j * block->count + i;

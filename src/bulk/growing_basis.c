@@ -5,7 +5,7 @@
 // new modes are multiplied by the mesh, and all of them where such losses have added up.
 #include "bulk/growing_basis.h"
 
-#include "base/dense.h"
+#include "base/dense_halves.h"
 #include "base/memory.h"
 
 #include <math.h>
@@ -32,15 +32,18 @@ bool basis_create(const BulkOperator *full, ReducedBulk *reduced, GrowingBasis *
     return reduced->stiffness && answers_create(full, &reduced->scales, &basis->answers, err);
 }
 
-// a [rows * columns] into the upper left corner of a new one, [new_rows * new_columns], zero
-// elsewhere.
+// a [rows * columns] into the upper left corner of a new one, [new_rows * new_columns], zero below;
+// the new columns are left to be filled.
 static bool grow_matrix(double **a, int64_t rows, int64_t columns, int64_t new_rows,
                         int64_t new_columns, Error *err)
 {
-    double *grown = NEW_ARRAY(double, new_rows *new_columns, err);
+    double *grown = memory_bytes(new_rows * new_columns * (int64_t)sizeof *grown, err);
     if (!grown) return false;
-    for (int64_t j = 0; j < columns; j++)
-        memcpy(grown + j * new_rows, *a + j * rows, (size_t)rows * sizeof(double));
+    for (int64_t j = 0; j < columns; j++) {
+        double *column = grown + j * new_rows;
+        memcpy(column, *a + j * rows, (size_t)rows * sizeof *column);
+        memset(column + rows, 0, (size_t)(new_rows - rows) * sizeof *column);
+    }
     memory_free(*a);
     *a = grown;
     return true;
@@ -118,8 +121,8 @@ static void project(const GrowingBasis *basis, Extension *x)
             memcpy(x->work + j * first, column, (size_t)first * sizeof *column);
             memcpy(x->left[term] + j * added, column + first, (size_t)added * sizeof *column);
         }
-        dense_multiply_transposed(dense_view(basis->mix, first, count),
-                                  dense_view(x->work, first, added), 1, 0, x->old[term]);
+        dense_multiply_transposed_halves(dense_view(basis->mix, first, count),
+                                         dense_view(x->work, first, added), 1, 0, x->old[term]);
     }
     for (int64_t j = 0; j < added; j++) {
         memcpy(x->parts + j * count, motion + j * (m + 1), (size_t)m * sizeof *motion);
@@ -143,10 +146,11 @@ static void take_out(const GrowingBasis *basis, Extension *x)
     }
     for (int term = 0; term < BULK_TERMS; term++) {
         DenseView old = dense_view(x->old[term], count, added);
-        dense_multiply_transposed(parts, old, -1, 1, x->left[term]);
+        dense_multiply_transposed_halves(parts, old, -1, 1, x->left[term]);
         if (!projected[term]) continue;
-        dense_multiply(dense_view(projected[term], count, count), parts, -1, 1, x->old[term]);
-        dense_multiply_transposed(old, parts, -1, 1, x->left[term]);
+        dense_multiply_halves(dense_view(projected[term], count, count), parts, -1, 1,
+                              x->old[term]);
+        dense_multiply_transposed_halves(old, parts, -1, 1, x->left[term]);
     }
     dense_apply_transposed(parts, reduced->load, -1, 1, x->lacking);
 }
@@ -179,15 +183,15 @@ static bool extend_square(BulkTerm term, double **matrix, Extension *x, Error *e
     int64_t count = x->count, added = x->added, kept = x->kept, size = count + kept;
     DenseView rotation = rotation_kept(x);
     if (!grow_matrix(matrix, count, count, size, size, err)) return false;
-    dense_multiply(dense_view(x->old[term], count, added), rotation, 1, 0, x->work);
+    dense_multiply_halves(dense_view(x->old[term], count, added), rotation, 1, 0, x->work);
     for (int64_t j = 0; j < kept; j++)
         for (int64_t i = 0; i < count; i++)
             (*matrix)[(count + j) * size + i] = (*matrix)[i * size + count + j] =
                 x->work[j * count + i];
     // R' (left R), in the memory of `gram`, which is done with.
     double *half = x->gram[0], *square = x->gram[1];
-    dense_multiply(dense_view(x->left[term], added, added), rotation, 1, 0, half);
-    dense_multiply_transposed(rotation, dense_view(half, added, kept), 1, 0, square);
+    dense_multiply_halves(dense_view(x->left[term], added, added), rotation, 1, 0, half);
+    dense_multiply_transposed_halves(rotation, dense_view(half, added, kept), 1, 0, square);
     for (int64_t j = 0; j < kept; j++)
         for (int64_t i = 0; i <= j; i++)
             (*matrix)[(count + j) * size + count + i] = (*matrix)[(count + i) * size + count + j] =
@@ -211,10 +215,10 @@ static bool extend_mix(GrowingBasis *basis, Extension *x, Error *err)
     int64_t added = x->added, count = x->count, kept = x->kept, first = x->next->first;
     int64_t answers = first + added;
     DenseView rotation = rotation_kept(x);
-    dense_multiply(dense_view(x->parts, count, added), rotation, 1, 0, x->work);
+    dense_multiply_halves(dense_view(x->parts, count, added), rotation, 1, 0, x->work);
     double *taken = x->gram[0];
-    dense_multiply(dense_view(basis->mix, first, count), dense_view(x->work, count, kept), 1, 0,
-                   taken);
+    dense_multiply_halves(dense_view(basis->mix, first, count), dense_view(x->work, count, kept), 1,
+                          0, taken);
     TRY(grow_matrix(&basis->mix, first, count, answers, count + kept, err));
     for (int64_t j = 0; j < kept; j++) {
         double *column = basis->mix + (count + j) * answers;
@@ -262,8 +266,9 @@ static bool multiply_modes(const GrowingBasis *basis, int64_t from, int64_t colu
     for (int term = 0; term < BULK_TERMS; term++) {
         double *product = x->gram[0], *of_modes = x->gram[1];
         answers_project(answers, (BulkTerm)term, field, columns, image, product);
-        dense_multiply_transposed(dense_view(basis->mix, answers->count, size),
-                                  dense_view(product, answers->count, columns), 1, 0, of_modes);
+        dense_multiply_transposed_halves(dense_view(basis->mix, answers->count, size),
+                                         dense_view(product, answers->count, columns), 1, 0,
+                                         of_modes);
         for (int64_t j = 0; j < columns; j++) {
             const double *column = of_modes + j * size;
             memcpy(x->old[term] + (from + j) * count, column, (size_t)count * sizeof *column);
@@ -302,9 +307,9 @@ bool basis_renew(GrowingBasis *basis, int32_t first, Error *err)
     take_out(basis, &x);
     TRY(take_up(basis, &x, err));
     double *modes = basis->mix + count * answers;
-    dense_multiply(dense_view(basis->mix, answers, count), dense_view(x.parts, count, added), -1, 1,
-                   modes);
-    dense_multiply(dense_view(modes, answers, added), rotation_kept(&x), 1, 0, x.work);
+    dense_multiply_halves(dense_view(basis->mix, answers, count), dense_view(x.parts, count, added),
+                          -1, 1, modes);
+    dense_multiply_halves(dense_view(modes, answers, added), rotation_kept(&x), 1, 0, x.work);
     memcpy(modes, x.work, (size_t)(answers * x.kept) * sizeof *modes);
 cleanup:
     extension_destroy(&x);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "bulk/reduced_bulk.h"
 
-#include "base/dense.h"
+#include "base/dense_halves.h"
 #include "base/memory.h"
 
 #include <math.h>
@@ -43,7 +43,8 @@ static void turn_columns(const Turn *turn, double *x, int64_t rows)
         double *turned = turn->piece + PIECE * r;
         for (int64_t j = 0; j < r; j++)
             memcpy(turn->piece + j * count, x + j * rows + first, bytes);
-        dense_multiply((DenseView){turn->piece, (int32_t)count, (int32_t)r}, q, 1, 0, turned);
+        dense_multiply_halves((DenseView){turn->piece, (int32_t)count, (int32_t)r}, q, 1, 0,
+                              turned);
         for (int64_t j = 0; j < r; j++) memcpy(x + j * rows + first, turned + j * count, bytes);
     }
 }
