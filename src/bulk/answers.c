@@ -116,8 +116,8 @@ static void apply(const Answers *answers, BulkTerm term, DenseView x, double *wo
     for (int64_t k = 0; scale != 1 && k < (int64_t)x.rows * x.columns; k++) y[k] /= scale;
 }
 
-// The products by the mesh that two points need, as bits of their terms. M costs next to nothing and
-// is enough where viscosities differ: what is lost then goes with the root of the quotient of
+// The products by the mesh that two points need, as bits of their terms. M costs next to nothing
+// and is enough where viscosities differ: what is lost then goes with the root of the quotient of
 // inertias. Where only inertia differs it gives M, the point with less of it that of K and C which
 // weighs more there, and the lighter one is multiplied.
 static unsigned needed_products(const Answers *answers, StripPoint old, StripPoint new)

@@ -21,8 +21,8 @@ typedef struct FarMotions {
     double *work[2];   // [size * SPARSE_WIDE] of two threads
 } FarMotions;
 
-// None yet. motions->dofs and size are set, by far_block, columns_max by far_samples; unit: E. There
-// is room for `expected`; memory that is never written to is never there.
+// None yet. motions->dofs and size are set, by far_block, columns_max by far_samples; unit: E.
+// There is room for `expected`; memory that is never written to is never there.
 bool far_motions_begin(const Bulk *bulk, double unit, int32_t expected, FarMotions *motions,
                        Error *err);
 void far_motions_destroy(FarMotions *motions);
