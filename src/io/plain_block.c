@@ -11,8 +11,6 @@
 #include <math.h>
 #include <string.h>
 
-static const double EXTENT_MIN = 1e-6, EXTENT_MAX = 1e6, CELLS_MAX = 1e7;
-
 enum {
     LENGTH,
     HEIGHT,
@@ -46,31 +44,19 @@ static const MeshParameter DEFAULTS[PARAMETER_COUNT] = {
     [SHAPE] = {.name = "shape", .text = "quad"},
     [LAYOUT] = {.name = "layout", .text = "regular"}};
 
-static double refined(double cells, double refine)
-{
-    return refine * cells < 1 ? 1 : floor(refine * cells + 0.5);
-}
-
-static bool is_extent(double length)
-{
-    return length >= EXTENT_MIN && length <= EXTENT_MAX;
-}
-
 // Cells of the four curves. false: not in rows, or not allowed.
 static bool read_spacing(const MeshParameter *of, CurveSpacing spacing[PATCH_SIDES])
 {
-    for (int32_t k = ORDER; k < PARAMETER_COUNT; k++)
-        if (of[k].value != DEFAULTS[k].value || strcmp(of[k].text, DEFAULTS[k].text) != 0)
-            return false;
+    if (!plain_unchanged(of, DEFAULTS, ORDER, PARAMETER_COUNT)) return false;
     double nx = of[NX].value, nz = of[NZ].value, refine = of[REFINE].value;
     double grade_x = of[GRADE_X].value, grade_z = of[GRADE_Z].value;
     if (floor(nx) != nx || floor(nz) != nz || !(nx >= 1 && nz >= 1)) return false;
     if (!(refine > 0 && grade_x > 0 && grade_z > 0)) return false;
-    nx = refined(nx, refine);
-    nz = refined(nz, refine);
+    nx = plain_refined(nx, refine);
+    nz = plain_refined(nz, refine);
     double ratio = nz > 1 ? pow(grade_z, 1 / (nz - 1)) : 1;
-    return is_extent(of[LENGTH].value) && is_extent(of[HEIGHT].value) && nx * nz <= CELLS_MAX &&
-           curve_spacing(LAW_BUMP, 1 / grade_x, nx, &spacing[0]) &&
+    return plain_is_extent(of[LENGTH].value) && plain_is_extent(of[HEIGHT].value) &&
+           nx * nz <= PLAIN_CELLS_MAX && curve_spacing(LAW_BUMP, 1 / grade_x, nx, &spacing[0]) &&
            curve_spacing(LAW_PROGRESSION, ratio, nz, &spacing[1]) &&
            curve_spacing(LAW_BUMP, 1 / grade_x, nx, &spacing[2]) &&
            curve_spacing(LAW_PROGRESSION, 1 / ratio, nz, &spacing[3]);

@@ -15,6 +15,8 @@
 #include <stdio.h>
 #include <string.h>
 
+static const double EXTENT_MAX = 1e6;
+
 enum { BELOW, RIGHT, ABOVE, LEFT };
 
 typedef struct Layout {
@@ -72,6 +74,25 @@ bool plain_take(const MeshParameter *given, int32_t given_count, MeshParameter *
         known[at] = given[k];
     }
     return true;
+}
+
+bool plain_unchanged(const MeshParameter *known, const MeshParameter *defaults, int32_t first,
+                     int32_t end)
+{
+    for (int32_t k = first; k < end; k++)
+        if (known[k].value != defaults[k].value || strcmp(known[k].text, defaults[k].text) != 0)
+            return false;
+    return true;
+}
+
+double plain_refined(double cells, double refine)
+{
+    return refine * cells < 1 ? 1 : floor(refine * cells + 0.5);
+}
+
+bool plain_is_extent(double length)
+{
+    return length >= PLAIN_EXTENT_MIN && length <= EXTENT_MAX;
 }
 
 // --- numbers ------------------------------------------------------------------------------------

@@ -48,5 +48,14 @@ bool plain_model_mesh(const PlainModel *model, MeshFile *mesh, Error *err);
 // `known`; false: there is none.
 bool plain_take(const MeshParameter *given, int32_t given_count, MeshParameter *known,
                 int32_t known_count);
+// Those from `first` to `end` are what they are by default.
+bool plain_unchanged(const MeshParameter *known, const MeshParameter *defaults, int32_t first,
+                     int32_t end);
+// A number of cells `refine` times as fine, as the files round it.
+double plain_refined(double cells, double refine);
+// Below and beyond, lengths are left to gmsh, as are more cells.
+#define PLAIN_EXTENT_MIN 1e-6
+#define PLAIN_CELLS_MAX 1e7
+bool plain_is_extent(double length);
 
 #endif

@@ -16,7 +16,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double EXTENT_MIN = 1e-6, EXTENT_MAX = 1e6, CELLS_MAX = 1e7, PADS_MAX = 10000;
+static const double PADS_MAX = 10000;
 
 enum {
     N,
@@ -99,9 +99,7 @@ static bool read_parameters(const MeshParameter *given, int32_t count, Pads *pad
     MeshParameter all[PARAMETER_COUNT];
     memcpy(all, DEFAULTS, sizeof all);
     if (!plain_take(given, count, all, PARAMETER_COUNT)) return false;
-    for (int32_t k = SHAPE; k < PARAMETER_COUNT; k++)
-        if (all[k].value != DEFAULTS[k].value || strcmp(all[k].text, DEFAULTS[k].text) != 0)
-            return false;
+    if (!plain_unchanged(all, DEFAULTS, SHAPE, PARAMETER_COUNT)) return false;
     for (int32_t k = 0; k < PARAMETER_COUNT; k++) pads->of[k] = all[k].value;
     const double *of = pads->of;
     const char *ends = all[ENDS].text, *layout = all[LAYOUT].text;
@@ -112,11 +110,6 @@ static bool read_parameters(const MeshParameter *given, int32_t count, Pads *pad
            is_whole(of[CELLS_PAD_HEIGHT]) && is_whole(of[NZ]) && of[HEIGHT] > 0 &&
            of[PAD_RATIO] > 0 && of[GAP] >= 0 && of[CONTACT_LENGTH] >= 0 && of[SIZE_CONTACT] >= 0 &&
            of[SIZE_BULK] >= 0 && of[GRADE_Z] > 0 && of[GRADE_CONTACT] >= 1 && of[REFINE] > 0;
-}
-
-static bool is_extent(double length)
-{
-    return length >= EXTENT_MIN && length <= EXTENT_MAX;
 }
 
 // --- lengths ------------------------------------------------------------------------------------
@@ -152,11 +145,11 @@ static bool find_lengths(Pads *pads)
     find_margin(pads);
     pads->step = n > 1 ? pow(of[PAD_RATIO], 1 / (n - 1)) : 1;
     for (double k = 0; k < n; k++) pads->sum += pow(pads->step, k);
-    double least = EXTENT_MIN * length;
+    double least = PLAIN_EXTENT_MIN * length;
     double shortest = pads->touching / pads->sum * (pads->step < 1 ? pow(pads->step, n - 1) : 1);
-    return is_extent(length) && is_extent(height) && is_extent(pads->top) &&
-           is_extent(pads->top - height) && shortest >= least && (n == 1 || pads->gap >= least) &&
-           (pads->margin == 0 || pads->margin >= least) &&
+    return plain_is_extent(length) && plain_is_extent(height) && plain_is_extent(pads->top) &&
+           plain_is_extent(pads->top - height) && shortest >= least &&
+           (n == 1 || pads->gap >= least) && (pads->margin == 0 || pads->margin >= least) &&
            of[SIZE_CONTACT] / of[REFINE] <= shortest / 2;
 }
 
@@ -188,11 +181,6 @@ cleanup:
 }
 
 // --- cells --------------------------------------------------------------------------------------
-
-static double refined(double cells, double refine)
-{
-    return refine * cells < 1 ? 1 : floor(refine * cells + 0.5);
-}
 
 // Up the block: nz heights, or in progression from `fine` to size_bulk.
 static bool space_block(double size_bulk, double nz, Pads *pads)
@@ -233,16 +221,16 @@ static bool space_columns(double size_contact, const double cells[2], Pads *pads
         if (!curve_spacing(LAW_BUMP, ratio, across, &pads->across[k])) return false;
         all += across * up[solid];
     }
-    return all <= CELLS_MAX;
+    return all <= PLAIN_CELLS_MAX;
 }
 
 static bool find_cells(Pads *pads)
 {
     const double *of = pads->of;
     double refine = of[REFINE], size_contact = of[SIZE_CONTACT] / refine;
-    double cells[] = {refined(of[CELLS_GAP], refine), refined(of[CELLS_PAD], refine)};
-    double up = refined(of[CELLS_PAD_HEIGHT], refine), nz = refined(of[NZ], refine);
-    if (of[N] * (cells[1] + cells[0]) * (nz + up) > CELLS_MAX) return false;
+    double cells[] = {plain_refined(of[CELLS_GAP], refine), plain_refined(of[CELLS_PAD], refine)};
+    double up = plain_refined(of[CELLS_PAD_HEIGHT], refine), nz = plain_refined(of[NZ], refine);
+    if (of[N] * (cells[1] + cells[0]) * (nz + up) > PLAIN_CELLS_MAX) return false;
     pads->grade = refine * of[GRADE_CONTACT] > 1 ? refine * of[GRADE_CONTACT] : 1;
     pads->fine = size_contact > 0 ? size_contact : pads->touching / of[N] / cells[1];
     return space_block(of[SIZE_BULK] / refine, nz, pads) && space_pads(size_contact, up, pads) &&
