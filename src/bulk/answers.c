@@ -197,10 +197,10 @@ static void multiply_columns(const Multiplication *all, int32_t which, int64_t f
     const Answers *answers = all->answers;
     const AnswerBlock *next = &answers->blocks[answers->block_count];
     int64_t dofs = answers->full->dof_count;
+    unsigned needed = 0;
+    for (int32_t k = 0; k <= answers->block_count; k++)
+        needed |= needed_products(answers, answers->blocks[k].point, next->point);
     for (int term = 0; term < BULK_TERMS; term++) {
-        unsigned needed = 0;
-        for (int32_t k = 0; k <= answers->block_count; k++)
-            needed |= needed_products(answers, answers->blocks[k].point, next->point);
         if (!(needed & 1u << term)) continue;
         apply(answers, (BulkTerm)term, dense_view(next->field + from * dofs, dofs, columns),
               answers->work[which], answers->image[which]);
