@@ -4,29 +4,13 @@
 #include "model/far_cache.h"
 
 #include "base/memory.h"
-#include "result_place.h"
+#include "cache_fixture.h"
 #include "unit/bulk/pad_design.h"
 
 #include <dirent.h>
 #include <unistd.h>
 
 enum { PATH_SIZE = 2 * PLACE_SIZE };
-
-static char folder[PLACE_SIZE];
-
-static int make_folder(void **state)
-{
-    (void)state;
-    place_make(folder);
-    return setenv("AMONTONS_CACHE", folder, 1);
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    place_remove(folder);
-    return 0;
-}
 
 static FarCacheDef cache_def(const PadBlock *made)
 {
@@ -67,10 +51,10 @@ static void assert_same(const FarBlock *one, const FarBlock *other, bool with_fi
 // The one file with this ending.
 static void file_of(const char *ending, char path[PATH_SIZE])
 {
-    DIR *listing = opendir(folder);
+    DIR *listing = opendir(cache);
     path[0] = 0;
     for (struct dirent *file; (file = readdir(listing));)
-        if (strstr(file->d_name, ending)) snprintf(path, PATH_SIZE, "%s/%s", folder, file->d_name);
+        if (strstr(file->d_name, ending)) snprintf(path, PATH_SIZE, "%s/%s", cache, file->d_name);
     closedir(listing);
 }
 
@@ -185,9 +169,9 @@ static void test_memory_faults(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_comes_back, make_folder, remove_folder),
-        cmocka_unit_test_setup_teardown(test_spoilt, make_folder, remove_folder),
-        cmocka_unit_test_setup_teardown(test_memory_faults, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(test_comes_back, cache_begin, cache_end),
+        cmocka_unit_test_setup_teardown(test_spoilt, cache_begin, cache_end),
+        cmocka_unit_test_setup_teardown(test_memory_faults, cache_begin, cache_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
