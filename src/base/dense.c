@@ -38,8 +38,6 @@ void dsytrd_(const char *uplo, const int *n, double *a, const int *lda, double *
              double *tau, double *work, const int *lwork, int *info, size_t uplo_size);
 void dorgtr_(const char *uplo, const int *n, double *a, const int *lda, const double *tau,
              double *work, const int *lwork, int *info, size_t uplo_size);
-void dsygst_(const int *itype, const char *uplo, const int *n, double *a, const int *lda,
-             const double *b, const int *ldb, int *info, size_t uplo_size);
 void dsterf_(const int *n, double *d, double *e, int *info);
 void dstein_(const int *n, const double *d, const double *e, const int *m, const double *w,
              const int *iblock, const int *isplit, double *z, const int *ldz, double *work,
@@ -116,42 +114,6 @@ void dense_symmetric_apply(const double *a, int32_t n, const double *x, double *
     if (n > 0) cblas_dsymv(CblasColMajor, CblasLower, n, 1.0, a, n, x, 1, 0.0, y, 1);
 }
 
-// The strictly upper triangle of `lower` is not looked at, here and in the two below.
-void dense_lower_apply(const double *lower, int32_t n, double *x)
-{
-    if (n > 0)
-        cblas_dtrmv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, n, lower, n, x, 1);
-}
-
-void dense_lower_apply_transposed(const double *lower, int32_t n, double *x)
-{
-    if (n > 0) cblas_dtrmv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, n, lower, n, x, 1);
-}
-
-void dense_lower_solve_transposed(const double *lower, int32_t n, double *x)
-{
-    if (n > 0) cblas_dtrsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, n, lower, n, x, 1);
-}
-
-void dense_lower_solve(const double *lower, int32_t n, double *x)
-{
-    if (n > 0)
-        cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, n, lower, n, x, 1);
-}
-
-// L is copied into c with zeros above its diagonal, then multiplied by L' from the right, which
-// costs half of a general product.
-void dense_lower_square(const double *lower, int32_t n, double *c)
-{
-    if (n == 0) return;
-    size_t size = (size_t)n;
-    for (size_t j = 0; j < size; j++) {
-        for (size_t i = 0; i < size; i++) c[j * size + i] = i >= j ? lower[j * size + i] : 0.0;
-    }
-    cblas_dtrmm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, n, n, 1.0, lower,
-                n, c, n);
-}
-
 // L^-1 in the place of L, TRIANGLE columns at a time from the last ones on: with both blocks on the
 // diagonal inverted, what is below is -L22^-1 L21 L11^-1. OpenBLAS's own dtrtri takes one column at
 // a time with one thread, which at 322 columns takes three times as long.
@@ -204,28 +166,6 @@ bool dense_sweep(double *a, int32_t n, int32_t k, bool back, double *work)
 void dense_add_scaled(double factor, const double *x, int32_t n, double *y)
 {
     if (n > 0) cblas_daxpy(n, factor, x, 1, y, 1);
-}
-
-void dense_lower_divide(const double *lower, int32_t n, int32_t columns, double *b)
-{
-    if (n > 0 && columns > 0)
-        cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, n, columns,
-                    1.0, lower, n, b, n);
-}
-
-void dense_lower_multiply(const double *lower, int32_t n, int32_t columns, double *b)
-{
-    if (n > 0 && columns > 0)
-        cblas_dtrmm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, n, columns,
-                    1.0, lower, n, b, n);
-}
-
-// dsygst: half the operations of two triangular solves, as it keeps to one triangle. Turns a x =
-// lambda L L' x into a symmetric problem of its own.
-void dense_divide_both_sides(const double *lower, int32_t n, double *a)
-{
-    int info = 0, from_both_sides = 1;
-    if (n > 0) dsygst_(&from_both_sides, "L", &n, a, &n, lower, &n, &info, 1);
 }
 
 // Doubles, and dsyevd's integers in the place of some: it asks for 1 + 6 n + 2 n^2, and 3 + 5 n;

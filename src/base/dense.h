@@ -47,9 +47,10 @@ bool dense_sweep(double *a, int32_t n, int32_t k, bool back, double *work);
 // y += factor x
 void dense_add_scaled(double factor, const double *x, int32_t n, double *y);
 
-// b := L b and b := L^-1 b, of `columns` columns of n.
+// b := L b, L^-1 b and L^-T b, of `columns` columns of n.
 void dense_lower_multiply(const double *lower, int32_t n, int32_t columns, double *b);
 void dense_lower_divide(const double *lower, int32_t n, int32_t columns, double *b);
+void dense_lower_divide_transposed(const double *lower, int32_t n, int32_t columns, double *b);
 
 // a := L^-1 a L^-T with a Cholesky factor `lower`; of the symmetric `a` [n * n] the lower triangle
 // is read and written.

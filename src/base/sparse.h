@@ -51,6 +51,8 @@ void sparse_factor_destroy(SparseFactor *factor);   // NULL is fine
 
 // S, column-major [border_count * border_count], both triangles, in the order of `border`.
 const double *sparse_schur(const SparseFactor *factor);
+// Its Cholesky factor; 0 above the diagonal.
+const double *sparse_schur_lower(const SparseFactor *factor);
 
 // rhs: [size] -> g: [border_count]. Keeps the half-solved system for the expand that follows.
 bool sparse_condense(SparseFactor *factor, const double *rhs, double *g, Error *err);

@@ -27,7 +27,6 @@ void sparse_analysis_destroy(SparseAnalysis *analysis)
         cholmod_finish(common);
     }
     memory_free(analysis->source);
-    memory_free(analysis->border_position);
     memory_free(analysis);
 }
 
@@ -47,15 +46,12 @@ static cholmod_sparse pattern_view(const SparsePattern *pattern)
                             .packed = 1};
 }
 
-// Whether the analysis left the border's unknowns (member 1) last.
-static bool border_is_last(const SparseAnalysis *analysis, const int32_t *member)
+// Whether the analysis left the border last, in the caller's order.
+static bool border_is_last(const SparseAnalysis *analysis, const int32_t *border)
 {
+    int64_t count = analysis->border_count, first = analysis->size - count;
     const int32_t *permutation = analysis->symbolic->Perm;
-    int32_t size = analysis->size, first = size - analysis->border_count;
-    for (int32_t k = 0; k < size; k++) {
-        if ((member[permutation[k]] == 1) != (k >= first)) return false;
-    }
-    return true;
+    return memcmp(permutation + first, border, (size_t)count * sizeof *border) == 0;
 }
 
 // Symbolic factorisation in the given `order` [n]; an earlier one is dropped.
@@ -87,19 +83,17 @@ static bool analyse_with_border(SparseAnalysis *analysis, cholmod_sparse *patter
     if (!cholmod_camd(pattern, NULL, 0, member, order, common))
         FAIL(err, ERROR_LIBRARY, "CHOLMOD: the fill-reducing order failed (status %d)",
              common->status);
+    // S is full, in whatever order.
+    memcpy(order + size - count, border, (size_t)count * sizeof *border);
     common->nmethods = 1;
     common->method[0].ordering = CHOLMOD_GIVEN;
     common->supernodal = CHOLMOD_SUPERNODAL;
     common->final_ll = 1;
     TRY(analyse_in_order(analysis, pattern, order, true, err));
-    if (!border_is_last(analysis, member))
+    if (!border_is_last(analysis, border))
         TRY(analyse_in_order(analysis, pattern, order, false, err));
-    if (!border_is_last(analysis, member))
+    if (!border_is_last(analysis, border))
         FAIL(err, ERROR_LIBRARY, "CHOLMOD did not keep the interface last in its order");
-
-    const int32_t *permutation = analysis->symbolic->Perm;
-    for (int32_t k = 0; k < size; k++) order[permutation[k]] = k - (size - count);
-    for (int32_t j = 0; j < count; j++) analysis->border_position[j] = order[border[j]];
 cleanup:
     memory_free(member);
     memory_free(order);
@@ -155,9 +149,7 @@ static SparseAnalysis *begin_analysis(int32_t size, int32_t border_count, Error 
     analysis->common.print = 0;
     analysis->size = size;
     analysis->border_count = border_count;
-    analysis->border_position = NEW_ARRAY(int32_t, border_count, err);
     analysis->permuted = cholmod_zeros((size_t)size, 1, CHOLMOD_REAL, &analysis->common);
-    if (!error_is_clean(err)) goto cleanup;
     if (!analysis->permuted) FAIL(err, ERROR_MEMORY, NO_MEMORY, size);
 cleanup:
     if (error_is_clean(err)) return analysis;
@@ -181,9 +173,8 @@ cleanup:
 
 SparseAnalysis *sparse_analysis_copy(const SparseAnalysis *from, Error *err)
 {
-    int32_t border = from->border_count;
     int64_t entries = (int64_t)from->ordered->nzmax;
-    SparseAnalysis *analysis = begin_analysis(from->size, border, err);
+    SparseAnalysis *analysis = begin_analysis(from->size, from->border_count, err);
     if (!analysis) return NULL;
     analysis->symbolic = cholmod_copy_factor(from->symbolic, &analysis->common);
     analysis->ordered = cholmod_copy_sparse(from->ordered, &analysis->common);
@@ -191,7 +182,6 @@ SparseAnalysis *sparse_analysis_copy(const SparseAnalysis *from, Error *err)
     if (!analysis->source) goto cleanup;
     if (!analysis->symbolic || !analysis->ordered) FAIL(err, ERROR_MEMORY, NO_MEMORY, from->size);
     memcpy(analysis->source, from->source, (size_t)entries * sizeof *from->source);
-    memcpy(analysis->border_position, from->border_position, (size_t)border * sizeof(int32_t));
 cleanup:
     if (error_is_clean(err)) return analysis;
     sparse_analysis_destroy(analysis);

@@ -10,6 +10,7 @@
 
 enum { PASSAGE_COLUMNS = 16 };   // of one pass over a factor with many columns
 
+// L's border stands in the caller's order.
 struct SparseAnalysis {
     cholmod_common common;
     bool started;
@@ -19,7 +20,6 @@ struct SparseAnalysis {
     int32_t *source;   // [entries of it] where they stand among the caller's values
     cholmod_factor *spare;   // of a factor that was destroyed: the next one's memory; NULL: none
     int32_t border_count;
-    int32_t *border_position;   // [border_count] where border[j] stands in L's border
     cholmod_dense *forward;   // solve2's workspaces, shared by all factors
     cholmod_dense *work_y, *work_e;
     cholmod_dense *permuted;   // right-hand side in L's order
@@ -29,8 +29,8 @@ struct SparseAnalysis {
 struct SparseFactor {
     SparseAnalysis *analysis;   // not owned
     cholmod_factor *numeric;
-    double *border_factor;   // L_bb, in L's order
-    double *schur;   // S, in the caller's order
+    double *border_factor;   // L_bb
+    double *schur;   // S
     double *border_work;   // [border_count]
 };
 

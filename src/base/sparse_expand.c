@@ -97,8 +97,7 @@ static void expand_columns(const Expansion *all, int32_t first, int32_t columns,
     double *border = rows + (size - border_count) * wide;
     for (int64_t k = 0; k < border_count; k++)
         for (int32_t j = 0; j < wide; j++)
-            border[(int64_t)analysis->border_position[k] * wide + j] =
-                j < columns ? all->border[(first + j) * border_count + k] : 0;
+            border[k * wide + j] = j < columns ? all->border[(first + j) * border_count + k] : 0;
     pass_with(all->factor->numeric, (int32_t)(size - border_count), lanes, (Lane *)rows);
     for (int32_t j = 0; j < columns; j++) {
         double *out = all->x + (first + j) * size;

@@ -36,20 +36,6 @@ static void read_border_factor(const cholmod_factor *factor, int32_t count, doub
     }
 }
 
-// S = L_bb L_bb', brought into the caller's order of the border.
-// square: [border_count^2] work.
-static void compute_schur(SparseFactor *factor, double *square)
-{
-    int32_t count = factor->analysis->border_count;
-    const int32_t *position = factor->analysis->border_position;
-    dense_lower_square(factor->border_factor, count, square);
-    for (int32_t j = 0; j < count; j++) {
-        for (int32_t i = 0; i < count; i++)
-            factor->schur[(int64_t)count * j + i] =
-                square[(int64_t)count * position[j] + position[i]];
-    }
-}
-
 // In this thread alone. CHOLMOD 5 asks for a team of four for every supernode, whatever
 // OMP_NUM_THREADS says, and waking them takes longer than the work they share: a factor of 80 x 80
 // cells took twice as long with them, one of 2000 unknowns four times.
@@ -69,9 +55,8 @@ SparseFactor *sparse_factorise(SparseAnalysis *analysis, const double *values, E
 {
     cholmod_common *common = &analysis->common;
     int64_t count = analysis->border_count;
-    double *square = NEW_ARRAY(double, count *count, err);
     SparseFactor *factor = NEW_ARRAY(SparseFactor, 1, err);
-    if (!factor || !square) goto cleanup;
+    if (!factor) goto cleanup;
     factor->analysis = analysis;
     factor->border_factor = NEW_ARRAY(double, count *count, err);
     factor->schur = NEW_ARRAY(double, count *count, err);
@@ -92,9 +77,8 @@ SparseFactor *sparse_factorise(SparseAnalysis *analysis, const double *values, E
         FAIL(err, ERROR_COMPUTE, "the matrix is not positive definite (pivot %zu of %zu)",
              factor->numeric->minor, factor->numeric->n);
     read_border_factor(factor->numeric, analysis->border_count, factor->border_factor);
-    compute_schur(factor, square);
+    dense_lower_square(factor->border_factor, analysis->border_count, factor->schur);
 cleanup:
-    memory_free(square);
     if (error_is_clean(err)) return factor;
     sparse_factor_destroy(factor);
     return NULL;
@@ -114,10 +98,15 @@ void sparse_factor_destroy(SparseFactor *factor)
     memory_free(factor);
 }
 
-// Owned by the factor.
+// Owned by the factor, both.
 const double *sparse_schur(const SparseFactor *factor)
 {
     return factor->schur;
+}
+
+const double *sparse_schur_lower(const SparseFactor *factor)
+{
+    return factor->border_factor;
 }
 
 // L y = rhs; then g = L_bb y_b = rhs_b - A_bi A_ii^-1 rhs_i. y stays in `forward` for the
@@ -136,7 +125,7 @@ bool sparse_condense(SparseFactor *factor, const double *rhs, double *g, Error *
     double *border = factor->border_work;
     memcpy(border, (double *)analysis->forward->x + (size - count), (size_t)count * sizeof *border);
     dense_lower_apply(factor->border_factor, count, border);
-    for (int32_t j = 0; j < count; j++) g[j] = border[analysis->border_position[j]];
+    memcpy(g, border, (size_t)count * sizeof *border);
 cleanup:
     return error_is_clean(err);
 }
@@ -149,7 +138,7 @@ bool sparse_expand(SparseFactor *factor, const double *x_border, double *x, Erro
     const int32_t *permutation = factor->numeric->Perm;
     int32_t size = (int32_t)factor->numeric->n, count = analysis->border_count;
     double *border = factor->border_work;
-    for (int32_t j = 0; j < count; j++) border[analysis->border_position[j]] = x_border[j];
+    memcpy(border, x_border, (size_t)count * sizeof *border);
     dense_lower_apply_transposed(factor->border_factor, count, border);
     memcpy((double *)analysis->forward->x + (size - count), border, (size_t)count * sizeof *border);
     cholmod_dense *solution = analysis->permuted;

@@ -5,19 +5,7 @@
 #include "base/dense.h"
 #include "base/memory.h"
 #include "base/share.h"
-#include "bulk/interface_operator.h"
-
 #include <string.h>
-
-// Rows `first` to `first + rows` of a column of A, but for its part in K.
-static void fill_column(const ReducedBulk *reduced, const double *factor, int64_t column,
-                        int64_t first, int64_t rows, double *out)
-{
-    const double *mass = reduced->mass + column * reduced->count + first;
-    const double *damping = reduced->damping + column * reduced->count + first;
-    double i = factor[BULK_MASS], c = factor[BULK_DAMPING];
-    for (int64_t row = 0; row < rows; row++) out[row] = i * mass[row] + c * damping[row];
-}
 
 enum {
     WIDE = 64,   // columns of a product
@@ -62,23 +50,31 @@ static void in_two(void (*half)(void *context, int32_t which), Condensation *all
     }
 }
 
-bool basis_condense(const ReducedBulk *reduced, const double *factor, double *schur, double *energy,
+// out := sum of factor * term, those that are there.
+static void combine(double *const terms[BULK_TERMS], const double *factor, int64_t count,
+                    double *out)
+{
+    const double *k = terms[BULK_STIFFNESS], *c = terms[BULK_DAMPING], *m = terms[BULK_MASS];
+    double of_k = factor[BULK_STIFFNESS], of_c = factor[BULK_DAMPING], of_m = factor[BULK_MASS];
+    if (k)
+        for (int64_t i = 0; i < count; i++) out[i] = of_m * m[i] + of_c * c[i] + of_k * k[i];
+    else
+        for (int64_t i = 0; i < count; i++) out[i] = of_m * m[i] + of_c * c[i];
+}
+
+bool basis_condense(const GrowingBasis *basis, const double *factor, double *schur, double *energy,
                     bool *definite, Error *err)
 {
-    int64_t m = reduced->interface_count, r = reduced->interior_count;
-    double k = factor[BULK_STIFFNESS];
+    int64_t m = basis->interface_count, r = basis->interior_count;
     double *interior = NEW_ARRAY(double, r *r, err), *z = NEW_ARRAY(double, r *(m + 1), err);
-    if (!interior || !z) goto cleanup;
-    for (int64_t j = 0; j < r; j++) {
-        fill_column(reduced, factor, m + j, m, r, interior + j * r);
-        interior[j * r + j] += k;
-    }
-    for (int64_t j = 0; j < m; j++) {
-        fill_column(reduced, factor, j, m, r, z + j * r);
-        fill_column(reduced, factor, j, 0, m, schur + j * m);
-    }
-    dense_add_scaled(k, reduced->stiffness, (int32_t)(m * m), schur);
-    memcpy(z + m * r, reduced->load + m, (size_t)r * sizeof *z);
+    double *beside = NEW_ARRAY(double, m *r, err);
+    if (!interior || !z || !beside) goto cleanup;
+    combine(basis->interior, factor, r * r, interior);
+    combine(basis->beside, factor, m * r, beside);
+    combine(basis->statics, factor, m * m, schur);
+    for (int64_t j = 0; j < r; j++)
+        for (int64_t i = 0; i < m; i++) z[i * r + j] = beside[j * m + i];
+    memcpy(z + m * r, basis->load + m, (size_t)r * sizeof *z);
     if (!(*definite = dense_cholesky(interior, (int32_t)r))) goto cleanup;
     Condensation all = {m, r, interior, z, schur};
     in_two(divide_half, &all);
@@ -89,5 +85,6 @@ bool basis_condense(const ReducedBulk *reduced, const double *factor, double *sc
 cleanup:
     memory_free(interior);
     memory_free(z);
+    memory_free(beside);
     return error_is_clean(err);
 }

@@ -3,14 +3,12 @@
 #ifndef AMONTONS_BULK_BASIS_CONDENSE_H
 #define AMONTONS_BULK_BASIS_CONDENSE_H
 
-#include "bulk/reduced_bulk.h"
-
-#include <stdbool.h>
+#include "bulk/growing_basis.h"
 
 // A is the sum of factor[term], by BulkTerm, times K/E, C/eta, M/(rho L^2). schur [interface^2],
 // and the energy of the answer to the unit load, the interface at rest. *definite: false, and no
 // more, where rounding left A of the interior with a negative eigenvalue.
-bool basis_condense(const ReducedBulk *reduced, const double *factor, double *schur, double *energy,
+bool basis_condense(const GrowingBasis *basis, const double *factor, double *schur, double *energy,
                     bool *definite, Error *err);
 
 #endif

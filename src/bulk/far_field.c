@@ -180,8 +180,6 @@ bool far_field_measure(FarField *far, FarBlock *block, Error *err)
     // The whole bulk is tried then, and says what is wrong.
     if (err->code == ERROR_COMPUTE) error_clear(err);
     if (!done || !(block->error < ERROR_MAX)) block->layer_count = 0;
-    memory_free(block->samples.schur);
-    block->samples.schur = NULL;
     return error_is_clean(err);
 }
 

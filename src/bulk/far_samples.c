@@ -4,6 +4,7 @@
 #include "bulk/far_samples.h"
 
 #include "base/dense.h"
+#include "base/largest_eigen.h"
 #include "base/memory.h"
 #include "bulk/factors_ahead.h"
 #include "bulk/inertias.h"
@@ -25,6 +26,10 @@ static const double INERTIA_STEP = 6;
 // e^-5 of an answer has come through the elements between at most, where inertia is asked last.
 static const double FALLEN = 5;
 
+// S of what the far field leaves is not below that of the mesh; beyond this part of what is allowed
+// all eigenvalues are looked at.
+static const double NEGATIVE = 1e-3;
+
 // Of the mean diagonal: S of K alone is lifted by it, where rigid motions cost nothing.
 static const double LIFT = 1;
 
@@ -36,30 +41,41 @@ typedef struct Sampling {
     FarSamples *samples;   // not owned
     BulkOperator mesh;
     InterfaceOperator *statics;
-    StripPoint points[POINTS_MAX];   // [count], then that at which nothing is asked
+    StripPoint points[POINTS_MAX];   // [count], then that at which S is compared
     OperatorTerms terms[POINTS_MAX];
     int32_t count;
     FactorsAhead *ahead;
-    double *lower;   // [m^2] Cholesky factor of S
+    const double *lower;   // [m^2] Cholesky factor of S at a point; not owned
+    double *lifted;   // [m^2] that of S of K alone
     double *asked;   // [m * CHUNK] motions of the interface
     double *fields;   // [dofs * (CHUNK + 1)] answers
     uint64_t drawn;   // random numbers
 } Sampling;
 
-static void sampling_destroy(Sampling *work)
+// All but what the comparison needs.
+static void sampling_end(Sampling *work)
 {
-    factors_ahead_destroy(work->ahead);
     interface_operator_destroy(work->statics);
-    bulk_operator_destroy(&work->mesh);
-    memory_free(work->lower);
+    memory_free(work->lifted);
     memory_free(work->asked);
     memory_free(work->fields);
+    work->statics = NULL;
+    work->lifted = work->asked = work->fields = NULL;
+}
+
+static void sampling_destroy(Sampling *work)
+{
+    if (!work) return;
+    sampling_end(work);
+    factors_ahead_destroy(work->ahead);
+    bulk_operator_destroy(&work->mesh);
+    memory_free(work);
 }
 
 void far_samples_destroy(FarSamples *samples)
 {
     memory_free(samples->stiffness);
-    memory_free(samples->schur);
+    sampling_destroy(samples->sampling);
     *samples = (FarSamples){0};
 }
 
@@ -110,7 +126,6 @@ static bool sampling_begin(const int32_t *interface_dofs, int32_t m, Sampling *w
     TRY(inertia_slowest(&work->mesh, scales, work->statics, &slowest, err));
     strip_list(&work->def->materials, scales, slowest, element, &levels, &strip);
     list_points(work, levels.inertia[0], strip.element_inertia);
-    samples->terms = work->terms[work->count];
     samples->allowed = strip_allowed(&strip, work->points[work->count], work->def->tolerance);
     FactorsAheadDef def = {
         .system = &work->mesh, .load = bulk->load, .terms = work->terms, .count = work->count + 1};
@@ -120,8 +135,7 @@ static bool sampling_begin(const int32_t *interface_dofs, int32_t m, Sampling *w
         TRY(far_motions_begin(bulk, scales->stiffness, m, samples->layers[k], err));
     }
     samples->stiffness = NEW_ARRAY(double, (int64_t)m *m, err);
-    samples->schur = NEW_ARRAY(double, (int64_t)m *m, err);
-    work->lower = NEW_ARRAY(double, (int64_t)m *m, err);
+    work->lifted = NEW_ARRAY(double, (int64_t)m *m, err);
     work->asked = NEW_ARRAY(double, (int64_t)m *CHUNK, err);
     work->fields = NEW_ARRAY(double, (int64_t)bulk->dof_count *(CHUNK + 1), err);
 cleanup:
@@ -164,8 +178,7 @@ static bool sample(Sampling *work, InterfaceOperator *full, const double *held, 
     for (int32_t loads = take_load(work, held), asked = 0; layers > 0 && asked < m;
          asked += CHUNK) {
         for (int32_t k = 0; k < m * CHUNK; k++) work->asked[k] = draw_sign(&work->drawn);
-        for (int32_t j = 0; j < CHUNK; j++)
-            dense_lower_solve_transposed(work->lower, m, work->asked + (int64_t)j * m);
+        dense_lower_divide_transposed(work->lower, m, CHUNK, work->asked);
         TRY(interface_operator_answer(full, work->asked, CHUNK, work->fields, err));
         TRY(add_to_layers(work, CHUNK + loads, least, &layers, err));
         loads = 0;
@@ -174,14 +187,15 @@ cleanup:
     return error_is_clean(err);
 }
 
-static bool factor_schur(Sampling *work, const double *schur, double lift, Error *err)
+static bool factor_statics(Sampling *work, Error *err)
 {
     int64_t m = work->mesh.interface_count;
+    const double *schur = interface_operator_schur(work->statics);
     double sum = 0;
-    memcpy(work->lower, schur, (size_t)(m * m) * sizeof *schur);
+    memcpy(work->lifted, schur, (size_t)(m * m) * sizeof *schur);
     for (int64_t j = 0; j < m; j++) sum += schur[j * (m + 1)];
-    for (int64_t j = 0; j < m; j++) work->lower[j * (m + 1)] += lift * sum / (double)m;
-    if (!dense_cholesky(work->lower, (int32_t)m))
+    for (int64_t j = 0; j < m; j++) work->lifted[j * (m + 1)] += LIFT * sum / (double)m;
+    if (!dense_cholesky(work->lifted, (int32_t)m))
         FAIL(err, ERROR_COMPUTE, "the interface operator is not positive definite");
 cleanup:
     return error_is_clean(err);
@@ -193,7 +207,8 @@ static bool sample_statics(Sampling *work, Error *err)
     double *pull = NEW_ARRAY(double, work->mesh.interface_count, err);
     if (!held || !pull) goto cleanup;
     TRY(interface_operator_answer_held(work->statics, work->bulk->load, held, pull, err));
-    TRY(factor_schur(work, interface_operator_schur(work->statics), LIFT, err));
+    TRY(factor_statics(work, err));
+    work->lower = work->lifted;
     TRY(sample(work, work->statics, held, LEAST_AT_REST, err));
 cleanup:
     memory_free(held);
@@ -204,49 +219,80 @@ cleanup:
 bool far_samples_take(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
                       const FarFieldDef *def, FarSamples *samples, Error *err)
 {
-    Sampling work = {.bulk = bulk, .def = def, .samples = samples};
+    Sampling *work = samples->sampling = NEW_ARRAY(Sampling, 1, err);
     double least = LEAST * def->tolerance * def->tolerance;
     size_t square = (size_t)interface_count * (size_t)interface_count * sizeof(double);
     FactoredPoint point;
-    TRY(sampling_begin(interface_dofs, interface_count, &work, err));
-    memcpy(samples->stiffness, interface_operator_schur(work.statics), square);
-    TRY(sample_statics(&work, err));
-    for (int32_t k = 0; k < work.count; k++) {
-        TRY(factors_ahead_next(work.ahead, &point, err));
-        TRY(factor_schur(&work, interface_operator_schur(point.full), 0, err));
-        TRY(sample(&work, point.full, point.held, least, err));
+    if (!work) goto cleanup;
+    *work = (Sampling){.bulk = bulk, .def = def, .samples = samples};
+    TRY(sampling_begin(interface_dofs, interface_count, work, err));
+    memcpy(samples->stiffness, interface_operator_schur(work->statics), square);
+    TRY(sample_statics(work, err));
+    for (int32_t k = 0; k < work->count; k++) {
+        TRY(factors_ahead_next(work->ahead, &point, err));
+        work->lower = interface_operator_schur_lower(point.full);
+        TRY(sample(work, point.full, point.held, least, err));
     }
-    TRY(factors_ahead_next(work.ahead, &point, err));
-    memcpy(samples->schur, interface_operator_schur(point.full), square);
+    sampling_end(work);
 cleanup:
-    sampling_destroy(&work);
     return error_is_clean(err);
 }
 
-bool far_samples_compare(const FarSamples *samples, BulkOperator *system, double *error, Error *err)
+// Few motions are above what is allowed, or S is of no use.
+static bool find_largest(const double *schur, const double *lower, const double *excess, int32_t m,
+                         double allowed, double *error, Error *err)
+{
+    LargestEigen largest = {0};
+    bool found = false;
+    double *work = NEW_ARRAY(double, dense_eigen_work(m), err), *values = NEW_ARRAY(double, m, err);
+    double *turned = NEW_ARRAY(double, (int64_t)m *m, err);
+    if (!error_is_clean(err)) goto cleanup;
+    LargestEigenDef def = {.size = m,
+                           .a = excess,
+                           .b = schur,
+                           .lower = lower,
+                           .above = fmin(allowed, 1),
+                           .least = -NEGATIVE * allowed,
+                           .work = work};
+    TRY(largest_eigen_find(&def, &largest, &found, err));
+    if (found) {
+        *error = largest.count > 0 ? largest.values[largest.count - 1] : largest.next;
+        goto cleanup;
+    }
+    memcpy(turned, excess, (size_t)m * (size_t)m * sizeof *turned);
+    dense_divide_both_sides(lower, m, turned);
+    if (!dense_eigen_above(turned, m, INFINITY, values, work))   // values alone
+        FAIL(err, ERROR_LIBRARY, "LAPACK: no eigenvalues");
+    *error = fmax(fabs(values[0]), fabs(values[m - 1]));
+cleanup:
+    largest_eigen_destroy(&largest);
+    memory_free(work);
+    memory_free(values);
+    memory_free(turned);
+    return error_is_clean(err);
+}
+
+bool far_samples_compare(FarSamples *samples, BulkOperator *system, double *error, Error *err)
 {
     int32_t m = system->interface_count;
-    int64_t entries = (int64_t)m * m;
+    Sampling *work = samples->sampling;
+    FactoredPoint point;
     InterfaceOperator *condensed = NULL;
-    double *excess = NEW_ARRAY(double, entries, err), *lower = NEW_ARRAY(double, entries, err);
-    double *work = NEW_ARRAY(double, dense_eigen_work(m), err), *values = NEW_ARRAY(double, m, err);
-    if (!error_is_clean(err)) goto cleanup;
-    condensed = interface_operator_create(system, samples->terms, err);
+    double *excess = NEW_ARRAY(double, (int64_t)m *m, err);
+    if (!excess) goto cleanup;
+    condensed = interface_operator_create(system, work->terms[work->count], err);
     if (!condensed) goto cleanup;
-    memcpy(excess, interface_operator_schur(condensed), (size_t)entries * sizeof *excess);
-    memcpy(lower, samples->schur, (size_t)entries * sizeof *lower);
-    dense_add_scaled(-1, samples->schur, m * m, excess);
-    if (!dense_cholesky(lower, m))
-        FAIL(err, ERROR_COMPUTE, "the interface operator is not positive definite");
-    dense_divide_both_sides(lower, m, excess);
-    if (!dense_eigen_above(excess, m, INFINITY, values, work))   // values alone
-        FAIL(err, ERROR_LIBRARY, "LAPACK: no eigenvalues");
-    *error = fmax(fabs(values[0]), fabs(values[m - 1])) / samples->allowed;
+    TRY(factors_ahead_next(work->ahead, &point, err));
+    const double *schur = interface_operator_schur(point.full);
+    memcpy(excess, interface_operator_schur(condensed), (size_t)m * (size_t)m * sizeof *excess);
+    dense_add_scaled(-1, schur, m * m, excess);
+    TRY(find_largest(schur, interface_operator_schur_lower(point.full), excess, m, samples->allowed,
+                     error, err));
+    *error /= samples->allowed;
 cleanup:
     interface_operator_destroy(condensed);
     memory_free(excess);
-    memory_free(lower);
-    memory_free(work);
-    memory_free(values);
+    sampling_destroy(work);
+    samples->sampling = NULL;
     return error_is_clean(err);
 }

@@ -14,22 +14,22 @@ typedef struct FarFieldDef {
     Materials materials;
 } FarFieldDef;
 
-// What the whole mesh says, of which the first three lines are given.
+// What the whole mesh says, of which the first three lines are given. `bulk` must outlive it: its
+// last factor is made while the caller goes on.
 typedef struct FarSamples {
     int32_t distance;   // elements between the interface and the first layer
     int32_t layer_count;
     FarMotions *const *layers;   // [layer_count] begun and filled; not owned
     double *stiffness;   // [interface_count^2] S of K/E; owned
-    double *schur;   // [interface_count^2] S at a point where nothing was asked; owned
-    OperatorTerms terms;   // of that point
-    double allowed;   // error of it
+    struct Sampling *sampling;   // what the comparison needs; owned
+    double allowed;   // error of S where it is compared
 } FarSamples;
 
 bool far_samples_take(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
                       const FarFieldDef *def, FarSamples *samples, Error *err);
-// *error: the largest relative one of S of `system` at that point, over what is allowed.
-bool far_samples_compare(const FarSamples *samples, BulkOperator *system, double *error,
-                         Error *err);
+// *error: the largest relative one of S of `system` at a point where nothing was asked, over what
+// is allowed. Once.
+bool far_samples_compare(FarSamples *samples, BulkOperator *system, double *error, Error *err);
 void far_samples_destroy(FarSamples *samples);
 
 #endif

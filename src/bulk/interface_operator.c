@@ -348,6 +348,11 @@ const double *interface_operator_schur(const InterfaceOperator *condensed)
     return condensed->schur;
 }
 
+const double *interface_operator_schur_lower(const InterfaceOperator *condensed)
+{
+    return sparse_schur_lower(condensed->factor);
+}
+
 // The half-solved right-hand side (reduced: A_qq^-1 rhs_q) is kept for the expand that follows.
 bool interface_operator_condense(InterfaceOperator *condensed, const double *rhs, double *g,
                                  Error *err)

@@ -87,6 +87,8 @@ void interface_operator_destroy(InterfaceOperator *condensed);   // NULL is fine
 // S', what is condensed is g', and a caller turns what it finds by interface_operator_release
 // before the expand.
 const double *interface_operator_schur(const InterfaceOperator *condensed);
+// Of the full mesh, not lifted: the Cholesky factor of S, 0 above the diagonal.
+const double *interface_operator_schur_lower(const InterfaceOperator *condensed);
 // rhs [dof_count] -> g [interface_count]; expand must follow before the next condense.
 bool interface_operator_condense(InterfaceOperator *condensed, const double *rhs, double *g,
                                  Error *err);

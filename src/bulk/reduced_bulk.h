@@ -55,11 +55,6 @@ typedef struct ReducedBulk {
 
 void reduced_bulk_destroy(ReducedBulk *reduced);
 
-// Turns the interior's coordinates by an orthogonal Q, so that K_qq stays the unit matrix and M_qq
-// becomes tridiagonal; `columns` [rows * interior_count], of the modes or of what they are made
-// from, are multiplied by Q from the right.
-bool reduced_bulk_narrow(ReducedBulk *reduced, double *columns, int64_t rows, Error *err);
-
 // The error of S to expect at `inertia` (normalised, see bulk/reduction): the larger of those
 // measured on either side of it.
 double reduced_bulk_error(const ReducedBulk *reduced, double inertia);

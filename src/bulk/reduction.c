@@ -16,9 +16,9 @@
 #include "base/largest_eigen.h"
 #include "base/memory.h"
 #include "bulk/basis_condense.h"
+#include "bulk/basis_finish.h"
 #include "bulk/factors_ahead.h"
 #include "bulk/far_field.h"
-#include "bulk/growing_basis.h"
 #include "bulk/inertias.h"
 #include "bulk/strip.h"
 
@@ -41,11 +41,13 @@ typedef struct Builder {
     BulkOperator *full;   // what is reduced: the mesh, or what the far field leaves of it
     const ReductionDef *def;
     GrowingBasis basis;
+    ReducedBulk *reduced;   // not owned
     Strip strip;
     OperatorTerms terms[STRIP_VISITS_MAX];   // [strip.count] of its visits
     FactorsAhead *ahead;   // of these
     double load_energy;   // at a point, of the basis's answer to the unit load
-    double *exact, *excess;   // [m^2] S, then its Cholesky factor; S_r - S
+    const double *lower;   // [m^2] Cholesky factor of S at a point; not owned
+    double *excess;   // [m^2] S_r - S
     double *values;   // [m] eigenvalues
     double *eigen_work;   // [dense_eigen_work(m)]
     BulkOperator mesh;   // the whole, where it was needed itself
@@ -58,7 +60,6 @@ static void builder_destroy(Builder *work)
 {
     factors_ahead_destroy(work->ahead);
     basis_destroy(&work->basis);
-    memory_free(work->exact);
     memory_free(work->excess);
     memory_free(work->values);
     memory_free(work->eigen_work);
@@ -67,11 +68,10 @@ static void builder_destroy(Builder *work)
     far_block_destroy(&work->own);
 }
 
-static bool builder_create(ReducedBulk *reduced, Builder *work, Error *err)
+static bool builder_create(Builder *work, Error *err)
 {
     int32_t m = work->full->interface_count;
-    TRY(basis_create(work->full, reduced, &work->basis, err));
-    work->exact = NEW_ARRAY(double, (int64_t)m *m, err);
+    TRY(basis_create(work->full, &work->def->scales, &work->basis, err));
     work->excess = NEW_ARRAY(double, (int64_t)m *m, err);
     work->values = NEW_ARRAY(double, m, err);
     work->eigen_work = NEW_ARRAY(double, dense_eigen_work(m), err);
@@ -89,11 +89,11 @@ static double allowed_error(const Builder *work, StripPoint point)
 static bool compare_largest(Builder *work, const double *schur, double allowed, double least,
                             bool *found, Error *err)
 {
-    int64_t m = work->basis.reduced->interface_count;
+    int64_t m = work->basis.interface_count;
     LargestEigenDef def = {.size = (int32_t)m,
                            .a = work->excess,
                            .b = schur,
-                           .lower = work->exact,
+                           .lower = work->lower,
                            .above = fmin(allowed, 1),
                            .least = least,
                            .work = work->eigen_work};
@@ -115,15 +115,12 @@ cleanup:
 // one and the first; L'y of those above in the last columns of `excess`, which is S_r before.
 static bool compare(Builder *work, const double *schur, double allowed, double least, Error *err)
 {
-    int32_t m = work->basis.reduced->interface_count;
+    int32_t m = work->basis.interface_count;
     bool found = false;
-    memcpy(work->exact, schur, (size_t)m * (size_t)m * sizeof *schur);
     dense_add_scaled(-1, schur, m * m, work->excess);
-    if (!dense_cholesky(work->exact, m))
-        FAIL(err, ERROR_COMPUTE, "the interface operator is not positive definite");
     TRY(compare_largest(work, schur, allowed, least, &found, err));
     if (found) goto cleanup;
-    dense_divide_both_sides(work->exact, m, work->excess);
+    dense_divide_both_sides(work->lower, m, work->excess);
     if (!dense_eigen_above(work->excess, m, allowed, work->values, work->eigen_work))
         FAIL(err, ERROR_LIBRARY, "LAPACK: no eigenvalues of the reduction's error");
 cleanup:
@@ -135,17 +132,20 @@ cleanup:
 static bool answer_motions(Builder *work, InterfaceOperator *full, int32_t wanted,
                            AnswerBlock *next, Error *err)
 {
-    int64_t m = work->basis.reduced->interface_count;
+    int64_t m = work->basis.interface_count;
     double *first = work->excess + (m - wanted) * m;
+    double *pushed = NEW_ARRAY(double, m *wanted, err);
+    if (!pushed) return false;
+    for (int64_t k = 0; k < wanted; k++)
+        for (int64_t i = 0; i < m; i++) first[k * m + i] /= sqrt(work->values[m - wanted + k]);
+    memcpy(pushed, first, (size_t)(m * wanted) * sizeof *pushed);
+    dense_lower_multiply(work->lower, (int32_t)m, wanted, pushed);   // S y = L L' (L^-T z) = L z
+    dense_lower_divide_transposed(work->lower, (int32_t)m, wanted, first);
     for (int64_t k = 0; k < wanted; k++) {
-        double *y = first + k * m, scale = 1 / sqrt(work->values[m - wanted + k]);
-        double *reaction = next->reaction + k * (m + 1);
-        for (int64_t i = 0; i < m; i++) y[i] *= scale;
-        memcpy(reaction, y, (size_t)m * sizeof *y);   // S y = L L' (L^-T z) = L z
-        dense_lower_apply(work->exact, (int32_t)m, reaction);
-        dense_lower_solve_transposed(work->exact, (int32_t)m, y);
-        memcpy(next->motion + k * (m + 1), y, (size_t)m * sizeof *y);
+        memcpy(next->reaction + k * (m + 1), pushed + k * m, (size_t)m * sizeof *pushed);
+        memcpy(next->motion + k * (m + 1), first + k * m, (size_t)m * sizeof *pushed);
     }
+    memory_free(pushed);
     return interface_operator_answer(full, first, wanted, next->field, err);
 }
 
@@ -154,7 +154,7 @@ static bool answer_motions(Builder *work, InterfaceOperator *full, int32_t wante
 static void take_load(const Builder *work, const FactoredPoint *full, double allowed,
                       AnswerBlock *next)
 {
-    int64_t dofs = work->full->dof_count, m = work->basis.reduced->interface_count;
+    int64_t dofs = work->full->dof_count, m = work->basis.interface_count;
     double *x = next->field + (next->count - 1) * dofs;
     double *reaction = next->reaction + (next->count - 1) * (m + 1);
     // The load does less work on a Galerkin answer than on the exact one, by the energy of the
@@ -175,8 +175,7 @@ static bool condense_basis(Builder *work, StripPoint point, bool *definite, Erro
     const double factor[] = {[BULK_STIFFNESS] = 1 - point.viscosity,
                              [BULK_DAMPING] = point.viscosity,
                              [BULK_MASS] = point.inertia};
-    return basis_condense(work->basis.reduced, factor, work->excess, &work->load_energy, definite,
-                          err);
+    return basis_condense(&work->basis, factor, work->excess, &work->load_energy, definite, err);
 }
 
 // Compares S_r with `schur`, S at the point. *negative: a Galerkin projection is too stiff, never
@@ -200,7 +199,7 @@ static bool compare_well(Builder *work, StripPoint point, const double *schur, E
     bool negative = false;
     TRY(compare_at(work, point, schur, &negative, err));
     if (!negative) goto cleanup;
-    TRY(basis_renew(&work->basis, work->basis.reduced->interface_count, err));
+    TRY(basis_renew(&work->basis, 0, err));
     TRY(compare_at(work, point, schur, &negative, err));
     if (negative) FAIL(err, ERROR_COMPUTE, "the reduced bulk is softer than the mesh");
 cleanup:
@@ -211,8 +210,9 @@ cleanup:
 static bool visit(Builder *work, StripPoint point, const FactoredPoint *full, double *left,
                   Error *err)
 {
-    int32_t m = work->basis.reduced->interface_count, wanted = 0;
+    int32_t m = work->basis.interface_count, wanted = 0;
     double allowed = allowed_error(work, point);
+    work->lower = interface_operator_schur_lower(full->full);
     TRY(compare_well(work, point, interface_operator_schur(full->full), err));
     // The error of what is added becomes 0; what is left is that of the first motion not added.
     while (wanted < m && work->values[m - 1 - wanted] > allowed) wanted++;
@@ -234,7 +234,7 @@ static bool list_visits(Builder *work, double slowest, Error *err)
     strip_list(&work->def->materials, &work->def->scales, slowest,
                inertia_element(work->full->bulk, &work->def->scales, work->full->interface_dofs,
                                work->full->interface_count),
-               &work->basis.reduced->errors, &work->strip);
+               &work->reduced->errors, &work->strip);
     work->basis.answers.inertia_least = slowest / 20;
     for (int32_t k = 0; k < work->strip.count; k++)
         work->terms[k] = strip_terms(work->strip.visits[k].point, &work->def->scales);
@@ -247,7 +247,7 @@ static bool list_visits(Builder *work, double slowest, Error *err)
 
 static bool visit_strip(Builder *work, Error *err)
 {
-    ReductionErrors *errors = &work->basis.reduced->errors;
+    ReductionErrors *errors = &work->reduced->errors;
     for (int32_t k = 0; k < work->strip.count; k++) {
         StripVisit now = work->strip.visits[k];
         FactoredPoint full;
@@ -265,27 +265,31 @@ cleanup:
 // Far beyond an element S is the interface's own mass: the mass matrix is diagonal.
 static bool compare_beyond(Builder *work, Error *err)
 {
-    ReductionErrors *errors = &work->basis.reduced->errors;
+    ReductionErrors *errors = &work->reduced->errors;
     const BulkOperator *full = work->full;
     int64_t m = full->interface_count;
     StripPoint point = {.viscosity = 0, .inertia = errors->inertia[errors->count - 1]};
-    double *schur = NEW_ARRAY(double, m *m, err);
-    if (!schur) goto cleanup;
-    for (int64_t j = 0; j < m; j++)
-        schur[j * m + j] = point.inertia * full->bulk->mass[full->interface_dofs[j]] /
-                           work->def->scales.mass;
+    double *schur = NEW_ARRAY(double, m *m, err), *lower = NEW_ARRAY(double, m *m, err);
+    if (!schur || !lower) goto cleanup;
+    for (int64_t j = 0; j < m; j++) {
+        double mass = full->bulk->mass[full->interface_dofs[j]] / work->def->scales.mass;
+        schur[j * (m + 1)] = point.inertia * mass;
+        lower[j * (m + 1)] = sqrt(schur[j * (m + 1)]);
+    }
+    work->lower = lower;
     TRY(compare_well(work, point, schur, err));
     errors->error[errors->count - 1] = fmax(work->values[m - 1], 0);
 cleanup:
     memory_free(schur);
+    memory_free(lower);
     return error_is_clean(err);
 }
 
 // S of C alone.
 static bool find_viscous(Builder *work, Error *err)
 {
-    int64_t m = work->basis.reduced->interface_count;
-    double *viscous = work->basis.reduced->viscous = NEW_ARRAY(double, m *m, err);
+    int64_t m = work->basis.interface_count;
+    double *viscous = work->reduced->viscous = NEW_ARRAY(double, m *m, err);
     bool definite = false;
     if (!viscous || !condense_basis(work, (StripPoint){1, 0}, &definite, err)) return false;
     if (!definite) FAIL(err, ERROR_COMPUTE, "the viscous interior is not positive definite");
@@ -301,18 +305,15 @@ static bool is_uniform(const Materials *materials)
 }
 
 // What is far from the interface comes back into the modes.
-static bool write_modes(Builder *work, Error *err)
+static bool expand_modes(Builder *work, Error *err)
 {
     const FarField *far = &work->far;
-    ReducedBulk *reduced = work->basis.reduced;
-    TRY(basis_write_modes(&work->basis, err));
-    if (!far->block) goto cleanup;
+    ReducedBulk *reduced = work->reduced;
     double *motions = reduced->modes, *modes = NULL;
     int64_t size = far->mesh_dofs;
     reduced->modes = modes = NEW_ARRAY(double, size * reduced->count, err);
     if (modes) far_field_expand(far, motions, reduced->count, modes, err);
     memory_free(motions);
-cleanup:
     return error_is_clean(err);
 }
 
@@ -320,7 +321,7 @@ cleanup:
 static void add_far_field(const Builder *work)
 {
     const FarField *far = &work->far;
-    ReducedBulk *reduced = work->basis.reduced;
+    ReducedBulk *reduced = work->reduced;
     int64_t m = reduced->interface_count;
     reduced->full_dofs = far->mesh_dofs;
     memcpy(reduced->stiffness, work->own.stiffness, (size_t)(m * m) * sizeof(double));
@@ -330,14 +331,13 @@ static void add_far_field(const Builder *work)
     }
 }
 
-static bool build_on(Builder *work, ReducedBulk *reduced, Error *err)
+static bool build_on(Builder *work, Error *err)
 {
     const ReductionDef *def = work->def;
-    int64_t m = work->full->interface_count;
     InterfaceOperator *statics = NULL;
     OperatorTerms terms = {.stiffness = 1 / def->scales.stiffness, .lift = true};
     double slowest = 0;
-    TRY(builder_create(reduced, work, err));
+    TRY(builder_create(work, err));
     if (!(statics = interface_operator_create(work->full, terms, err))) goto cleanup;
     TRY(inertia_slowest(work->full, &def->scales, statics, &slowest, err));
     TRY(list_visits(work, slowest, err));
@@ -346,9 +346,8 @@ static bool build_on(Builder *work, ReducedBulk *reduced, Error *err)
     TRY(visit_strip(work, err));
     TRY(compare_beyond(work, err));
     TRY(find_viscous(work, err));
-    TRY(reduced_bulk_narrow(reduced, work->basis.mix + m * work->basis.answers.count,
-                            work->basis.answers.count, err));
-    if (def->modes) TRY(write_modes(work, err));
+    TRY(basis_finish(&work->basis, def->modes, work->reduced, err));
+    if (def->modes && work->far.block) TRY(expand_modes(work, err));
     if (work->far.block) add_far_field(work);
 cleanup:
     interface_operator_destroy(statics);
@@ -397,14 +396,14 @@ cleanup:
 bool reduction_build(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
                      const ReductionDef *def, ReducedBulk *reduced, Error *err)
 {
-    Builder work = {.def = def};
+    Builder work = {.def = def, .reduced = reduced};
     *reduced = (ReducedBulk){.scales = def->scales};
     if (interface_count >= FAR_INTERFACE)
         TRY(replace_far(&work, bulk, interface_dofs, interface_count, err));
     work.full = work.far.block ? &work.far.system : &work.mesh;
     if (!work.far.block)
         TRY(bulk_operator_create(bulk, NULL, interface_dofs, interface_count, &work.mesh, err));
-    TRY(build_on(&work, reduced, err));
+    TRY(build_on(&work, err));
 cleanup:
     builder_destroy(&work);
     if (!error_is_clean(err)) error_context(err, "while reducing the bulk");

@@ -3,7 +3,7 @@
 // whether what is new of an answer is made of products or by the mesh; and what it condenses to,
 // against elimination by hand.
 #include "bulk/basis_condense.h"
-#include "bulk/growing_basis.h"
+#include "bulk/basis_finish.h"
 
 #include "base/memory.h"
 #include "reduced_block.h"
@@ -16,8 +16,8 @@ static const BlockDef SHAPE = {
 typedef struct Rig {
     ReducedBlock block;   // not reduced
     BulkOperator mesh;
-    ReducedBulk reduced;
     GrowingBasis basis;
+    ReducedBulk reduced;   // what the basis becomes at the end
 } Rig;
 
 // The static modes, and the static answer to the load.
@@ -26,13 +26,12 @@ static void start(Rig *rig, double loss_max)
     Error err = {0};
     memset(rig, 0, sizeof *rig);
     reduced_block_build(&SHAPE, &MATERIAL, 0.7, 0, &rig->block);
-    rig->reduced.scales = rig->block.def.scales;
     assert_true(bulk_operator_create(&rig->block.bulk, NULL, rig->block.dofs,
                                      rig->block.interface_count, &rig->mesh, &err));
-    assert_true(basis_create(&rig->mesh, &rig->reduced, &rig->basis, &err));
+    assert_true(basis_create(&rig->mesh, &rig->block.def.scales, &rig->basis, &err));
     rig->basis.loss_max = loss_max;
     rig->basis.answers.inertia_least = 0.1;
-    OperatorTerms terms = {.stiffness = 1 / rig->reduced.scales.stiffness, .lift = true};
+    OperatorTerms terms = {.stiffness = 1 / rig->block.def.scales.stiffness, .lift = true};
     InterfaceOperator *statics = interface_operator_create(&rig->mesh, terms, &err);
     assert_non_null(statics);
     if (!basis_start(&rig->basis, statics, &err)) fail_msg("%s", err.message);
@@ -52,7 +51,7 @@ static void extend(Rig *rig, StripPoint point, int32_t columns)
 {
     Error err = {0};
     Answers *answers = &rig->basis.answers;
-    const BulkScales *scales = &rig->reduced.scales;
+    const BulkScales *scales = &rig->block.def.scales;
     int64_t m = rig->block.interface_count;
     OperatorTerms terms = {.mass = point.inertia / scales->mass,
                            .damping = point.viscosity / scales->damping,
@@ -76,11 +75,11 @@ static void extend(Rig *rig, StripPoint point, int32_t columns)
 // x' T z of the mesh, normalised.
 static double product(const Rig *rig, BulkTerm term, const double *x, const double *z)
 {
-    const BulkScales *scales = &rig->reduced.scales;
+    const BulkScales *scales = &rig->block.def.scales;
     const double unit[] = {scales->stiffness, scales->damping, scales->mass};
-    double *image = hand_matrix(rig->reduced.full_dofs, 1), sum = 0;
+    double *image = hand_matrix(rig->basis.full_dofs, 1), sum = 0;
     bulk_operator_apply(&rig->mesh, term, z, image);
-    for (int32_t k = 0; k < rig->reduced.full_dofs; k++) sum += x[k] * image[k];
+    for (int32_t k = 0; k < rig->basis.full_dofs; k++) sum += x[k] * image[k];
     free(image);
     return sum / unit[term];
 }
@@ -93,12 +92,13 @@ static double stiffness_of(const ReducedBulk *reduced, int32_t i, int32_t j)
     return i == j;
 }
 
+// The basis is finished by it. M of the interior is tridiagonal to the bit.
 static void assert_matrices(Rig *rig, double tolerance)
 {
     Error err = {0};
     const ReducedBulk *reduced = &rig->reduced;
-    int32_t count = reduced->count, dofs = reduced->full_dofs;
-    assert_true(basis_write_modes(&rig->basis, &err));
+    if (!basis_finish(&rig->basis, true, &rig->reduced, &err)) fail_msg("%s", err.message);
+    int32_t m = reduced->interface_count, count = reduced->count, dofs = reduced->full_dofs;
     for (int32_t j = 0; j < count; j++) {
         const double *z = reduced->modes + j * dofs;
         double load = 0;
@@ -110,6 +110,9 @@ static void assert_matrices(Rig *rig, double tolerance)
                         tolerance);
             assert_near("M", reduced->mass[j * count + i], product(rig, BULK_MASS, x, z),
                         tolerance);
+            assert_true(reduced->damping[i * count + j] == reduced->damping[j * count + i]);
+            assert_true(reduced->mass[i * count + j] == reduced->mass[j * count + i]);
+            if (i >= m && i + 1 < j) assert_true(reduced->mass[j * count + i] == 0);
         }
         for (int32_t k = 0; k < dofs; k++) load += z[k] * rig->basis.answers.unit_load[k];
         assert_near("f", reduced->load[j], load, tolerance);
@@ -126,10 +129,10 @@ static void test_matrices(void **state)
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         Rig rig;
         start(&rig, cases[k].loss_max);
-        assert_int_equal(rig.reduced.interior_count, 1);   // the load's
+        assert_int_equal(rig.basis.interior_count, 1);   // the load's
         extend(&rig, (StripPoint){0, 0.4}, 3);
         extend(&rig, (StripPoint){1, 30}, 2);
-        assert_int_equal(rig.reduced.interior_count, 6);
+        assert_int_equal(rig.basis.interior_count, 6);
         assert_matrices(&rig, cases[k].tolerance);
         end(&rig);
     }
@@ -143,46 +146,51 @@ static void test_dependent_answers(void **state)
     start(&rig, 0);
     extend(&rig, (StripPoint){0, 0.4}, 3);
     extend(&rig, (StripPoint){0, 0.4}, 3);
-    assert_int_equal(rig.reduced.interior_count, 4);
-    assert_int_equal(rig.reduced.count, rig.block.interface_count + 4);
+    assert_int_equal(rig.basis.interior_count, 4);
     assert_matrices(&rig, 1e-11);
+    assert_int_equal(rig.reduced.count, rig.block.interface_count + 4);
     end(&rig);
 }
 
+// A of the basis as it is, Phi neither orthogonal nor of length 1.
 static void test_condensed(void **state)
 {
     (void)state;
     Rig rig;
     Error err = {0};
-    start(&rig, 0);
+    start(&rig, 1e300);
     extend(&rig, (StripPoint){0, 0.4}, 4);
-    const ReducedBulk *reduced = &rig.reduced;
-    int32_t m = reduced->interface_count, count = reduced->count, r = reduced->interior_count;
+    const GrowingBasis *basis = &rig.basis;
+    int32_t m = basis->interface_count, r = basis->interior_count, count = m + r;
     double factor[BULK_TERMS] = {0.7, 0.3, 5}, energy = 0, wanted = 0;
     double *a = hand_matrix(count, count), *schur = hand_matrix(m, m), *made = hand_matrix(m, m);
     double *inner = hand_matrix(r, r), *answer = hand_matrix(r, 1);
     int32_t border[200];
     for (int32_t k = 0; k < m; k++) border[k] = k;
-    for (int32_t j = 0; j < count; j++)
-        for (int32_t i = 0; i < count; i++)
-            a[j * count + i] = factor[BULK_STIFFNESS] * stiffness_of(reduced, i, j) +
-                               factor[BULK_DAMPING] * reduced->damping[j * count + i] +
-                               factor[BULK_MASS] * reduced->mass[j * count + i];
+    for (int term = 0; term < BULK_TERMS; term++) {
+        for (int32_t k = 0; k < m * m; k++)
+            a[k / m * count + k % m] += factor[term] * basis->statics[term][k];
+        for (int32_t k = 0; k < r * r; k++)
+            a[(m + k / r) * count + m + k % r] += factor[term] * basis->interior[term][k];
+        for (int32_t k = 0; basis->beside[term] && k < m * r; k++) {
+            a[(m + k / m) * count + k % m] += factor[term] * basis->beside[term][k];
+            a[k % m * count + m + k / m] += factor[term] * basis->beside[term][k];
+        }
+    }
     hand_schur(a, count, border, m, schur);
     bool definite = false;
-    if (!basis_condense(rig.basis.reduced, factor, made, &energy, &definite, &err))
-        fail_msg("%s", err.message);
+    if (!basis_condense(basis, factor, made, &energy, &definite, &err)) fail_msg("%s", err.message);
     assert_true(definite);
     assert_all_near("S", made, schur, m * m, 1e-11);
     for (int32_t j = 0; j < r; j++) {
         for (int32_t i = 0; i < r; i++) inner[j * r + i] = a[(m + j) * count + m + i];
-        answer[j] = reduced->load[m + j];
+        answer[j] = basis->load[m + j];
     }
     assert_true(hand_solve(inner, r, answer, 1));
-    for (int32_t j = 0; j < r; j++) wanted += answer[j] * reduced->load[m + j];
+    for (int32_t j = 0; j < r; j++) wanted += answer[j] * basis->load[m + j];
     assert_near("energy", energy, wanted, 1e-12);
     factor[BULK_STIFFNESS] = -1e6;
-    assert_true(basis_condense(rig.basis.reduced, factor, made, &energy, &definite, &err));
+    assert_true(basis_condense(basis, factor, made, &energy, &definite, &err));
     assert_false(definite);
     free(a), free(schur), free(made), free(inner), free(answer);
     end(&rig);

@@ -160,7 +160,7 @@ static void test_two_materials(void **state)
     material[1].eta1 *= 2;
     material[1].eta2 *= 2;
     block_build(&def, &mesh);
-    mesh.region = NEW_ARRAY(int32_t, mesh.element_count, &err);
+    mesh.region = NEW_ARRAY(uint8_t, mesh.element_count, &err);
     for (int32_t e = 0; e < mesh.element_count; e++) {
         double x = mesh.position[2 * mesh.element_nodes[mesh.first_node[e]]];
         mesh.region[e] = lround(x * def.nx) % 2 == 0;

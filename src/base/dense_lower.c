@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Triangular matrices of base/dense, which says what all these do.
+#include "base/dense.h"
+
+#include <cblas.h>
+#include <stddef.h>
+
+// LAPACK's, as in base/dense.
+void dsygst_(const int *itype, const char *uplo, const int *n, double *a, const int *lda,
+             const double *b, const int *ldb, int *info, size_t uplo_size);
+
+// The strictly upper triangle of `lower` is not looked at, here and in what follows.
+void dense_lower_apply(const double *lower, int32_t n, double *x)
+{
+    if (n > 0)
+        cblas_dtrmv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, n, lower, n, x, 1);
+}
+
+void dense_lower_apply_transposed(const double *lower, int32_t n, double *x)
+{
+    if (n > 0) cblas_dtrmv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, n, lower, n, x, 1);
+}
+
+void dense_lower_solve_transposed(const double *lower, int32_t n, double *x)
+{
+    if (n > 0) cblas_dtrsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, n, lower, n, x, 1);
+}
+
+void dense_lower_solve(const double *lower, int32_t n, double *x)
+{
+    if (n > 0)
+        cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, n, lower, n, x, 1);
+}
+
+// L is copied into c with zeros above its diagonal, then multiplied by L' from the right, which
+// costs half of a general product.
+void dense_lower_square(const double *lower, int32_t n, double *c)
+{
+    if (n == 0) return;
+    size_t size = (size_t)n;
+    for (size_t j = 0; j < size; j++) {
+        for (size_t i = 0; i < size; i++) c[j * size + i] = i >= j ? lower[j * size + i] : 0.0;
+    }
+    cblas_dtrmm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, n, n, 1.0, lower,
+                n, c, n);
+}
+
+void dense_lower_divide(const double *lower, int32_t n, int32_t columns, double *b)
+{
+    if (n > 0 && columns > 0)
+        cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, n, columns,
+                    1.0, lower, n, b, n);
+}
+
+void dense_lower_divide_transposed(const double *lower, int32_t n, int32_t columns, double *b)
+{
+    if (n > 0 && columns > 0)
+        cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasTrans, CblasNonUnit, n, columns, 1.0,
+                    lower, n, b, n);
+}
+
+void dense_lower_multiply(const double *lower, int32_t n, int32_t columns, double *b)
+{
+    if (n > 0 && columns > 0)
+        cblas_dtrmm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, n, columns,
+                    1.0, lower, n, b, n);
+}
+
+// dsygst: half the operations of two triangular solves, as it keeps to one triangle. Turns a x =
+// lambda L L' x into a symmetric problem of its own.
+void dense_divide_both_sides(const double *lower, int32_t n, double *a)
+{
+    int info = 0, from_both_sides = 1;
+    if (n > 0) dsygst_(&from_both_sides, "L", &n, a, &n, lower, &n, &info, 1);
+}
