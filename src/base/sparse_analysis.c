@@ -171,13 +171,24 @@ cleanup:
     return NULL;
 }
 
+// Without the values, which another thread may be writing.
+static cholmod_sparse *copy_pattern(const cholmod_sparse *from, cholmod_common *common)
+{
+    cholmod_sparse *to = cholmod_allocate_sparse(from->nrow, from->ncol, from->nzmax, from->sorted,
+                                                 from->packed, from->stype, CHOLMOD_REAL, common);
+    if (!to) return NULL;
+    memcpy(to->p, from->p, (from->ncol + 1) * sizeof(int32_t));
+    memcpy(to->i, from->i, from->nzmax * sizeof(int32_t));
+    return to;
+}
+
 SparseAnalysis *sparse_analysis_copy(const SparseAnalysis *from, Error *err)
 {
     int64_t entries = (int64_t)from->ordered->nzmax;
     SparseAnalysis *analysis = begin_analysis(from->size, from->border_count, err);
     if (!analysis) return NULL;
     analysis->symbolic = cholmod_copy_factor(from->symbolic, &analysis->common);
-    analysis->ordered = cholmod_copy_sparse(from->ordered, &analysis->common);
+    analysis->ordered = copy_pattern(from->ordered, &analysis->common);
     analysis->source = NEW_ARRAY(int32_t, entries, err);
     if (!analysis->source) goto cleanup;
     if (!analysis->symbolic || !analysis->ordered) FAIL(err, ERROR_MEMORY, NO_MEMORY, from->size);

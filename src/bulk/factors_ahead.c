@@ -78,6 +78,11 @@ cleanup:
     return error_is_clean(err);
 }
 
+void factors_ahead_extend(FactorsAhead *ahead, int32_t count)
+{
+    ahead->def.count = count;
+}
+
 // The slot that the caller is done with is factored anew while it works with the other.
 bool factors_ahead_next(FactorsAhead *ahead, FactoredPoint *point, Error *err)
 {

@@ -18,12 +18,14 @@ typedef struct FactoredPoint {
 typedef struct FactorsAheadDef {
     const BulkOperator *system;   // the full mesh's; the caller may work with it meanwhile
     const double *load;   // [dofs]
-    const OperatorTerms *terms;   // [count] in this order
-    int32_t count;
+    const OperatorTerms *terms;   // [count] in this order, and more (factors_ahead_extend)
+    int32_t count;   // two at least
 } FactorsAheadDef;
 
 // What `def` points to must outlive it.
 bool factors_ahead_create(const FactorsAheadDef *def, FactorsAhead **ahead, Error *err);
+// There are `count` terms now. Before the first is taken.
+void factors_ahead_extend(FactorsAhead *ahead, int32_t count);
 // The next one; the one before is gone.
 bool factors_ahead_next(FactorsAhead *ahead, FactoredPoint *point, Error *err);
 void factors_ahead_destroy(FactorsAhead *ahead);   // NULL is fine

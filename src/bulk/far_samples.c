@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Answers are asked at rest with all viscosities of the strip, elastic and viscous, then in turns
-// at inertias 6 apart, as far up as inertia leaves something of them far from the interface.
+// Answers are asked at rest, then elastic and viscous in turns at inertias 6 apart, from where
+// inertia leaves something of them far from the interface downwards, at last with all viscosities.
 #include "bulk/far_samples.h"
 
 #include "base/dense.h"
@@ -33,7 +33,7 @@ static const double NEGATIVE = 1e-3;
 // Of the mean diagonal: S of K alone is lifted by it, where rigid motions cost nothing.
 static const double LIFT = 1;
 
-enum { LEVELS_MAX = 10, POINTS_MAX = STRIP_VISCOSITIES_MAX * LEVELS_MAX + 1 };
+enum { LEVELS_MAX = 10, POINTS_MAX = STRIP_VISCOSITIES_MAX * (LEVELS_MAX + 1) + 1 };
 
 typedef struct Sampling {
     const Bulk *bulk;
@@ -44,6 +44,9 @@ typedef struct Sampling {
     StripPoint points[POINTS_MAX];   // [count], then that at which S is compared
     OperatorTerms terms[POINTS_MAX];
     int32_t count;
+    double viscosity[STRIP_VISCOSITIES_MAX];   // [viscosity_count]
+    int32_t viscosity_count;
+    double top;   // the largest inertia
     FactorsAhead *ahead;
     const double *lower;   // [m^2] Cholesky factor of S at a point; not owned
     double *lifted;   // [m^2] that of S of K alone
@@ -94,21 +97,48 @@ static void add_point(Sampling *work, StripPoint point)
     work->terms[work->count++] = strip_terms(point, &work->def->scales);
 }
 
-// Those beyond rest and K alone, and the one at which the error is measured: half way up, with the
-// other viscosity.
-static void list_points(Sampling *work, double lowest, double element_inertia)
+// At one inertia, with every other viscosity.
+static void add_level(Sampling *work, int32_t level, double inertia)
 {
-    double viscosity[STRIP_VISCOSITIES_MAX];
-    int32_t ends = strip_viscosities(&work->def->materials, &work->def->scales, viscosity);
-    double top = element_inertia * pow(FALLEN / work->samples->distance, 2);
-    int32_t levels = 1 +
-                     (int32_t)fmin(fmax(log(top / lowest) / log(INERTIA_STEP), 1), LEVELS_MAX - 1);
-    for (int32_t level = 0; level < levels; level++)
-        for (int32_t k = level == 0 ? 1 : (level + 1) % 2; k < ends; k += level == 0 ? 1 : 2)
-            add_point(work, (StripPoint){viscosity[k], lowest * pow(INERTIA_STEP, level)});
-    int32_t half = levels / 2;
-    add_point(work, (StripPoint){viscosity[half % 2 ? 1 : 0], lowest * pow(INERTIA_STEP, half)});
+    for (int32_t k = level % 2; k < work->viscosity_count; k += 2)
+        add_point(work, (StripPoint){work->viscosity[k], inertia});
+}
+
+// Those that are asked whatever the slowest mode is, as many as are factored ahead at least.
+static void list_first_points(Sampling *work, double element_inertia)
+{
+    Strip strip;
+    ReductionErrors levels = {0};
+    const FarFieldDef *def = work->def;
+    strip_list(&def->materials, &def->scales, element_inertia, element_inertia, &levels, &strip);
+    work->viscosity_count = strip_viscosities(&def->materials, &def->scales, work->viscosity);
+    // Half a step below where answers no longer reach that far.
+    work->top = strip.element_inertia * pow(FALLEN / work->samples->distance, 2) /
+                sqrt(INERTIA_STEP);
+    add_level(work, 0, work->top);
+    add_level(work, 1, work->top / INERTIA_STEP);
+}
+
+// The others, down to the lowest level of the reduction, there with all viscosities; and the one at
+// which S is compared: where one is asked half way, with the other viscosity.
+static void list_points(Sampling *work, double slowest, double element_inertia)
+{
+    Strip strip;
+    ReductionErrors levels = {0};
+    const FarFieldDef *def = work->def;
+    strip_list(&def->materials, &def->scales, slowest, element_inertia, &levels, &strip);
+    double lowest = levels.inertia[0], second = work->top / INERTIA_STEP;
+    int32_t steps =
+        (int32_t)fmin(fmax(round(log(second / lowest) / log(INERTIA_STEP)), 1), LEVELS_MAX - 2);
+    for (int32_t k = 1; k < steps; k++)
+        add_level(work, 1 + k, second * pow(lowest / second, (double)k / steps));
+    StripPoint compared = work->points[(work->count + 1) / 2];
+    compared.viscosity = work->viscosity[compared.viscosity < 0.5 ? 1 : 0];
+    for (int32_t k = 1; k < work->viscosity_count; k++)
+        add_point(work, (StripPoint){work->viscosity[k], lowest});
+    add_point(work, compared);
     work->count--;
+    work->samples->allowed = strip_allowed(&strip, compared, def->tolerance);
 }
 
 static bool sampling_begin(const int32_t *interface_dofs, int32_t m, Sampling *work, Error *err)
@@ -117,19 +147,17 @@ static bool sampling_begin(const int32_t *interface_dofs, int32_t m, Sampling *w
     const Bulk *bulk = work->bulk;
     const BulkScales *scales = &work->def->scales;
     OperatorTerms terms = {.stiffness = 1 / scales->stiffness, .lift = true};
-    ReductionErrors levels = {0};
-    Strip strip;
-    double slowest = 0, element = inertia_element(bulk, scales, interface_dofs, m);
+    double element = inertia_element(bulk, scales, interface_dofs, m);
     TRY(bulk_operator_create(bulk, NULL, interface_dofs, m, &work->mesh, err));
+    list_first_points(work, element);
+    FactorsAheadDef def = {
+        .system = &work->mesh, .load = bulk->load, .terms = work->terms, .count = work->count};
+    TRY(factors_ahead_create(&def, &work->ahead, err));
     work->statics = interface_operator_create(&work->mesh, terms, err);
     if (!work->statics) goto cleanup;
-    TRY(inertia_slowest(&work->mesh, scales, work->statics, &slowest, err));
-    strip_list(&work->def->materials, scales, slowest, element, &levels, &strip);
-    list_points(work, levels.inertia[0], strip.element_inertia);
-    samples->allowed = strip_allowed(&strip, work->points[work->count], work->def->tolerance);
-    FactorsAheadDef def = {
-        .system = &work->mesh, .load = bulk->load, .terms = work->terms, .count = work->count + 1};
-    TRY(factors_ahead_create(&def, &work->ahead, err));
+    TRY(inertia_slowest(&work->mesh, scales, work->statics, &samples->slowest, err));
+    list_points(work, samples->slowest, element);
+    factors_ahead_extend(work->ahead, work->count + 1);
     for (int32_t k = 0; k < samples->layer_count; k++) {
         samples->layers[k]->columns_max = CHUNK + 1;
         TRY(far_motions_begin(bulk, scales->stiffness, m, samples->layers[k], err));

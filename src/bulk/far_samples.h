@@ -21,6 +21,7 @@ typedef struct FarSamples {
     int32_t layer_count;
     FarMotions *const *layers;   // [layer_count] begun and filled; not owned
     double *stiffness;   // [interface_count^2] S of K/E; owned
+    double slowest;   // inertia of the interior's slowest mode (bulk/inertias)
     struct Sampling *sampling;   // what the comparison needs; owned
     double allowed;   // error of S where it is compared
 } FarSamples;

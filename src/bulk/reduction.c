@@ -336,11 +336,14 @@ static bool build_on(Builder *work, Error *err)
     const ReductionDef *def = work->def;
     InterfaceOperator *statics = NULL;
     OperatorTerms terms = {.stiffness = 1 / def->scales.stiffness, .lift = true};
-    double slowest = 0;
+    double slowest = work->own.samples.slowest;   // where the whole mesh was looked at
     TRY(builder_create(work, err));
+    if (slowest > 0) TRY(list_visits(work, slowest, err));
     if (!(statics = interface_operator_create(work->full, terms, err))) goto cleanup;
-    TRY(inertia_slowest(work->full, &def->scales, statics, &slowest, err));
-    TRY(list_visits(work, slowest, err));
+    if (!(slowest > 0)) {
+        TRY(inertia_slowest(work->full, &def->scales, statics, &slowest, err));
+        TRY(list_visits(work, slowest, err));
+    }
     work->basis.loss_max = is_uniform(&def->materials) ? LOSS_MAX : 0;
     TRY(basis_start(&work->basis, statics, err));
     TRY(visit_strip(work, err));
