@@ -3,7 +3,7 @@
 #ifndef AMONTONS_BULK_BASIS_CONDENSE_H
 #define AMONTONS_BULK_BASIS_CONDENSE_H
 
-#include "bulk/growing_basis.h"
+#include "bulk/basis_state.h"
 
 // A is the sum of factor[term], by BulkTerm, times K/E, C/eta, M/(rho L^2). schur [interface^2],
 // and the energy of the answer to the unit load, the interface at rest. *definite: false, and no

@@ -4,7 +4,7 @@
 #ifndef AMONTONS_BULK_BASIS_EXTENSION_H
 #define AMONTONS_BULK_BASIS_EXTENSION_H
 
-#include "bulk/growing_basis.h"
+#include "bulk/basis_state.h"
 
 // Work of one extension by `added` columns: the next block of answers without their static modes,
 // or at a renewal modes that were there.

@@ -5,6 +5,7 @@
 
 #include "base/dense_halves.h"
 #include "base/memory.h"
+#include "bulk/basis_renew.h"
 
 #include <string.h>
 

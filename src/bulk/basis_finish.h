@@ -3,7 +3,7 @@
 #ifndef AMONTONS_BULK_BASIS_FINISH_H
 #define AMONTONS_BULK_BASIS_FINISH_H
 
-#include "bulk/growing_basis.h"
+#include "bulk/basis_state.h"
 
 // Fills matrices, load and sizes of `reduced`, its modes where they are wanted. Turns Phi so that
 // its K is the unit matrix and its M tridiagonal; `basis` is of no use any more.

@@ -1,11 +1,41 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Modes are formed, made orthonormal and multiplied by the mesh.
-#include "bulk/basis_extension.h"
+#include "bulk/basis_renew.h"
 
 #include "base/dense_halves.h"
 #include "base/memory.h"
+#include "bulk/basis_extension.h"
 
 #include <string.h>
+
+bool basis_form(const GrowingBasis *basis, const double *turn, int64_t columns, double *field,
+                Error *err)
+{
+    const Answers *answers = &basis->answers;
+    int64_t dofs = basis->full_dofs, m = basis->interface_count, r = basis->interior_count;
+    int64_t rows = answers->count, others = rows - m;
+    double *all = NEW_ARRAY(double, rows *columns, err),
+           *part = NEW_ARRAY(double, rows *columns, err);
+    if (!all || !part) goto cleanup;
+    DenseView turned = dense_view(turn, r, columns);
+    dense_multiply_halves(dense_view(basis->parts, m, r), turned, -1, 0, part);
+    for (int64_t j = 0; j < columns; j++)
+        memcpy(all + j * rows, part + j * m, (size_t)m * sizeof *all);
+    if (basis->mix)
+        dense_multiply_halves(dense_view(basis->mix, others, r), turned, 1, 0, part);
+    else
+        memcpy(part, turn, (size_t)(r * columns) * sizeof *part);
+    for (int64_t j = 0; j < columns; j++)
+        memcpy(all + j * rows + m, part + j * others, (size_t)others * sizeof *all);
+    answers_combine(answers, 1, all, columns, field);
+    // The interface's part is 0, to the last bit.
+    for (int64_t j = 0; j < columns; j++)
+        for (int64_t i = 0; i < m; i++) field[j * dofs + answers->full->interface_dofs[i]] = 0;
+cleanup:
+    memory_free(all);
+    memory_free(part);
+    return error_is_clean(err);
+}
 
 // Columns `first` on of a [rows * count] become a turn; `turn` [count * columns].
 static bool turn_last(double *a, int64_t rows, int64_t first, DenseView turn, Error *err)

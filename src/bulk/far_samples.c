@@ -267,9 +267,10 @@ cleanup:
 }
 
 // Few motions are above what is allowed, or S is of no use.
-static bool find_largest(const double *schur, const double *lower, const double *excess, int32_t m,
+static bool find_largest(const InterfaceOperator *full, const double *excess, int32_t m,
                          double allowed, double *error, Error *err)
 {
+    const double *lower = interface_operator_schur_lower(full);
     LargestEigen largest = {0};
     bool found = false;
     double *work = NEW_ARRAY(double, dense_eigen_work(m), err), *values = NEW_ARRAY(double, m, err);
@@ -277,7 +278,7 @@ static bool find_largest(const double *schur, const double *lower, const double 
     if (!error_is_clean(err)) goto cleanup;
     LargestEigenDef def = {.size = m,
                            .a = excess,
-                           .b = schur,
+                           .b = interface_operator_schur(full),
                            .lower = lower,
                            .above = fmin(allowed, 1),
                            .least = -NEGATIVE * allowed,
@@ -311,11 +312,9 @@ bool far_samples_compare(FarSamples *samples, BulkOperator *system, double *erro
     condensed = interface_operator_create(system, work->terms[work->count], err);
     if (!condensed) goto cleanup;
     TRY(factors_ahead_next(work->ahead, &point, err));
-    const double *schur = interface_operator_schur(point.full);
     memcpy(excess, interface_operator_schur(condensed), (size_t)m * (size_t)m * sizeof *excess);
-    dense_add_scaled(-1, schur, m * m, excess);
-    TRY(find_largest(schur, interface_operator_schur_lower(point.full), excess, m, samples->allowed,
-                     error, err));
+    dense_add_scaled(-1, interface_operator_schur(point.full), m * m, excess);
+    TRY(find_largest(point.full, excess, m, samples->allowed, error, err));
     *error /= samples->allowed;
 cleanup:
     interface_operator_destroy(condensed);

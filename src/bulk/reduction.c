@@ -17,8 +17,10 @@
 #include "base/memory.h"
 #include "bulk/basis_condense.h"
 #include "bulk/basis_finish.h"
+#include "bulk/basis_renew.h"
 #include "bulk/factors_ahead.h"
 #include "bulk/far_field.h"
+#include "bulk/growing_basis.h"
 #include "bulk/inertias.h"
 #include "bulk/strip.h"
 

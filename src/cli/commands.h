@@ -15,4 +15,8 @@ int command_film(int argc, char **argv);
 int command_info(int argc, char **argv);
 int command_cache(int argc, char **argv);
 
+// Called by libraries with OpenMP in them (main.c).
+typedef void OpenRegion(void *data);
+void GOMP_parallel(OpenRegion *region, void *data, unsigned threads, unsigned flags);
+
 #endif

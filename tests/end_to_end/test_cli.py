@@ -285,6 +285,18 @@ class Run(InFolder):
         self.assertEqual(done.returncode, 1)
         self.assertIn("amontons_hdf5.so", done.stderr)
 
+    def test_regions_of_openmp_make_no_teams(self):
+        """The loader says whose function CHOLMOD calls: the program's, not libgomp's."""
+        done = amontons("run", FIG1, *COARSE, "time.until.t=1", "reduction.cache=false", *PLAIN,
+                        "-o", self.folder / "out", LD_DEBUG="bindings", LD_DEBUG_OUTPUT=str(self.folder / "loader"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        said = [line for file in self.folder.glob("loader*") for line in file.read_text().splitlines()
+                if "GOMP_parallel'" in line and re.search(r"file \S*libcholmod", line)]
+        if not said:
+            self.skipTest("CHOLMOD without GNU's OpenMP")
+        for line in said:
+            self.assertRegex(line, r" to \S*/amontons \[0\]")
+
     def test_quiet(self):
         done = amontons("run", FIG1, *COARSE, *PLAIN, "time.until.U=1e-4", "--quiet", "-o",
                         self.folder / "a" / "b")

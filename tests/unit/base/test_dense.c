@@ -60,6 +60,16 @@ static void test_cholesky_and_triangles(void **state)
         hand_apply(square, n, n, x, y);
         assert_all_near("square", y, wanted, n, 1e-13);
 
+        double both[2 * SIZE_MAX_TRIED], back[2 * SIZE_MAX_TRIED];   // L'^-1 (L^-1 (A x)) is x
+        for (int32_t k = 0; k < 2 * n; k++) both[k] = (1 + k / n) * wanted[k % n];
+        dense_lower_divide(lower, n, 2, both);
+        memcpy(back, both, sizeof back);
+        dense_lower_divide_transposed(lower, n, 2, back);
+        for (int32_t k = 0; k < 2 * n; k++) assert_near("x", back[k], (1 + k / n) * x[k % n], 1e-9);
+        dense_lower_multiply(lower, n, 2, both);   // L (L^-1 (A x)) is A x
+        for (int32_t k = 0; k < 2 * n; k++)
+            assert_near("A x", both[k], (1 + k / n) * wanted[k % n], 1e-12);
+
         assert_true(dense_cholesky(a, n));
         for (int32_t j = 0; j < n; j++)
             for (int32_t i = j; i < n; i++) assert_near("L", a[j * n + i], lower[j * n + i], 1e-12);

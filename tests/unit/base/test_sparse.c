@@ -89,6 +89,14 @@ static void check_schur(const Case *made, const SparseFactor *factor)
     double *wanted = hand_matrix(count, count);
     hand_schur(made->dense, made->size, made->border, count, wanted);
     assert_all_near("S", sparse_schur(factor), wanted, count * count, 1e-12);
+    const double *lower = sparse_schur_lower(factor);   // in the same order: S = L L'
+    for (int32_t j = 0; j < count; j++)
+        for (int32_t i = 0; i < count; i++) {
+            double sum = 0;
+            for (int32_t k = 0; k < count; k++) sum += lower[k * count + i] * lower[k * count + j];
+            assert_near("L L'", sum, wanted[j * count + i], 1e-12);
+            if (i < j) assert_true(lower[j * count + i] == 0);
+        }
     free(wanted);
 }
 

@@ -3,6 +3,8 @@
 // that back after the basis was spoiled within its span.
 #include "bulk/basis_condense.h"
 #include "bulk/basis_extension.h"
+#include "bulk/basis_renew.h"
+#include "bulk/growing_basis.h"
 
 #include "reduced_block.h"
 

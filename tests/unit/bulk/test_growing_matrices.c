@@ -4,6 +4,7 @@
 // against elimination by hand.
 #include "bulk/basis_condense.h"
 #include "bulk/basis_finish.h"
+#include "bulk/growing_basis.h"
 
 #include "base/memory.h"
 #include "reduced_block.h"
