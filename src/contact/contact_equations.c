@@ -98,22 +98,32 @@ void contact_combine(const ContactEquations *equations, const double *x, double 
         out[a] = x[equations->free[a]] + equations->row[a].mu * x[equations->row[a].normal];
 }
 
+static double diagonal_of(const ContactEquations *equations, int32_t a)
+{
+    ContactRow row = equations->row[a];
+    int32_t i = contact_slipping_node(equations, equations->free[a]);
+    double slope = 0;
+    if (i >= 0) friction_of(equations, i, &slope);
+    return slope * equations->at->reaction[row.normal] + row.stiffness;
+}
+
+void contact_diagonal(const ContactEquations *equations, double *out)
+{
+    for (int32_t a = 0; a < equations->free_count; a++) out[a] = diagonal_of(equations, a);
+}
+
+// Of a node's two entries in a column of S one lies beside the other.
 void contact_jacobian(const ContactEquations *equations, const double *matrix, int32_t stride,
                       double *jacobian)
 {
-    const double *reaction = equations->at->reaction;
     int32_t count = equations->problem->interface->count, free_count = equations->free_count;
-    for (int32_t a = 0; a < free_count; a++) {
-        ContactRow row = equations->row[a];
-        int32_t i = contact_slipping_node(equations, equations->free[a]);
-        const double *own = matrix + (int64_t)equations->free[a] * count;   // symmetric
-        const double *normal = matrix + (int64_t)row.normal * count;
-        double *out = jacobian + a, slope = 0;
-        for (int32_t b = 0; b < free_count; b++)
-            out[(int64_t)b * stride] = own[equations->free[b]] +
-                                       row.mu * normal[equations->free[b]];
-        if (i >= 0) friction_of(equations, i, &slope);
-        out[(int64_t)a * stride] += slope * reaction[row.normal] + row.stiffness;
+    const ContactRow *row = equations->row;
+    for (int32_t b = 0; b < free_count; b++) {
+        const double *column = matrix + (int64_t)equations->free[b] * count;
+        double *out = jacobian + (int64_t)b * stride;
+        for (int32_t a = 0; a < free_count; a++)
+            out[a] = column[equations->free[a]] + row[a].mu * column[row[a].normal];
+        out[b] += diagonal_of(equations, b);
     }
 }
 

@@ -28,10 +28,7 @@ bool contact_matrix_create(const double *schur, int32_t count, ContactMatrix *ma
     matrix->closed = memory_bytes(bytes, err);
     matrix->out = NEW_ARRAY(uint8_t, count, err);
     matrix->work = NEW_ARRAY(double, count, err);
-    matrix->factors = memory_bytes(bytes, err);
-    matrix->pivots = NEW_ARRAY(int32_t, count, err);
     matrix->order = NEW_ARRAY(int32_t, SWEEPS_KEPT * (int64_t)count, err);
-    matrix->status = NEW_ARRAY(uint8_t, count, err);
     return error_is_clean(err);
 }
 
@@ -40,10 +37,7 @@ void contact_matrix_destroy(ContactMatrix *matrix)
     memory_free(matrix->closed);
     memory_free(matrix->out);
     memory_free(matrix->work);
-    memory_free(matrix->factors);
-    memory_free(matrix->pivots);
     memory_free(matrix->order);
-    memory_free(matrix->status);
     *matrix = (ContactMatrix){0};
 }
 
@@ -98,7 +92,7 @@ static void repeat_sweeps(ContactMatrix *matrix, int32_t swept, Archive *archive
 
 void contact_matrix_archive(ContactMatrix *matrix, int64_t last, Archive *archive)
 {
-    int32_t swept = matrix->swept, rows = matrix->rows;
+    int32_t swept = matrix->swept;
     int64_t sweeps = matrix->sweeps, factored = matrix->factored == last ? last : 0;
     archive_section(archive, "contact matrix");
     archive_index(archive, &swept, -1, SWEEPS_KEPT * matrix->count + 1);
@@ -106,16 +100,8 @@ void contact_matrix_archive(ContactMatrix *matrix, int64_t last, Archive *archiv
     if (swept > 0) archive_indices(archive, matrix->order, swept, 0, matrix->count);
     archive_count(archive, &sweeps);
     archive_count(archive, &factored);
-    if (factored > 0) {
-        archive_index(archive, &rows, 0, matrix->count + 1);
-        if (archive->failed) return;
-        archive_numbers(archive, matrix->factors, (int64_t)rows * rows);
-        archive_indices(archive, matrix->pivots, rows, 1, rows + 1);
-        archive_octets(archive, matrix->status, matrix->count);
-    }
     if (!archive_reads(archive)) return;
     matrix->factored = factored;
-    matrix->rows = rows;
     matrix->swept = -1;
     if (swept >= 0) repeat_sweeps(matrix, swept, archive);
     matrix->sweeps = sweeps;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The interface matrix S of one step size, with all that the contact keeps of it: S with open
-// nodes condensed out, and the factors of what slips. They live and end with S, so that no other
-// matrix can be mistaken for it. Open nodes O carry no force: their motion follows from the
+// The interface matrix S of one step size, with what the contact keeps of it: S with open nodes
+// condensed out, which lives and ends with S, so that no other matrix can be mistaken for it. Open nodes O carry no force: their motion follows from the
 // others', which meet
 //
 //     S' = S - S_.O S_OO^-1 S_O.
@@ -27,16 +26,11 @@ typedef struct ContactMatrix {
     int32_t swept;   // sweeps since `closed` was copied from S; -1: it is no copy
     int64_t sweeps;   // counted
     int32_t *order;   // [swept] the unknowns swept since then: rounding depends on it
-    // Kept by contact/contact_solver: LU of the derivative, and the statuses that it is for.
-    double *factors;   // [count^2]
-    int32_t *pivots;   // [count]
-    uint8_t *status;   // [contact_count + rod_count <= count] ContactStatus, rod_touches
-    int32_t rows;   // of the derivative
-    int64_t factored;   // which of the solver's factorisations made it; 0: none is kept
+    int64_t factored;   // which of contact/contact_solver's factorisations is of it; 0: none
 } ContactMatrix;
 
 // schur: [count^2]. *matrix is overwritten; on failure contact_matrix_destroy frees what was
-// made. Memory for `closed` and `factors` is taken up as it comes into use.
+// made. Memory for `closed` is taken up as it comes into use.
 bool contact_matrix_create(const double *schur, int32_t count, ContactMatrix *matrix, Error *err);
 void contact_matrix_destroy(ContactMatrix *matrix);
 
@@ -45,8 +39,8 @@ void contact_matrix_destroy(ContactMatrix *matrix);
 const double *contact_matrix_close(ContactMatrix *matrix, const uint8_t *status,
                                    int32_t contact_count);
 
-// What of it a state consists of. last: the solver's last factorisation; those of others are never
-// used again. S is the same already.
+// What of it a state consists of. last: the solver's last factorisation, the one that it keeps. S
+// is the same already.
 void contact_matrix_archive(ContactMatrix *matrix, int64_t last, Archive *archive);
 
 #endif

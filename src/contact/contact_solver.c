@@ -36,12 +36,15 @@ bool contact_solver_create(const Interface *interface, ContactSolverDef def, Con
     solver->more = NEW_ARRAY(double, count, err);
     solver->pull = NEW_ARRAY(double, count, err);
     solver->anchor = NEW_ARRAY(uint8_t, interface->contact_count + interface->rod_count, err);
-    return error_is_clean(err) && contact_path_create(interface, &solver->path, err);
+    solver->factored_status = NEW_ARRAY(uint8_t, count, err);
+    return error_is_clean(err) && contact_factors_create(interface, &solver->factors, err) &&
+           contact_path_create(interface, &solver->path, err);
 }
 
 void contact_solver_destroy(ContactSolver *solver)
 {
     contact_path_destroy(&solver->path);
+    contact_factors_destroy(&solver->factors);
     memory_free(solver->free);
     memory_free(solver->open);
     memory_free(solver->row);
@@ -49,6 +52,7 @@ void contact_solver_destroy(ContactSolver *solver)
     memory_free(solver->more);
     memory_free(solver->pull);
     memory_free(solver->anchor);
+    memory_free(solver->factored_status);
     *solver = (ContactSolver){0};
 }
 
@@ -141,28 +145,49 @@ static bool has_statuses(const Solve *solve, const uint8_t *copy)
                   (size_t)interface_of(solve)->rod_count) == 0;
 }
 
-// The factors of an earlier step still fit: same matrix and statuses. Of the last factorisation
-// only: what was left at another step size is too old to gain a digit a step (on Figure 1 it cost
-// 2 % of Newton's steps more).
-static bool factors_fit(const Solve *solve)
+// What is kept is of this matrix. Of the last factorisation only: what was left at another step
+// size is too old to gain a digit a step (on Figure 1 it cost 2 % of Newton's steps more).
+static bool factors_are_of(const Solve *solve)
 {
-    const ContactMatrix *kept = solve->equations.problem->matrix;
-    return kept->factored > 0 && kept->factored == solve->solver->factorisations &&
-           has_statuses(solve, kept->status);
+    int64_t factored = solve->equations.problem->matrix->factored;
+    return factored > 0 && factored == solve->solver->factorisations;
 }
 
-// false: the derivative is singular.
+// The same nodes are open as when the factors were made, so that S' is the same.
+static bool opens_as_factored(const Solve *solve)
+{
+    const uint8_t *status = solve->equations.at->status, *before = solve->solver->factored_status;
+    for (int32_t i = 0; i < interface_of(solve)->contact_count; i++)
+        if ((status[i] == CONTACT_OPEN) != (before[i] == CONTACT_OPEN)) return false;
+    return true;
+}
+
+// Anew. false: the derivative is singular.
 static bool factor(Solve *solve)
 {
-    ContactMatrix *kept = solve->equations.problem->matrix;
-    int32_t free_count = solve->equations.free_count;
-    contact_jacobian(&solve->equations, solve->closed, free_count, kept->factors);
-    solve->solver->factorisations++;
-    kept->rows = free_count;
-    bool regular = dense_lu(kept->factors, free_count, kept->pivots);
-    kept->factored = regular ? solve->solver->factorisations : 0;
-    copy_statuses(solve, kept->status);
+    ContactSolver *solver = solve->solver;
+    solver->factorisations++;
+    bool regular = contact_factors_make(&solver->factors, &solve->equations, solve->closed);
+    solve->equations.problem->matrix->factored = regular ? solver->factorisations : 0;
     return regular;
+}
+
+// The factors are those of the derivative, or of one with these statuses with which steps still
+// gain. false: the derivative is singular.
+static bool find_factors(Solve *solve)
+{
+    ContactSolver *solver = solve->solver;
+    bool kept = factors_are_of(solve);
+    solve->reused = kept && solver->factors_gain && has_statuses(solve, solver->factored_status);
+    if (solve->reused) return true;
+    if (kept && opens_as_factored(solve) &&
+        contact_factors_update(&solver->factors, &solve->equations, solve->closed))
+        solver->updates++;
+    else if (!factor(solve))
+        return false;
+    solver->factors_gain = true;
+    copy_statuses(solve, solver->factored_status);
+    return true;
 }
 
 // pull = S' r_O: what the forces at open nodes, which shall have none, do to all others when they
@@ -194,15 +219,16 @@ static bool newton_step(Solve *solve)
     double *velocity = equations->at->velocity;
     int32_t count = matrix->count, free_count = equations->free_count;
     solver->iterations++;
-    solve->reused = factors_fit(solve);
-    if (!solve->reused && !factor(solve)) return false;
+    if (!find_factors(solve)) return false;
     memset(solver->more, 0, (size_t)free_count * sizeof(double));
     if (solve->open_count > 0) {
         find_pull(solve);
         contact_combine(equations, solver->pull, solver->more);
     }
     for (int32_t a = 0; a < free_count; a++) solver->step[a] = solver->more[a] - solver->step[a];
-    dense_lu_solve(matrix->factors, free_count, matrix->pivots, solver->step);
+    if (!contact_factors_solve(&solver->factors, equations, solver->step) &&
+        !(factor(solve) && contact_factors_solve(&solver->factors, equations, solver->step)))
+        return false;
     for (int32_t a = 0; a < free_count; a++) {
         int32_t unknown = solver->free[a];
         velocity[unknown] += solver->step[a];
@@ -355,7 +381,7 @@ static bool starts_fast(Solve *solve)
     double direction = status_direction(solve->equations.at->status[node]);
     if (*slip_rate * direction >= 0) return false;
     *slip_rate = direction * friction_spent_speed(friction_at(problem->law, node));
-    problem->matrix->factored = 0;
+    solve->solver->factors_gain = false;
     solve->least = INFINITY;
     solve->stalled = 0;
     solve->listed = false;
@@ -376,7 +402,7 @@ static Progress judge_step(Solve *solve)
     if (!isfinite(residual)) return GIVEN_UP;
     bool equal = residual <= solve->solver->def.tolerance * solve->scales.force;
     if (!equal && solve->reused && residual > CHORD_GAIN * solve->before)
-        problem->matrix->factored = 0;
+        solve->solver->factors_gain = false;
     solve->before = solve->reused ? residual : INFINITY;
     if (!equal && !solve->reused && has_stalled(solve, residual / solve->scales.force))
         return GIVEN_UP;

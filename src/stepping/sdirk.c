@@ -314,11 +314,15 @@ void sdirk_add_energy(const Sdirk *scheme, const StepOutcome *outcome, double st
     ledger->load_work += outcome->load_work;
 }
 
-// Counters: which factors are used again depends on one of them.
+// Counters (whose factors are used again depends on one of them) and what is kept.
 static void solver_archive(ContactSolver *solver, Archive *archive)
 {
     archive_section(archive, "contact solver");
+    contact_factors_archive(&solver->factors, archive);
+    archive_octets(archive, solver->factored_status, solver->factors.count);
+    archive_flag(archive, &solver->factors_gain);
     archive_count(archive, &solver->factorisations);
+    archive_count(archive, &solver->updates);
     archive_count(archive, &solver->solves);
     archive_count(archive, &solver->iterations);
     archive_count(archive, &solver->fallbacks);
