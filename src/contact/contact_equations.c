@@ -6,6 +6,7 @@
 #include "base/dense.h"
 
 #include <math.h>
+#include <string.h>
 
 ContactScales contact_scales(const ContactProblem *problem, const double *reaction)
 {
@@ -14,6 +15,22 @@ ContactScales contact_scales(const ContactProblem *problem, const double *reacti
     if (reaction) force = fmax(force, dense_max_abs(reaction, count));
     if (force == 0) force = 1;
     return (ContactScales){.force = force, .velocity = force / problem->matrix->diagonal};
+}
+
+void contact_copy_statuses(const ContactEquations *equations, uint8_t *copy)
+{
+    const Interface *interface = equations->problem->interface;
+    size_t contacts = (size_t)interface->contact_count;
+    memcpy(copy, equations->at->status, contacts);
+    memcpy(copy + contacts, equations->at->rod_touches, (size_t)interface->rod_count);
+}
+
+bool contact_has_statuses(const ContactEquations *equations, const uint8_t *copy)
+{
+    const Interface *interface = equations->problem->interface;
+    size_t contacts = (size_t)interface->contact_count;
+    return memcmp(copy, equations->at->status, contacts) == 0 &&
+           memcmp(copy + contacts, equations->at->rod_touches, (size_t)interface->rod_count) == 0;
 }
 
 static bool put(double value, double *place)

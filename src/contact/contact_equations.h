@@ -52,6 +52,10 @@ static inline int32_t contact_slipping_node(const ContactEquations *equations, i
     return status_slips(equations->at->status[unknown / 2]) ? unknown / 2 : -1;
 }
 
+// Statuses of nodes and of the rod as one list [contact_count + rod_count], to compare with later.
+void contact_copy_statuses(const ContactEquations *equations, uint8_t *copy);
+bool contact_has_statuses(const ContactEquations *equations, const uint8_t *copy);
+
 // Puts what is held in its place; what is free keeps its velocity. true: some velocity was another.
 bool contact_hold(const ContactEquations *equations);
 

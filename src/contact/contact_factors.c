@@ -25,6 +25,7 @@ bool contact_factors_create(const Interface *interface, ContactFactors *factors,
     factors->normal = NEW_ARRAY(int32_t, count, err);
     factors->mu = NEW_ARRAY(double, count, err);
     factors->beside = NEW_ARRAY(double, count, err);
+    factors->status = NEW_ARRAY(uint8_t, count, err);
     factors->border = NEW_ARRAY(int32_t, room, err);
     factors->z = memory_bytes(8 * count * room, err);
     factors->v = memory_bytes(8 * count * room, err);
@@ -47,6 +48,7 @@ void contact_factors_destroy(ContactFactors *factors)
     memory_free(factors->normal);
     memory_free(factors->mu);
     memory_free(factors->beside);
+    memory_free(factors->status);
     memory_free(factors->border);
     memory_free(factors->z);
     memory_free(factors->v);
@@ -79,6 +81,7 @@ bool contact_factors_make(ContactFactors *factors, const ContactEquations *equat
         factors->normal[a] = equations->row[a].normal;
         factors->mu[a] = equations->row[a].mu;
     }
+    contact_copy_statuses(equations, factors->status);
     find_places(equations->free, rows, factors->count, factors->place);
     find_places(NULL, 0, factors->count, factors->rank);
     factors->border_count = 0;
@@ -155,11 +158,19 @@ static void fill_row(ContactFactors *factors, const ContactEquations *equations,
     *(place >= 0 ? &v[place] : &t[(int64_t)b * borders]) += itself;
 }
 
+static bool same_are_open(const ContactFactors *factors, const ContactEquations *equations)
+{
+    const uint8_t *status = equations->at->status;
+    for (int32_t i = 0; i < equations->problem->interface->contact_count; i++)
+        if ((status[i] == CONTACT_OPEN) != (factors->status[i] == CONTACT_OPEN)) return false;
+    return true;
+}
+
 bool contact_factors_update(ContactFactors *factors, const ContactEquations *equations,
                             const double *matrix)
 {
     int32_t rows = factors->rows;
-    if (rows < ROWS_LEAST) return false;
+    if (rows < ROWS_LEAST || !same_are_open(factors, equations)) return false;
     contact_diagonal(equations, factors->diagonal);
     find_places(equations->free, equations->free_count, factors->count, factors->now);
     if (!find_border(factors, equations, matrix)) return false;
@@ -167,6 +178,7 @@ bool contact_factors_update(ContactFactors *factors, const ContactEquations *equ
     for (int32_t b = 0; b < borders; b++) fill_row(factors, equations, matrix, b);
     dense_multiply_transposed(dense_view(factors->v, rows, borders),
                               dense_view(factors->z, rows, borders), -1, 1, factors->p);
+    contact_copy_statuses(equations, factors->status);
     return dense_lu(factors->p, borders, factors->p_pivots);
 }
 
@@ -204,6 +216,7 @@ bool contact_factors_solve(ContactFactors *factors, const ContactEquations *equa
 void contact_factors_archive(ContactFactors *factors, Archive *archive)
 {
     archive_section(archive, "contact factors");
+    archive_octets(archive, factors->status, factors->count);
     archive_index(archive, &factors->rows, 0, factors->count + 1);
     if (archive_reads(archive)) factors->border_count = 0;
     if (archive->failed || factors->rows == 0) return;

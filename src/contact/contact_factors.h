@@ -28,6 +28,7 @@ typedef struct ContactFactors {
     double *mu;
     double *beside;   // [rows] and what contact_diagonal had
     int32_t rows;   // of J0; 0: none is kept
+    uint8_t *status;   // [contact_count + rod_count] that J is for (contact_copy_statuses)
     int32_t border_count;
     int32_t *border;   // [border_count] unknowns
     double *z;   // [rows * border_count] Z
@@ -47,8 +48,9 @@ void contact_factors_destroy(ContactFactors *factors);
 bool contact_factors_make(ContactFactors *factors, const ContactEquations *equations,
                           const double *matrix);
 
-// The same by a border of what is kept, which must be of the same matrix. false: more has changed
-// than a border is good for, or P is singular; what is kept is of no more use.
+// The same by a border of what is kept, which must be of the same S. false: more has changed than a
+// border is good for, a node opened or closed, which changes all of S', or P is singular; what is
+// kept is of no more use.
 bool contact_factors_update(ContactFactors *factors, const ContactEquations *equations,
                             const double *matrix);
 

@@ -36,7 +36,6 @@ bool contact_solver_create(const Interface *interface, ContactSolverDef def, Con
     solver->more = NEW_ARRAY(double, count, err);
     solver->pull = NEW_ARRAY(double, count, err);
     solver->anchor = NEW_ARRAY(uint8_t, interface->contact_count + interface->rod_count, err);
-    solver->factored_status = NEW_ARRAY(uint8_t, count, err);
     return error_is_clean(err) && contact_factors_create(interface, &solver->factors, err) &&
            contact_path_create(interface, &solver->path, err);
 }
@@ -52,7 +51,6 @@ void contact_solver_destroy(ContactSolver *solver)
     memory_free(solver->more);
     memory_free(solver->pull);
     memory_free(solver->anchor);
-    memory_free(solver->factored_status);
     *solver = (ContactSolver){0};
 }
 
@@ -128,38 +126,12 @@ static bool list_free(Solve *solve)
     return true;
 }
 
-// Statuses of nodes and of the rod as one list [contact_count + rod_count], to compare with later.
-static void copy_statuses(const Solve *solve, uint8_t *copy)
-{
-    size_t contacts = (size_t)interface_of(solve)->contact_count;
-    memcpy(copy, solve->equations.at->status, contacts);
-    memcpy(copy + contacts, solve->equations.at->rod_touches,
-           (size_t)interface_of(solve)->rod_count);
-}
-
-static bool has_statuses(const Solve *solve, const uint8_t *copy)
-{
-    size_t contacts = (size_t)interface_of(solve)->contact_count;
-    return memcmp(copy, solve->equations.at->status, contacts) == 0 &&
-           memcmp(copy + contacts, solve->equations.at->rod_touches,
-                  (size_t)interface_of(solve)->rod_count) == 0;
-}
-
 // What is kept is of this matrix. Of the last factorisation only: what was left at another step
 // size is too old to gain a digit a step (on Figure 1 it cost 2 % of Newton's steps more).
 static bool factors_are_of(const Solve *solve)
 {
     int64_t factored = solve->equations.problem->matrix->factored;
     return factored > 0 && factored == solve->solver->factorisations;
-}
-
-// The same nodes are open as when the factors were made, so that S' is the same.
-static bool opens_as_factored(const Solve *solve)
-{
-    const uint8_t *status = solve->equations.at->status, *before = solve->solver->factored_status;
-    for (int32_t i = 0; i < interface_of(solve)->contact_count; i++)
-        if ((status[i] == CONTACT_OPEN) != (before[i] == CONTACT_OPEN)) return false;
-    return true;
 }
 
 // Anew. false: the derivative is singular.
@@ -178,15 +150,14 @@ static bool find_factors(Solve *solve)
 {
     ContactSolver *solver = solve->solver;
     bool kept = factors_are_of(solve);
-    solve->reused = kept && solver->factors_gain && has_statuses(solve, solver->factored_status);
+    solve->reused = kept && solver->factors_gain &&
+                    contact_has_statuses(&solve->equations, solver->factors.status);
     if (solve->reused) return true;
-    if (kept && opens_as_factored(solve) &&
-        contact_factors_update(&solver->factors, &solve->equations, solve->closed))
+    if (kept && contact_factors_update(&solver->factors, &solve->equations, solve->closed))
         solver->updates++;
     else if (!factor(solve))
         return false;
     solver->factors_gain = true;
-    copy_statuses(solve, solver->factored_status);
     return true;
 }
 
@@ -351,10 +322,11 @@ static void note_statuses(Solve *solve)
 {
     solve->least = INFINITY;
     solve->stalled = 0;
-    if (solve->changes > 0 && has_statuses(solve, solve->solver->anchor)) change_one(solve);
+    if (solve->changes > 0 && contact_has_statuses(&solve->equations, solve->solver->anchor))
+        change_one(solve);
     if (solve->changes++ < 2 * solve->anchored) return;
     solve->anchored = solve->changes;
-    copy_statuses(solve, solve->solver->anchor);
+    contact_copy_statuses(&solve->equations, solve->solver->anchor);
 }
 
 // Newton's own steps no longer reduce the residual of these statuses: where friction weakens they

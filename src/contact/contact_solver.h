@@ -38,8 +38,7 @@ typedef struct ContactSolver {
     double *pull;   // [count] work: what forces at open nodes do to the others; owned
     uint8_t *anchor;   // [contact_count + rod_count] work: statuses met before; owned
     ContactFactors factors;   // of the last derivative; owned
-    uint8_t *factored_status;   // [count] statuses that it was made for; owned
-    bool factors_gain;   // and steps with it have gained a digit since
+    bool factors_gain;   // steps with them have gained a digit since
     int64_t factorisations;   // counted, derivatives factored anew
     int64_t updates;   // counted, derivatives that had factors brought up to date
     int64_t solves;   // counted

@@ -319,7 +319,6 @@ static void solver_archive(ContactSolver *solver, Archive *archive)
 {
     archive_section(archive, "contact solver");
     contact_factors_archive(&solver->factors, archive);
-    archive_octets(archive, solver->factored_status, solver->factors.count);
     archive_flag(archive, &solver->factors_gain);
     archive_count(archive, &solver->factorisations);
     archive_count(archive, &solver->updates);

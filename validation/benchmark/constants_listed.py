@@ -49,6 +49,7 @@ def of(file, *rows):
 
 HERE = "this table"   # where a value comes from
 FAR_FIELD = "validation/benchmark/far_field.py"
+STEPPING = "validation/benchmark/stepping.md"
 CONSTANTS = [
     *of("contact/contact_solver.c",
         ("iterations_all", "Newton steps in which every broken status changes", HERE),
@@ -69,6 +70,10 @@ CONSTANTS = [
         ("CORRECTIONS", "Newton steps back onto the path", HERE),
         ("TRIALS", "points tried in a step", HERE),
         ("STARTS", "pressures and rod statuses tried at the start", HERE)),
+    *of("contact/contact_factors.c",
+        ("BORDER_PART", "border of kept factors, of their rows, beyond which they are made anew", STEPPING),
+        ("ROWS_LEAST", "rows from which on factors are bordered", STEPPING),
+        ("CANCELLED", "digits that a border may lose", "rounding, with room")),
     *of("contact/contact_matrix.c",
         ("SWEEPS_EACH", "sweeps of each node before a copy is renewed (time and rounding)", HERE),
         ("SINGULAR", "pivot, of its diagonal entry, below which nothing holds an open body", HERE)),

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// J^-1 x by factors that follow J as its rows change, against the derivative itself (the tests of
+// contact/contact_equations have it against differences); problems solved with them.
+#define HAND_NODES 80
+
+#include "contact/contact_factors.h"
+
+#include "base/dense.h"
+#include "contact_by_hand.h"
+
+enum { OPEN = 20, RODS = 2, COUNT = 2 * HAND_NODES + RODS };
+
+typedef struct Rig {
+    HandContact hand;
+    ContactMatrix matrix;
+    ContactProblem problem;
+    ContactSolution at;
+    ContactEquations equations;
+    int32_t free[COUNT];
+    ContactRow row[COUNT];
+    ContactFactors factors;
+} Rig;
+
+static const double softness[RODS] = {0.5, 0};
+
+// Slow slip and fast, pressed nodes, v_c = 1.
+static void make_rig(Random *random, double coupling, Rig *rig)
+{
+    Error err = {0};
+    HandContact *hand = &rig->hand;
+    hand_contact_size(hand, HAND_NODES, RODS);
+    hand->law = (FrictionLaw){.kind = FRICTION_LINEAR_WEAKENING,
+                              .mu_static = 0.6,
+                              .mu_kinetic = 0.2,
+                              .critical_velocity = 1};
+    hand->rod_softness = softness;
+    hand->rod_reach = 0.5;
+    hand_random_schur(random, 1, coupling, hand);
+    assert_true(contact_matrix_create(hand->schur, COUNT, &rig->matrix, &err));
+    rig->problem = hand_problem(hand, &rig->matrix);
+    rig->at = (ContactSolution){hand->velocity, hand->reaction, hand->status, hand->rod_touches};
+    rig->equations = (ContactEquations){&rig->problem, &rig->at, NULL, rig->free, 0, rig->row};
+    for (int32_t k = 0; k < COUNT; k++) {
+        hand->velocity[k] = random_between(random, 0.1, 4);
+        hand->reaction[k] = random_between(random, 0, 0.2);
+    }
+    for (int32_t i = 0; i < HAND_NODES; i++)
+        hand->status[i] = i < OPEN ? CONTACT_OPEN : CONTACT_SLIP_FORWARD;
+    assert_true(contact_factors_create(&hand->interface, &rig->factors, &err));
+}
+
+static void end_rig(Rig *rig)
+{
+    contact_factors_destroy(&rig->factors);
+    contact_matrix_destroy(&rig->matrix);
+}
+
+// Open nodes are free here, as S is that of all.
+static void list_free(Rig *rig)
+{
+    int32_t count = 0;
+    for (int32_t i = 0; i < HAND_NODES; i++) {
+        if (rig->at.status[i] != CONTACT_STICK) rig->free[count++] = 2 * i;
+        if (rig->at.status[i] == CONTACT_OPEN) rig->free[count++] = 2 * i + 1;
+    }
+    for (int32_t j = 0; j < RODS; j++)
+        if (!rig->at.rod_touches[j] || softness[j] > 0) rig->free[count++] = 2 * HAND_NODES + j;
+    rig->equations.free_count = count;
+    contact_find_rows(&rig->equations);
+}
+
+// Another status, speed or pressing force at a node that is closed, or a rod node that comes or
+// goes.
+static void change_something(Random *random, Rig *rig)
+{
+    int32_t i = OPEN + random_index(random, HAND_NODES - OPEN), what = random_index(random, 8);
+    if (what == 0) rig->at.rod_touches[i % RODS] = !rig->at.rod_touches[i % RODS];
+    if (what == 1) rig->at.reaction[2 * i + 1] = random_between(random, 0, 0.2);
+    if (what == 2 || what == 3) rig->at.velocity[2 * i] = random_between(random, 0.1, 4);
+    if (what > 3) rig->at.status[i] = (uint8_t)(CONTACT_STICK + random_index(random, 3));
+    if (what > 5) rig->at.status[i] = CONTACT_SLIP_FORWARD;
+    rig->at.velocity[2 * i] =
+        copysign(rig->at.velocity[2 * i], rig->at.status[i] == CONTACT_SLIP_BACKWARD ? -1 : 1);
+}
+
+static void expect_solves(Random *random, Rig *rig)
+{
+    static double jacobian[COUNT * COUNT];
+    double right[COUNT], x[COUNT];
+    int32_t rows = rig->equations.free_count;
+    contact_jacobian(&rig->equations, rig->hand.schur, rows, jacobian);
+    for (int32_t a = 0; a < rows; a++) x[a] = right[a] = random_between(random, -1, 1);
+    assert_true(contact_factors_solve(&rig->factors, &rig->equations, x));
+    for (int32_t a = 0; a < rows; a++) {
+        double sum = 0;
+        for (int32_t b = 0; b < rows; b++) sum += jacobian[b * rows + a] * x[b];
+        assert_near("J x", sum, right[a], 1e-10);
+    }
+}
+
+// One thing changes after the other, and some change back; factored anew when told so.
+static void test_follows(void **state)
+{
+    (void)state;
+    static Rig rig;
+    Random random = {.state = 3};
+    int32_t updated = 0, anew = 0, widest = 0;
+    make_rig(&random, 0.5, &rig);
+    for (int32_t trial = 0; trial < 600; trial++) {
+        change_something(&random, &rig);
+        list_free(&rig);
+        if (contact_factors_update(&rig.factors, &rig.equations, rig.hand.schur)) {
+            updated++;
+        } else {
+            assert_true(contact_factors_make(&rig.factors, &rig.equations, rig.hand.schur));
+            anew++;
+        }
+        if (rig.factors.border_count > widest) widest = rig.factors.border_count;
+        expect_solves(&random, &rig);
+    }
+    assert_in_range(anew, 5, 40);
+    assert_int_equal(updated + anew, 600);
+    assert_in_range(widest, 10, 20);   // 0.2 of 80 rows or so
+    end_rig(&rig);
+}
+
+// Where a node opens S' is another, and so is every row.
+static void test_opens(void **state)
+{
+    (void)state;
+    static Rig rig;
+    Random random = {.state = 7};
+    make_rig(&random, 0.5, &rig);
+    list_free(&rig);
+    assert_true(contact_factors_make(&rig.factors, &rig.equations, rig.hand.schur));
+    assert_true(contact_factors_update(&rig.factors, &rig.equations, rig.hand.schur));
+    assert_int_equal(rig.factors.border_count, 0);
+    rig.at.status[OPEN] = CONTACT_OPEN;
+    list_free(&rig);
+    assert_false(contact_factors_update(&rig.factors, &rig.equations, rig.hand.schur));
+    end_rig(&rig);
+}
+
+// Read back they give the same bits, and follow on to the same bits.
+static void test_archive(void **state)
+{
+    (void)state;
+    static Rig rig;
+    static char bytes[4 * 8 * COUNT * COUNT];
+    Error err = {0};
+    Random random = {.state = 4};
+    ContactFactors copy;
+    make_rig(&random, 0.5, &rig);
+    assert_true(contact_factors_create(&rig.hand.interface, &copy, &err));
+    list_free(&rig);
+    assert_true(contact_factors_make(&rig.factors, &rig.equations, rig.hand.schur));
+    for (int32_t trial = 0; trial < 16; trial++) {
+        change_something(&random, &rig);
+        list_free(&rig);
+        assert_true(contact_factors_update(&rig.factors, &rig.equations, rig.hand.schur));
+        if (trial > 8) assert_true(contact_factors_update(&copy, &rig.equations, rig.hand.schur));
+        if (trial == 8) {
+            Archive archive = archive_write(bytes, sizeof bytes);
+            contact_factors_archive(&rig.factors, &archive);
+            archive = archive_read(bytes, archive.at);
+            contact_factors_archive(&copy, &archive);
+            assert_true(archive_check(&archive, true, &err));
+        }
+        if (trial < 8) continue;
+        double x[COUNT], y[COUNT];
+        for (int32_t a = 0; a < COUNT; a++) x[a] = y[a] = random_between(&random, -1, 1);
+        assert_true(contact_factors_solve(&rig.factors, &rig.equations, x));
+        assert_true(contact_factors_solve(&copy, &rig.equations, y));
+        assert_memory_equal(x, y, sizeof x);
+    }
+    assert_true(rig.factors.border_count > 2);
+    contact_factors_destroy(&copy);
+    end_rig(&rig);
+}
+
+// Two rod nodes that S can hardly tell from each other are nearly singular while both are free.
+// Once one has its spring J is not, but what was factored has lost nine digits: it says so.
+static void test_cancels(void **state)
+{
+    (void)state;
+    static Rig rig;
+    static const double both_soft[RODS] = {0.5, 0.5};
+    Random random = {.state = 5};
+    double x[COUNT], kept[COUNT];
+    int32_t rods = 2 * HAND_NODES;
+    make_rig(&random, 0.5, &rig);
+    rig.problem.rod_softness = both_soft;
+    memset(rig.hand.schur, 0, sizeof rig.hand.schur);
+    for (int32_t k = 0; k < COUNT; k++) rig.hand.schur[k * COUNT + k] = 1;
+    rig.hand.schur[rods * COUNT + rods + 1] = rig.hand.schur[(rods + 1) * COUNT + rods] = 1 - 1e-9;
+    for (int32_t a = 0; a < COUNT; a++) kept[a] = x[a] = random_between(&random, 0.5, 1);
+    list_free(&rig);
+    assert_true(contact_factors_make(&rig.factors, &rig.equations, rig.hand.schur));
+    rig.at.rod_touches[0] = 1;
+    list_free(&rig);
+    assert_true(contact_factors_update(&rig.factors, &rig.equations, rig.hand.schur));
+    assert_false(contact_factors_solve(&rig.factors, &rig.equations, x));
+    assert_memory_equal(x, kept, sizeof x);
+    assert_true(contact_factors_make(&rig.factors, &rig.equations, rig.hand.schur));
+    expect_solves(&random, &rig);
+    end_rig(&rig);
+}
+
+// Loads that change a little from one problem to the next: solved from where the last one ended.
+static void test_solver(void **state)
+{
+    (void)state;
+    static Rig rig;
+    Error err = {0};
+    Random random = {.state = 6};
+    ContactSolver solver;
+    make_rig(&random, 0.05, &rig);
+    HandContact *hand = &rig.hand;
+    hand->law.kind = FRICTION_COULOMB;   // statuses alone change
+    assert_true(contact_solver_create(&hand->interface, contact_solver_def(), &solver, &err));
+    for (int32_t k = 0; k < COUNT; k++)
+        hand->g[k] = k >= 2 * HAND_NODES ? 0 : k % 2 ? -1 : random_between(&random, 0.2, 3);
+    int64_t allocations = memory_counters().allocations;
+    for (int32_t round = 0; round < 200; round++) {
+        hand->g[2 * random_index(&random, HAND_NODES)] = random_between(&random, 0.2, 3);
+        assert_true(contact_solve(&solver, &rig.problem, &rig.at));
+        assert_near("judged", hand_contact_error(hand), 0, 1e-10);
+    }
+    assert_int_equal(memory_counters().allocations, allocations);
+    assert_true(solver.updates > 4 * solver.factorisations);
+    contact_solver_destroy(&solver);
+    end_rig(&rig);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_follows), cmocka_unit_test(test_opens),
+                                       cmocka_unit_test(test_archive),
+                                       cmocka_unit_test(test_cancels),
+                                       cmocka_unit_test(test_solver)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
