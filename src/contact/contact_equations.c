@@ -129,18 +129,19 @@ void contact_diagonal(const ContactEquations *equations, double *out)
     for (int32_t a = 0; a < equations->free_count; a++) out[a] = diagonal_of(equations, a);
 }
 
-// Of a node's two entries in a column of S one lies beside the other.
 void contact_jacobian(const ContactEquations *equations, const double *matrix, int32_t stride,
                       double *jacobian)
 {
     int32_t count = equations->problem->interface->count, free_count = equations->free_count;
-    const ContactRow *row = equations->row;
-    for (int32_t b = 0; b < free_count; b++) {
-        const double *column = matrix + (int64_t)equations->free[b] * count;
-        double *out = jacobian + (int64_t)b * stride;
-        for (int32_t a = 0; a < free_count; a++)
-            out[a] = column[equations->free[a]] + row[a].mu * column[row[a].normal];
-        out[b] += diagonal_of(equations, b);
+    for (int32_t a = 0; a < free_count; a++) {
+        ContactRow row = equations->row[a];
+        const double *own = matrix + (int64_t)equations->free[a] * count;   // symmetric
+        const double *normal = matrix + (int64_t)row.normal * count;
+        double *out = jacobian + a;
+        for (int32_t b = 0; b < free_count; b++)
+            out[(int64_t)b * stride] = own[equations->free[b]] +
+                                       row.mu * normal[equations->free[b]];
+        out[(int64_t)a * stride] += diagonal_of(equations, a);
     }
 }
 

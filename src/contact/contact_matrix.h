@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The interface matrix S of one step size, with what the contact keeps of it: S with open nodes
-// condensed out, which lives and ends with S, so that no other matrix can be mistaken for it. Open nodes O carry no force: their motion follows from the
-// others', which meet
+// condensed out, which lives and ends with S, so that no other matrix can be mistaken for it. Open
+// nodes O carry no force: their motion follows from the others', which meet
 //
 //     S' = S - S_.O S_OO^-1 S_O.
 //

@@ -6,11 +6,12 @@
 // against its own conditions and changed where it violates them. Open nodes are condensed out
 // (contact/contact_matrix). The linear system is dense and unsymmetric; its factors are kept and
 // used again (by the next iteration, stage or step) while statuses stay and they still gain a digit
-// a step, and brought up to date where few rows have changed (contact/contact_factors). When statuses cycle, only the worst one is changed at a time; when
-// that does not settle either, or the residual no longer falls, a path to a solution is followed
-// (contact/contact_path): there is one, as S is positive definite and mu bounded and continuous.
-// Where even that is not found, or the caller prefers a shorter step to a path, the problem counts
-// as unsolved and the caller must take a shorter step. Called by stepping/sdirk.
+// a step, and brought up to date where few rows have changed (contact/contact_factors). When
+// statuses cycle, only the worst one is changed at a time; when that does not settle either, or the
+// residual no longer falls, a path to a solution is followed (contact/contact_path): there is one,
+// as S is positive definite and mu bounded and continuous. Where even that is not found, or the
+// caller prefers a shorter step to a path, the problem counts as unsolved and the caller must take
+// a shorter step. Called by stepping/sdirk.
 #ifndef AMONTONS_CONTACT_CONTACT_SOLVER_H
 #define AMONTONS_CONTACT_CONTACT_SOLVER_H
 
