@@ -15,6 +15,9 @@
 static const int32_t SWEEPS_EACH = 8;
 // Of an unknown, at most, before the copy is renewed: those, and one of each after the last look.
 enum { SWEEPS_KEPT = 9 };
+// Unknowns that are swept together, and interface unknowns from which on they are: S' then comes
+// from memory once for all of them.
+enum { TOGETHER = 16, TOGETHER_FROM = 256 };
 // Part of its diagonal entry that is left of an unknown when the others of O are held, at least: a
 // body that nothing holds has 0, up to rounding; one that a step's mass holds has far more.
 static const double SINGULAR = 1e-8;
@@ -27,7 +30,7 @@ bool contact_matrix_create(const double *schur, int32_t count, ContactMatrix *ma
         matrix->diagonal = fmax(matrix->diagonal, schur[k * count + k]);
     matrix->closed = memory_bytes(bytes, err);
     matrix->out = NEW_ARRAY(uint8_t, count, err);
-    matrix->work = NEW_ARRAY(double, count, err);
+    matrix->work = NEW_ARRAY(double, 3 * TOGETHER * (int64_t)count, err);
     matrix->order = NEW_ARRAY(int32_t, SWEEPS_KEPT * (int64_t)count, err);
     return error_is_clean(err);
 }
@@ -51,16 +54,60 @@ static void renew_copy(ContactMatrix *matrix)
 
 // A pivot below its part of S's own entry would leave, swept back, only the digits that it has more
 // than rounding: false, and the copy is of no more use.
-static bool sweep_unknown(ContactMatrix *matrix, int32_t k)
+static bool pivot_holds(const ContactMatrix *matrix, int32_t k, double pivot)
 {
     int64_t entry = (int64_t)k * (matrix->count + 1);
-    double pivot = matrix->closed[entry];
-    bool back = matrix->out[k];
-    if (back ? !(pivot < 0) : !(pivot > SINGULAR * matrix->schur[entry])) return false;
-    if (!dense_sweep(matrix->closed, matrix->count, k, back, matrix->work)) return false;
-    matrix->out[k] = !back;
-    matrix->order[matrix->swept++] = k;
+    return matrix->out[k] ? pivot < 0 : pivot > SINGULAR * matrix->schur[entry];
+}
+
+static void note_sweep(ContactMatrix *matrix, int32_t k, bool first)
+{
+    matrix->out[k] = !matrix->out[k];
+    matrix->order[matrix->swept++] = first ? ~k : k;
     matrix->sweeps++;
+}
+
+// The columns of what is swept, `now`, follow each sweep; what each takes from the rest, was was'/
+// pivot, is taken for all at once.
+static bool sweep_columns(ContactMatrix *matrix, const int32_t *list, int32_t length)
+{
+    int64_t n = matrix->count;
+    double *now = matrix->work, *was = now + TOGETHER * n, *over = was + TOGETHER * n;
+    for (int32_t t = 0; t < length; t++)
+        memcpy(now + t * n, matrix->closed + list[t] * n, (size_t)n * sizeof(double));
+    for (int32_t t = 0; t < length; t++) {
+        int32_t k = list[t];
+        double *own = now + t * n, *column = was + t * n, pivot = own[k];
+        double sign = matrix->out[k] ? -1 : 1;
+        if (!pivot_holds(matrix, k, pivot)) return false;
+        memcpy(column, own, (size_t)n * sizeof(double));
+        for (int64_t i = 0; i < n; i++) over[i * length + t] = column[i] / pivot;
+        for (int32_t s = 0; s < length; s++) {
+            double factor = column[list[s]] / pivot;
+            if (s != t) dense_add_scaled(-factor, column, matrix->count, now + s * n);
+            now[s * n + k] = sign * factor;
+        }
+        for (int64_t i = 0; i < n; i++) own[i] = sign * column[i] / pivot;
+        own[k] = -1 / pivot;
+        note_sweep(matrix, k, t == 0);
+    }
+    dense_multiply(dense_view(was, n, length), dense_view(over, length, n), -1, 1, matrix->closed);
+    for (int32_t t = 0; t < length; t++) {
+        memcpy(matrix->closed + list[t] * n, now + t * n, (size_t)n * sizeof(double));
+        for (int64_t i = 0; i < n; i++) matrix->closed[i * n + list[t]] = now[t * n + i];
+    }
+    return true;
+}
+
+// Distinct unknowns. One alone costs least by itself.
+static bool sweep_unknowns(ContactMatrix *matrix, const int32_t *list, int32_t length)
+{
+    if (length > 1) return sweep_columns(matrix, list, length);
+    if (length == 0) return true;
+    int32_t k = list[0];
+    if (!pivot_holds(matrix, k, matrix->closed[(int64_t)k * (matrix->count + 1)])) return false;
+    if (!dense_sweep(matrix->closed, matrix->count, k, matrix->out[k], matrix->work)) return false;
+    note_sweep(matrix, k, true);
     return true;
 }
 
@@ -69,24 +116,29 @@ const double *contact_matrix_close(ContactMatrix *matrix, const uint8_t *status,
 {
     if (!memchr(status, CONTACT_OPEN, (size_t)contact_count)) return matrix->schur;
     if (matrix->swept < 0 || matrix->swept > 2 * SWEEPS_EACH * contact_count) renew_copy(matrix);
-    for (int32_t i = 0; i < contact_count; i++) {
-        int32_t unknowns[] = {interface_tangent(i), interface_normal(i)};
-        for (int32_t a = 0; a < 2; a++) {
-            bool open = status[i] == CONTACT_OPEN;
-            if (open == matrix->out[unknowns[a]] || sweep_unknown(matrix, unknowns[a])) continue;
-            matrix->swept = -1;
-            return NULL;
-        }
+    int32_t list[TOGETHER], length = 0, most = matrix->count < TOGETHER_FROM ? 1 : TOGETHER;
+    bool holds = true;
+    for (int32_t k = 0; k < 2 * contact_count && holds; k++) {
+        if ((status[k / 2] == CONTACT_OPEN) != matrix->out[k]) list[length++] = k;
+        if (length < most && k + 1 < 2 * contact_count) continue;
+        holds = sweep_unknowns(matrix, list, length);
+        length = 0;
     }
-    return matrix->closed;
+    if (!holds) matrix->swept = -1;
+    return holds ? matrix->closed : NULL;
 }
 
 // The same sweeps of the same S in the same order: the copy to the last bit, in far less room.
 static void repeat_sweeps(ContactMatrix *matrix, int32_t swept, Archive *archive)
 {
     renew_copy(matrix);
-    for (int32_t k = 0; k < swept && !archive->failed; k++) {
-        if (!sweep_unknown(matrix, matrix->order[k])) archive->failed = true;
+    while (matrix->swept < swept && !archive->failed) {
+        int32_t list[TOGETHER], length = 0, k = matrix->swept;
+        do {
+            int32_t unknown = matrix->order[k++];
+            list[length++] = unknown < 0 ? ~unknown : unknown;
+        } while (k < swept && matrix->order[k] >= 0 && length < TOGETHER);
+        if (!sweep_unknowns(matrix, list, length)) archive->failed = true;
     }
 }
 
@@ -97,7 +149,7 @@ void contact_matrix_archive(ContactMatrix *matrix, int64_t last, Archive *archiv
     archive_section(archive, "contact matrix");
     archive_index(archive, &swept, -1, SWEEPS_KEPT * matrix->count + 1);
     if (archive->failed) return;
-    if (swept > 0) archive_indices(archive, matrix->order, swept, 0, matrix->count);
+    if (swept > 0) archive_indices(archive, matrix->order, swept, -matrix->count, matrix->count);
     archive_count(archive, &sweeps);
     archive_count(archive, &factored);
     if (!archive_reads(archive)) return;

@@ -22,10 +22,11 @@ typedef struct ContactMatrix {
     double diagonal;   // the largest entry on the diagonal of S
     double *closed;   // [count^2] S swept on `out`, both triangles; owned, like all that follows
     uint8_t *out;   // [count] 1: the unknown is swept
-    double *work;   // [count]
+    double *work;   // [48 count]
     int32_t swept;   // sweeps since `closed` was copied from S; -1: it is no copy
     int64_t sweeps;   // counted
-    int32_t *order;   // [swept] the unknowns swept since then: rounding depends on it
+    int32_t *order;   // [swept] the unknowns swept since then, ~k where others are swept together
+        // with k: rounding depends on it
     int64_t factored;   // which of contact/contact_solver's factorisations is of it; 0: none
 } ContactMatrix;
 

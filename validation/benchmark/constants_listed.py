@@ -263,7 +263,8 @@ NOT_A_CHOICE = {
     "model/assemble.c": {"NODE_BYTES": "memory"},
     "stepping/growth.c": {"NO_RATE": "rounding, with room: 0 that is not 0"},
     "bulk/machine.c": {"LOOSE": "rounding, with room: a matrix that must not be singular"},
-    "contact/contact_matrix.c": {"SWEEPS_KEPT": SIZE},
+    "contact/contact_matrix.c": {"SWEEPS_KEPT": SIZE, "TOGETHER": "unknowns swept at once: time alone",
+                                 "TOGETHER_FROM": "rows from which on that pays"},
     "model/far_cache.c": {"COUNTS": "stored"},
     "model/shape_cache.c": {"NAME_NUMBERS": "stored", "BASIS_NUMBERS": "stored", "COUNTS": "stored"},
     "model/model.c": {

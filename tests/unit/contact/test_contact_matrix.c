@@ -2,6 +2,7 @@
 // S with open nodes condensed out, however it was reached, against an elimination from S itself.
 #include "contact/contact_matrix.h"
 
+#include "base/dense.h"
 #include "base/memory.h"
 #include "contact_by_hand.h"
 
@@ -88,6 +89,51 @@ static void test_sweeps_little(void **state)
     contact_matrix_destroy(&matrix);
 }
 
+// A large one, many of whose nodes open and close at once: what was swept together against the
+// equations S' stands for, S (v_O, 1_k) = (0, S'_k), and read back to the last bit.
+static void test_together(void **state)
+{
+    (void)state;
+    enum { MANY = 140, SIZE = 2 * MANY, TURNS = 12 };
+    static double s[SIZE * SIZE], b[SIZE * SIZE];
+    static char bytes[8 * SIZE * 40];
+    static uint8_t status[MANY];
+    Error err = {0};
+    Random random = {.state = 21};
+    ContactMatrix matrix, copy;
+    for (int k = 0; k < SIZE * SIZE; k++) b[k] = random_between(&random, -1, 1);
+    dense_add_square(dense_view(b, SIZE, SIZE), s);
+    for (int j = 0; j < SIZE; j++)
+        for (int i = j; i < SIZE; i++) s[j * SIZE + i] = s[i * SIZE + j] += i == j ? 20 : 0;
+    assert_true(contact_matrix_create(s, SIZE, &matrix, &err));
+    assert_true(contact_matrix_create(s, SIZE, &copy, &err));
+    for (int turn = 0; turn < TURNS; turn++) {
+        for (int i = 0; i < MANY; i++)
+            if (random_index(&random, 1 + turn) == 0) status[i] = (uint8_t)random_index(&random, 3);
+        const double *closed = contact_matrix_close(&matrix, status, MANY);
+        assert_non_null(closed);
+        for (int k = 0; k < SIZE; k++) {
+            if (status[k / 2] == CONTACT_OPEN) continue;
+            for (int i = 0; i < SIZE; i++) {
+                double force = s[k * SIZE + i];
+                for (int j = 0; j < SIZE; j++)
+                    if (status[j / 2] == CONTACT_OPEN)
+                        force -= s[j * SIZE + i] * closed[k * SIZE + j];
+                double wanted = status[i / 2] == CONTACT_OPEN ? 0 : closed[k * SIZE + i];
+                assert_near("S'", force, wanted, 1e-10 * s[0]);
+            }
+        }
+    }
+    Archive archive = archive_write(bytes, sizeof bytes);
+    contact_matrix_archive(&matrix, 0, &archive);
+    archive = archive_read(bytes, archive.at);
+    contact_matrix_archive(&copy, 0, &archive);
+    assert_true(archive_check(&archive, true, &err));
+    assert_memory_equal(copy.closed, matrix.closed, sizeof s);
+    contact_matrix_destroy(&matrix);
+    contact_matrix_destroy(&copy);
+}
+
 // All normals move as one but for springs of `hold`: with all nodes open there is nothing else that
 // holds them. Where nothing holds them nothing is left behind in what is asked for next.
 static void test_floating(void **state)
@@ -138,9 +184,8 @@ static void test_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_any_order),
-        cmocka_unit_test(test_sweeps_little),
-        cmocka_unit_test(test_floating),
+        cmocka_unit_test(test_any_order), cmocka_unit_test(test_sweeps_little),
+        cmocka_unit_test(test_together),  cmocka_unit_test(test_floating),
         cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
