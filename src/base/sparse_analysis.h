@@ -31,7 +31,6 @@ struct SparseFactor {
     cholmod_factor *numeric;
     double *border_factor;   // L_bb
     double *schur;   // S
-    double *border_work;   // [border_count]
 };
 
 #endif

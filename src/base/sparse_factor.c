@@ -60,8 +60,7 @@ SparseFactor *sparse_factorise(SparseAnalysis *analysis, const double *values, E
     factor->analysis = analysis;
     factor->border_factor = NEW_ARRAY(double, count *count, err);
     factor->schur = NEW_ARRAY(double, count *count, err);
-    factor->border_work = NEW_ARRAY(double, count, err);
-    if (!factor->border_factor || !factor->schur || !factor->border_work) goto cleanup;
+    if (!factor->border_factor || !factor->schur) goto cleanup;
 
     factor->numeric = analysis->spare ? analysis->spare
                                       : cholmod_copy_factor(analysis->symbolic, common);
@@ -94,7 +93,6 @@ void sparse_factor_destroy(SparseFactor *factor)
     if (factor->analysis) cholmod_free_factor(&factor->numeric, &factor->analysis->common);
     memory_free(factor->border_factor);
     memory_free(factor->schur);
-    memory_free(factor->border_work);
     memory_free(factor);
 }
 
@@ -122,10 +120,8 @@ bool sparse_condense(SparseFactor *factor, const double *rhs, double *g, Error *
                         NULL, &analysis->work_y, &analysis->work_e, &analysis->common))
         FAIL(err, ERROR_MEMORY, "CHOLMOD: the forward substitution failed (status %d)",
              analysis->common.status);
-    double *border = factor->border_work;
-    memcpy(border, (double *)analysis->forward->x + (size - count), (size_t)count * sizeof *border);
-    dense_lower_apply(factor->border_factor, count, border);
-    memcpy(g, border, (size_t)count * sizeof *border);
+    memcpy(g, (double *)analysis->forward->x + (size - count), (size_t)count * sizeof *g);
+    dense_lower_apply(factor->border_factor, count, g);
 cleanup:
     return error_is_clean(err);
 }
@@ -137,10 +133,9 @@ bool sparse_expand(SparseFactor *factor, const double *x_border, double *x, Erro
     SparseAnalysis *analysis = factor->analysis;
     const int32_t *permutation = factor->numeric->Perm;
     int32_t size = (int32_t)factor->numeric->n, count = analysis->border_count;
-    double *border = factor->border_work;
+    double *border = (double *)analysis->forward->x + (size - count);
     memcpy(border, x_border, (size_t)count * sizeof *border);
     dense_lower_apply_transposed(factor->border_factor, count, border);
-    memcpy((double *)analysis->forward->x + (size - count), border, (size_t)count * sizeof *border);
     cholmod_dense *solution = analysis->permuted;
     if (!cholmod_solve2(CHOLMOD_Lt, factor->numeric, analysis->forward, NULL, &solution, NULL,
                         &analysis->work_y, &analysis->work_e, &analysis->common))
