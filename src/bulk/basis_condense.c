@@ -5,6 +5,7 @@
 #include "base/dense.h"
 #include "base/memory.h"
 #include "base/share.h"
+
 #include <string.h>
 
 enum {

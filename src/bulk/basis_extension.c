@@ -32,7 +32,7 @@ bool extension_create(const GrowingBasis *basis, int64_t answers, int64_t count,
     *x = (Extension){.m = m, .count = count, .added = added};
     for (int term = 0; term < BULK_TERMS; term++) {
         x->gram[term] = NEW_ARRAY(double, answers *added, err);
-        x->beside[term] = NEW_ARRAY(double, m *added, err);
+        if (term != BULK_STIFFNESS) x->beside[term] = NEW_ARRAY(double, m *added, err);
         x->old[term] = NEW_ARRAY(double, count *added, err);
         x->own[term] = NEW_ARRAY(double, added *added, err);
     }
@@ -177,6 +177,7 @@ bool extension_take_up(GrowingBasis *basis, const Extension *x, Error *err)
 cleanup:
     return error_is_clean(err);
 }
+
 // a [rows * added] := a R, R [added * kept].
 static bool turn(double **a, int64_t rows, DenseView rotation, Error *err)
 {
@@ -225,7 +226,7 @@ bool extension_drop_dependent(GrowingBasis *basis, Extension *x, Error *err)
     TRY(extension_spell_out_mix(basis, err));
     TRY(extension_grow_mix(basis, added, rotation.values, kept, err));
     for (int term = 0; term < BULK_TERMS; term++) {
-        TRY(turn(&x->beside[term], x->m, rotation, err));
+        if (term != BULK_STIFFNESS) TRY(turn(&x->beside[term], x->m, rotation, err));
         TRY(turn(&x->old[term], count, rotation, err));
         double *half = x->gram[0];
         dense_multiply(dense_view(x->own[term], added, added), rotation, 1, 0, half);

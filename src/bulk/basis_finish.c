@@ -58,9 +58,7 @@ static double *put_together(const GrowingBasis *basis, BulkTerm term, const Turn
     dense_multiply_halves(dense_view(basis->beside[term], m, r), dense_view(turn->w, r, r), 1, 0,
                           beside);
     for (int64_t j = 0; j < m; j++)
-        for (int64_t i = 0; i < m; i++)
-            square[j * all + i] =
-                (basis->statics[term][j * m + i] + basis->statics[term][i * m + j]) / 2;
+        memcpy(square + j * all, basis->statics[term] + j * m, (size_t)m * sizeof *square);
     for (int64_t j = 0; j < r; j++)
         for (int64_t i = 0; i < m; i++)
             square[(m + j) * all + i] = square[i * all + m + j] = beside[j * m + i];

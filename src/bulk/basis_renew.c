@@ -116,7 +116,8 @@ bool basis_renew(GrowingBasis *basis, int32_t first, Error *err)
     for (int term = 0; term < BULK_TERMS; term++) {
         extension_take_rows(x.gram[term], rows, added, 0, m, x.statics);
         extension_take_rows(x.gram[term], rows, added, m, others, x.others);
-        memcpy(x.beside[term], x.statics, (size_t)(m * added) * sizeof *all);
+        if (term != BULK_STIFFNESS)
+            memcpy(x.beside[term], x.statics, (size_t)(m * added) * sizeof *all);
         extension_of_modes(basis, &x, others, all);
         extension_take_rows(all, r, added, 0, first, x.old[term]);
         extension_take_rows(all, r, added, first, added, x.own[term]);
