@@ -66,6 +66,7 @@ typedef struct Solve {
     const double *closed;   // S': S with open nodes condensed out
     bool listed;   // what is free, open and closed is that of the statuses, and solver->step has
         // the residuals of what is free
+    bool exact;   // reactions are S v - g, not what steps added up to
     bool reused;   // the last step was one with the factors of an earlier matrix
     int32_t changes, anchored;   // status sets met; the one that solver->anchor holds
     double least;   // residual so far with these statuses, over the scale of force
@@ -77,6 +78,12 @@ typedef struct Solve {
 static const Interface *interface_of(const Solve *solve)
 {
     return solve->equations.problem->interface;
+}
+
+static void react(Solve *solve)
+{
+    contact_react(&solve->equations);
+    solve->exact = true;
 }
 
 // --- Newton -------------------------------------------------------------------------------------
@@ -96,7 +103,7 @@ static void settle(Solve *solve, bool known)
             moved = true;
         }
     }
-    if (moved || !known) contact_react(&solve->equations);
+    if (moved || !known) react(solve);
 }
 
 // For the statuses as they are. false: nothing holds the open nodes.
@@ -179,6 +186,31 @@ static void find_pull(Solve *solve)
     }
 }
 
+// Velocities and reactions after a step of what is free. Where nodes are open one product with S'
+// gives what the step adds to the reactions of the others and how open nodes follow; S v, which
+// has their columns too, is left to the end.
+static void take_step(Solve *solve)
+{
+    ContactSolver *solver = solve->solver;
+    ContactSolution *at = solve->equations.at;
+    int32_t count = interface_of(solve)->count, free_count = solve->equations.free_count;
+    for (int32_t a = 0; a < free_count; a++) at->velocity[solver->free[a]] += solver->step[a];
+    if (solve->open_count == 0) {
+        react(solve);
+        return;
+    }
+    memset(solver->more, 0, (size_t)count * sizeof(double));
+    for (int32_t a = 0; a < free_count; a++) solver->more[solver->free[a]] = solver->step[a];
+    dense_add_nonzero((DenseView){solve->closed, count, count}, solver->more, -1, solver->pull);
+    for (int32_t k = 0; k < count; k++) at->reaction[k] -= solver->pull[k];
+    for (int32_t b = 0; b < solve->open_count; b++) {
+        int32_t unknown = solver->open[b];
+        at->velocity[unknown] += solver->pull[unknown];
+        at->reaction[unknown] = 0;
+    }
+    solve->exact = false;
+}
+
 // One Newton step on the free unknowns and the open nodes. false: the derivative is singular. With
 // factors of an earlier one it is a step of a chord method: linear in convergence, and far cheaper
 // than factoring.
@@ -186,9 +218,7 @@ static bool newton_step(Solve *solve)
 {
     ContactSolver *solver = solve->solver;
     const ContactEquations *equations = &solve->equations;
-    const ContactMatrix *matrix = equations->problem->matrix;
-    double *velocity = equations->at->velocity;
-    int32_t count = matrix->count, free_count = equations->free_count;
+    int32_t free_count = equations->free_count;
     solver->iterations++;
     if (!find_factors(solve)) return false;
     memset(solver->more, 0, (size_t)free_count * sizeof(double));
@@ -200,18 +230,7 @@ static bool newton_step(Solve *solve)
     if (!contact_factors_solve(&solver->factors, equations, solver->step) &&
         !(factor(solve) && contact_factors_solve(&solver->factors, equations, solver->step)))
         return false;
-    for (int32_t a = 0; a < free_count; a++) {
-        int32_t unknown = solver->free[a];
-        velocity[unknown] += solver->step[a];
-    }
-    for (int32_t b = 0; b < solve->open_count; b++) {
-        int32_t unknown = solver->open[b];
-        const double *row = solve->closed + (int64_t)unknown * count;   // symmetric
-        double moved = solver->pull[unknown];
-        for (int32_t a = 0; a < free_count; a++) moved -= row[solver->free[a]] * solver->step[a];
-        velocity[unknown] += moved;
-    }
-    contact_react(equations);
+    take_step(solve);
     return true;
 }
 
@@ -357,7 +376,7 @@ static bool starts_fast(Solve *solve)
     solve->least = INFINITY;
     solve->stalled = 0;
     solve->listed = false;
-    contact_react(&solve->equations);
+    react(solve);
     return true;
 }
 
@@ -373,6 +392,11 @@ static Progress judge_step(Solve *solve)
     double residual = largest_residual(solve);
     if (!isfinite(residual)) return GIVEN_UP;
     bool equal = residual <= solve->solver->def.tolerance * solve->scales.force;
+    if (equal && !solve->exact) {
+        react(solve);
+        residual = largest_residual(solve);
+        equal = residual <= solve->solver->def.tolerance * solve->scales.force;
+    }
     if (!equal && solve->reused && residual > CHORD_GAIN * solve->before)
         solve->solver->factors_gain = false;
     solve->before = solve->reused ? residual : INFINITY;
