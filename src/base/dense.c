@@ -7,6 +7,8 @@
 // at least. Nothing allocates, so that the loop of steps may call all of it.
 #include "base/dense.h"
 
+#include "base/lanes.h"
+
 #include <cblas.h>
 #include <math.h>
 #include <string.h>
@@ -147,20 +149,15 @@ bool dense_invert_factored(double *a, int32_t n)
     return info == 0;
 }
 
-// One rank-one update of all, then row and column k anew.
-bool dense_sweep(double *a, int32_t n, int32_t k, bool back, double *work)
+// One pass over a; two of dger's take twice as long.
+FOR_EACH_PROCESSOR void dense_subtract_pair(double *restrict a, int32_t n, const double *was,
+                                            const double *over)
 {
-    double *column = a + (int64_t)k * n, pivot = column[k];
-    if (pivot == 0) return false;
-    memcpy(work, column, (size_t)n * sizeof(double));
-    cblas_dger(CblasColMajor, n, n, -1 / pivot, work, 1, work, 1, a, n);
-    for (int64_t i = 0; i < n; i++) {
-        double entry = (back ? -work[i] : work[i]) / pivot;
-        column[i] = entry;
-        a[i * n + k] = entry;
+    const double *restrict first = was, *restrict second = was + n;
+    for (int32_t j = 0; j < n; j++, a += n) {
+        double x = over[2 * j], y = over[2 * j + 1];
+        for (int32_t i = 0; i < n; i++) a[i] -= x * first[i] + y * second[i];
     }
-    column[k] = -1 / pivot;
-    return true;
 }
 
 void dense_add_scaled(double factor, const double *x, int32_t n, double *y)

@@ -37,12 +37,8 @@ void dense_lower_square(const double *lower, int32_t n, double *c);
 // Inverse, both triangles, of a symmetric positive definite `a` [n * n] from its Cholesky factor.
 bool dense_invert_factored(double *a, int32_t n);
 
-// Sweep of a symmetric `a` [n * n], both triangles, on its k-th diagonal entry d, or back: a_kk :=
-// -1/d, a_ik := a_ik/d (back: -a_ik/d), the rest less a_ik a_kj/d. Swept on a set O, what is left
-// of a matrix is -A_OO^-1 on O, A_OO^-1 A_O. in its rows, and the Schur complement of A_OO
-// elsewhere (Goodnight, The American Statistician 33, 1979). work: [n]. false, and nothing is done:
-// d is 0.
-bool dense_sweep(double *a, int32_t n, int32_t k, bool back, double *work);
+// a [n * n] -= was over, was [n * 2] and over [2 * n].
+void dense_subtract_pair(double *a, int32_t n, const double *was, const double *over);
 
 // y += factor x
 void dense_add_scaled(double factor, const double *x, int32_t n, double *y);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Four numbers at once, and functions that are compiled twice: for any processor of its kind, and
 // for those x86 processors that have AVX2 and FMA; which one runs is decided when the program is
-// loaded. Used by base/sparse and base/sparse_expand.
+// loaded. Used by base/dense, base/sparse and base/sparse_expand.
 #ifndef AMONTONS_BASE_LANES_H
 #define AMONTONS_BASE_LANES_H
 

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// A sweep of a symmetric matrix on its k-th diagonal entry d, or back: s_kk := -1/d, s_ik := s_ik/d
+// (back: -s_ik/d), the rest less s_ik s_kj/d. Swept on O, what is left of S is -S_OO^-1 on O,
+// S_OO^-1 S_O. in its rows, and S' elsewhere (Goodnight, The American Statistician 33, 1979).
+//
 // Rounding of sweeps adds up. So the copy is made anew from S when it was swept so often that this
 // costs less than the sweeps so far.
 #include "contact/contact_matrix.h"
@@ -15,9 +19,9 @@
 static const int32_t SWEEPS_EACH = 8;
 // Of an unknown, at most, before the copy is renewed: those, and one of each after the last look.
 enum { SWEEPS_KEPT = 9 };
-// Unknowns that are swept together, and interface unknowns from which on they are: S' then comes
-// from memory once for all of them.
-enum { TOGETHER = 16, TOGETHER_FROM = 256 };
+// Unknowns that are swept together, at most: S' then comes from memory once for all of them. Both of
+// a node always are.
+enum { PAIR = 2, TOGETHER = 16 };
 // Part of its diagonal entry that is left of an unknown when the others of O are held, at least: a
 // body that nothing holds has 0, up to rounding; one that a step's mass holds has far more.
 static const double SINGULAR = 1e-8;
@@ -67,9 +71,9 @@ static void note_sweep(ContactMatrix *matrix, int32_t k, bool first)
     matrix->sweeps++;
 }
 
-// The columns of what is swept, `now`, follow each sweep; what each takes from the rest, was was'/
-// pivot, is taken for all at once.
-static bool sweep_columns(ContactMatrix *matrix, const int32_t *list, int32_t length)
+// Distinct unknowns. Their columns, `now`, follow each sweep; what each takes from the rest, was
+// was'/pivot, is taken for all at once.
+static bool sweep_unknowns(ContactMatrix *matrix, const int32_t *list, int32_t length)
 {
     int64_t n = matrix->count;
     double *now = matrix->work, *was = now + TOGETHER * n, *over = was + TOGETHER * n;
@@ -91,23 +95,15 @@ static bool sweep_columns(ContactMatrix *matrix, const int32_t *list, int32_t le
         own[k] = -1 / pivot;
         note_sweep(matrix, k, t == 0);
     }
-    dense_multiply(dense_view(was, n, length), dense_view(over, length, n), -1, 1, matrix->closed);
+    if (length == PAIR)
+        dense_subtract_pair(matrix->closed, matrix->count, was, over);
+    else
+        dense_multiply(dense_view(was, n, length), dense_view(over, length, n), -1, 1,
+                       matrix->closed);
     for (int32_t t = 0; t < length; t++) {
         memcpy(matrix->closed + list[t] * n, now + t * n, (size_t)n * sizeof(double));
         for (int64_t i = 0; i < n; i++) matrix->closed[i * n + list[t]] = now[t * n + i];
     }
-    return true;
-}
-
-// Distinct unknowns. One alone costs least by itself.
-static bool sweep_unknowns(ContactMatrix *matrix, const int32_t *list, int32_t length)
-{
-    if (length > 1) return sweep_columns(matrix, list, length);
-    if (length == 0) return true;
-    int32_t k = list[0];
-    if (!pivot_holds(matrix, k, matrix->closed[(int64_t)k * (matrix->count + 1)])) return false;
-    if (!dense_sweep(matrix->closed, matrix->count, k, matrix->out[k], matrix->work)) return false;
-    note_sweep(matrix, k, true);
     return true;
 }
 
@@ -116,12 +112,12 @@ const double *contact_matrix_close(ContactMatrix *matrix, const uint8_t *status,
 {
     if (!memchr(status, CONTACT_OPEN, (size_t)contact_count)) return matrix->schur;
     if (matrix->swept < 0 || matrix->swept > 2 * SWEEPS_EACH * contact_count) renew_copy(matrix);
-    int32_t list[TOGETHER], length = 0, most = matrix->count < TOGETHER_FROM ? 1 : TOGETHER;
+    int32_t list[TOGETHER], length = 0;
     bool holds = true;
     for (int32_t k = 0; k < 2 * contact_count && holds; k++) {
         if ((status[k / 2] == CONTACT_OPEN) != matrix->out[k]) list[length++] = k;
-        if (length < most && k + 1 < 2 * contact_count) continue;
-        holds = sweep_unknowns(matrix, list, length);
+        if (length < TOGETHER && k + 1 < 2 * contact_count) continue;
+        holds = length == 0 || sweep_unknowns(matrix, list, length);
         length = 0;
     }
     if (!holds) matrix->swept = -1;

@@ -6,7 +6,7 @@
 //     S' = S - S_.O S_OO^-1 S_O.
 //
 // Blocks on pads have most of their nodes open while few slip. A node that opens or closes changes
-// S' by two sweeps (base/dense), which cost as much as a few products with S; factoring S_OO in
+// S' by two sweeps, which cost as much as a few products with S; factoring S_OO in
 // every linear system costs far more. Made by stepping/ladder for each step size and by
 // stepping/certificate for the damping alone; used by contact/contact_solver.
 #ifndef AMONTONS_CONTACT_CONTACT_MATRIX_H

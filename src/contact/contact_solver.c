@@ -16,6 +16,10 @@
 // An old matrix is given up when the residual of a step is above this part of that before it.
 static const double CHORD_GAIN = 0.1;
 
+// Where one status is changed at a time: the worst violates its condition by this many times what
+// the equations are off, at least. Then it does so at their solution, too.
+static const double CLEARLY = 100;
+
 // The header says what the numbers rest on.
 ContactSolverDef contact_solver_def(void)
 {
@@ -177,13 +181,18 @@ static void find_pull(Solve *solve)
     const ContactProblem *problem = solve->equations.problem;
     int32_t count = problem->interface->count;
     double rounding = 1e-3 * solver->def.tolerance * dense_max_abs(problem->g, count);
+    bool pulls = false;
     memset(solver->pull, 0, (size_t)count * sizeof(double));
+    memset(solver->more, 0, (size_t)count * sizeof(double));
     for (int32_t a = 0; a < solve->open_count; a++) {
         int32_t k = solver->open[a];
         double force = solve->equations.at->reaction[k];
-        if (fabs(force) > rounding)
-            dense_add_scaled(force, solve->closed + (int64_t)k * count, count, solver->pull);
+        if (fabs(force) <= rounding) continue;
+        solver->more[k] = force;
+        pulls = true;
     }
+    if (pulls)
+        dense_add_nonzero((DenseView){solve->closed, count, count}, solver->more, 1, solver->pull);
 }
 
 // Velocities and reactions after a step of what is free. Where nodes are open one product with S'
@@ -221,12 +230,12 @@ static bool newton_step(Solve *solve)
     int32_t free_count = equations->free_count;
     solver->iterations++;
     if (!find_factors(solve)) return false;
-    memset(solver->more, 0, (size_t)free_count * sizeof(double));
+    for (int32_t a = 0; a < free_count; a++) solver->step[a] = -solver->step[a];
     if (solve->open_count > 0) {
         find_pull(solve);
         contact_combine(equations, solver->pull, solver->more);
+        dense_add_scaled(1, solver->more, free_count, solver->step);
     }
-    for (int32_t a = 0; a < free_count; a++) solver->step[a] = solver->more[a] - solver->step[a];
     if (!contact_factors_solve(&solver->factors, equations, solver->step) &&
         !(factor(solve) && contact_factors_solve(&solver->factors, equations, solver->step)))
         return false;
@@ -237,12 +246,13 @@ static bool newton_step(Solve *solve)
 // --- statuses -----------------------------------------------------------------------------------
 
 // Checks all statuses, and changes all that violate their conditions by more than the tolerance, or
-// only the worst; where that one stuck and now slips it is remembered (starts_fast). Velocities
-// stay: `settle` brings them in line. false: none violates its conditions.
-static bool update_statuses(Solve *solve)
+// only the worst, if it does by more than `least`; where that one stuck and now slips it is
+// remembered (starts_fast). Velocities stay: `settle` brings them in line. false: none is changed.
+static bool update_statuses(Solve *solve, double least)
 {
     const ContactSolution *at = solve->equations.at;
     int32_t contacts = interface_of(solve)->contact_count;
+    int32_t starts = -1;
     double largest = 0;
     uint8_t *worst = NULL, worst_status = 0;
     for (int32_t k = 0; k < contacts + interface_of(solve)->rod_count; k++) {
@@ -257,12 +267,14 @@ static bool update_statuses(Solve *solve)
             largest = violation;
             worst = status;
             worst_status = better;
-            solve->started = !rod && *status == CONTACT_STICK && status_slips(better) ? k : -1;
+            starts = !rod && *status == CONTACT_STICK && status_slips(better) ? k : -1;
         }
         if (solve->change_all) *status = better;
     }
-    if (!solve->change_all && worst) *worst = worst_status;
-    return worst;
+    if (!(largest > (solve->change_all ? 0 : least))) return false;
+    if (!solve->change_all) *worst = worst_status;
+    solve->started = starts;
+    return true;
 }
 
 // Of the free unknowns' equations, which it leaves in solver->step, and the forces at open nodes,
@@ -383,8 +395,8 @@ static bool starts_fast(Solve *solve)
 // What a Newton step comes to.
 typedef enum Progress { GOES_ON, SOLVED, GIVEN_UP } Progress;
 
-// Statuses are changed after the first solve for them, not where steps are those of a chord or only
-// one may change: there the equations are solved first.
+// Statuses are changed after the first solve for them, not where steps are those of a chord: there
+// the equations are solved first; nor, where only one may change, before it is clear which.
 static Progress judge_step(Solve *solve)
 {
     const ContactProblem *problem = solve->equations.problem;
@@ -402,8 +414,9 @@ static Progress judge_step(Solve *solve)
     solve->before = solve->reused ? residual : INFINITY;
     if (!equal && !solve->reused && has_stalled(solve, residual / solve->scales.force))
         return GIVEN_UP;
-    if (!equal && (solve->reused || !solve->change_all)) return GOES_ON;
-    if (!update_statuses(solve)) return equal ? SOLVED : GOES_ON;
+    if (!equal && solve->reused && solve->change_all) return GOES_ON;
+    double off = equal ? 0 : residual / solve->scales.force;
+    if (!update_statuses(solve, CLEARLY * off)) return equal ? SOLVED : GOES_ON;
     note_statuses(solve);
     if (solve->change_all) solve->started = -1;
     settle(solve, true);
