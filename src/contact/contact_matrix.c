@@ -19,8 +19,8 @@
 static const int32_t SWEEPS_EACH = 8;
 // Of an unknown, at most, before the copy is renewed: those, and one of each after the last look.
 enum { SWEEPS_KEPT = 9 };
-// Unknowns that are swept together, at most: S' then comes from memory once for all of them. Both of
-// a node always are.
+// Unknowns that are swept together, at most: S' then comes from memory once for all of them. Both
+// of a node always are.
 enum { PAIR = 2, TOGETHER = 16 };
 // Part of its diagonal entry that is left of an unknown when the others of O are held, at least: a
 // body that nothing holds has 0, up to rounding; one that a step's mass holds has far more.

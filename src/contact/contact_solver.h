@@ -3,10 +3,7 @@
 // Mech. Eng. 92, 1991, in its status form). For given statuses the unknowns are the slipping
 // tangents, both components of open nodes and the rod nodes that are soft or do not touch; all else
 // is held. One Newton step on those (contact/contact_equations), then every status is checked
-// against its own conditions and changed where it violates them. Open nodes are condensed out
-// (contact/contact_matrix). The linear system is dense and unsymmetric; its factors are kept and
-// used again (by the next iteration, stage or step) while statuses stay and they still gain a digit
-// a step, and brought up to date where few rows have changed (contact/contact_factors). When
+// against its own conditions and changed where it violates them (contact/contact_newton). When
 // statuses cycle, only the worst one is changed at a time; when that does not settle either, or the
 // residual no longer falls, a path to a solution is followed (contact/contact_path): there is one,
 // as S is positive definite and mu bounded and continuous. Where even that is not found, or the
@@ -15,7 +12,7 @@
 #ifndef AMONTONS_CONTACT_CONTACT_SOLVER_H
 #define AMONTONS_CONTACT_CONTACT_SOLVER_H
 
-#include "contact/contact_factors.h"
+#include "contact/contact_newton.h"
 #include "contact/contact_path.h"
 #include "contact/contact_problem.h"
 
@@ -32,16 +29,8 @@ ContactSolverDef contact_solver_def(void);
 
 typedef struct ContactSolver {
     ContactSolverDef def;
-    int32_t *free;   // [count] work: the unknowns solved for; owned
-    int32_t *open;   // [count] work: unknowns of open nodes; owned
-    ContactRow *row;   // [count] work: their equations; owned
-    double *step, *more;   // [count] work; owned
-    double *pull;   // [count] work: what forces at open nodes do to the others; owned
+    ContactNewton newton;   // steps with these statuses; owned
     uint8_t *anchor;   // [contact_count + rod_count] work: statuses met before; owned
-    ContactFactors factors;   // of the last derivative; owned
-    bool factors_gain;   // steps with them have gained a digit since
-    int64_t factorisations;   // counted, derivatives factored anew
-    int64_t updates;   // counted, derivatives that had factors brought up to date
     int64_t solves;   // counted
     int64_t iterations;   // counted, Newton steps
     int64_t fallbacks;   // counted, solves in which only the worst status was changed

@@ -318,10 +318,7 @@ void sdirk_add_energy(const Sdirk *scheme, const StepOutcome *outcome, double st
 static void solver_archive(ContactSolver *solver, Archive *archive)
 {
     archive_section(archive, "contact solver");
-    contact_factors_archive(&solver->factors, archive);
-    archive_flag(archive, &solver->factors_gain);
-    archive_count(archive, &solver->factorisations);
-    archive_count(archive, &solver->updates);
+    contact_newton_archive(&solver->newton, archive);
     archive_count(archive, &solver->solves);
     archive_count(archive, &solver->iterations);
     archive_count(archive, &solver->fallbacks);

@@ -392,5 +392,6 @@ bool step_control_archive(StepControl *control, Archive *archive, Error *err)
     archive_count(archive, &control->looked_steps);
     archive_number(archive, &control->looked_time);
     counters_archive(&control->counters, archive);
-    return ladder_archive(&control->ladder, control->scheme.solver.factorisations, archive, err);
+    return ladder_archive(&control->ladder, control->scheme.solver.newton.factorisations, archive,
+                          err);
 }

@@ -57,6 +57,7 @@ CONSTANTS = [
         ("iterations_short", "the same where a shorter time step can be taken", HERE),
         ("tolerance", "residual of a solved problem, of its largest force",
          "1e2 above the rounding of S v - g"),
+        ("CLEARLY", "a status is changed alone when it is off by so many times the residual", STEPPING),
         ("CHORD_GAIN", "a kept factor is given up when a step leaves more of the residual", HERE),
         ("STALLED_MAX", "Newton steps in a row that do not halve the residual: no solution", HERE)),
     *of("contact/contact_path.c",
@@ -264,7 +265,7 @@ NOT_A_CHOICE = {
     "stepping/growth.c": {"NO_RATE": "rounding, with room: 0 that is not 0"},
     "bulk/machine.c": {"LOOSE": "rounding, with room: a matrix that must not be singular"},
     "contact/contact_matrix.c": {"SWEEPS_KEPT": SIZE, "TOGETHER": "unknowns swept at once: time alone",
-                                 "TOGETHER_FROM": "rows from which on that pays"},
+                                 "PAIR": "of a node"},
     "model/far_cache.c": {"COUNTS": "stored"},
     "model/shape_cache.c": {"NAME_NUMBERS": "stored", "BASIS_NUMBERS": "stored", "COUNTS": "stored"},
     "model/model.c": {

@@ -227,7 +227,7 @@ static void test_solver(void **state)
         assert_near("judged", hand_contact_error(hand), 0, 1e-10);
     }
     assert_int_equal(memory_counters().allocations, allocations);
-    assert_true(solver.updates > 4 * solver.factorisations);
+    assert_true(solver.newton.updates > 4 * solver.newton.factorisations);
     contact_solver_destroy(&solver);
     end_rig(&rig);
 }

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Newton's steps on what is free while statuses stay. Open nodes are condensed out: with S' (the
+// matrix of contact/contact_matrix for them) and what is free, F, a step x of the velocities of F
+// changes reactions by S'_.F x elsewhere and moves open nodes by -S_OO^-1 S_OF x, which one product
+// with columns of S' gives. So S v, which has the columns of the open nodes as well, is found
+// before the first step and after the last (`exact`): on pads most nodes are open and few slip.
+// Factors of the derivative are kept and used again while steps with them gain (a chord method), or
+// get a border where few rows have changed (contact/contact_factors). Used by
+// contact/contact_solver, which changes the statuses.
+#ifndef AMONTONS_CONTACT_CONTACT_NEWTON_H
+#define AMONTONS_CONTACT_CONTACT_NEWTON_H
+
+#include "contact/contact_factors.h"
+#include "contact/contact_problem.h"
+
+typedef struct ContactNewton {
+    ContactEquations equations;   // of the solve under way. free: tangents of nodes that slip, rod
+        // nodes that are soft or do not touch; ascending
+    double rounding;   // forces at open nodes below it are left
+    int32_t open_count;   // unknowns of open nodes, in `open`
+    const double *closed;   // S'
+    bool listed;   // what is free, open and closed is that of the statuses, and `step` has the
+        // residuals of what is free
+    bool exact;   // reactions are S v - g, not what steps added up to
+    bool reused;   // the last step was one with the factors of an earlier matrix
+    int32_t *free;   // [count] work; owned, as all that follows
+    int32_t *open;   // [count] work: unknowns of open nodes
+    ContactRow *row;   // [count] work: the equations of what is free
+    double *step, *more;   // [count] work
+    double *pull;   // [count] work: what open nodes do to the others
+    ContactFactors factors;   // of the last derivative
+    bool factors_gain;   // steps with them have gained a digit since
+    int64_t factorisations;   // counted, derivatives factored anew
+    int64_t updates;   // counted, derivatives that had factors brought up to date
+} ContactNewton;
+
+// On failure contact_newton_destroy frees what was made.
+bool contact_newton_create(const Interface *interface, ContactNewton *newton, Error *err);
+void contact_newton_destroy(ContactNewton *newton);
+
+// A solve begins. rounding: part of the largest entry of g.
+void contact_newton_begin(ContactNewton *newton, const ContactProblem *problem,
+                          ContactSolution *solution, double rounding);
+
+// Reactions are S v - g.
+void contact_newton_react(ContactNewton *newton);
+
+// Held unknowns take their values, and r is that of the velocities as they are then. A node that
+// would slip against its status starts from rest. known: r is that of the velocities as they are
+// now; it stays where none of them changes, as when nodes that stuck begin to slip.
+void contact_newton_settle(ContactNewton *newton, bool known);
+
+// Lists what is free and open by the statuses as they are. false: nothing holds the open nodes.
+bool contact_newton_list(ContactNewton *newton);
+
+// One step, after contact_newton_list and with residuals in `step`. false: the derivative is
+// singular.
+bool contact_newton_step(ContactNewton *newton);
+
+// Residuals of the equations of what is free, into `step`. The largest of them and of the forces at
+// open nodes, force/width; infinite where a number is not finite.
+double contact_newton_residual(ContactNewton *newton);
+
+// What outlives a solve.
+void contact_newton_archive(ContactNewton *newton, Archive *archive);
+
+#endif
