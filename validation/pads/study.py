@@ -18,8 +18,8 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-SWEEPS = ("count-b", "fine-b", "plain-b", "height-b", "gap-b", "check-b",   # long points first
-          "plain", "count", "height", "gap", "fill", "grooves", "check")
+SWEEPS = ("count-b", "height-b", "gap-b", "fine-b", "check-b", "check",   # long ones first
+          "height", "plain-b", "grooves", "count", "fill", "gap", "plain")
 FIGURES = ("count", "count-b", "load", "drag", "transfer", "shape", "shape-b")
 SET_A, SET_B = (0.001, 0.003, 0.006, 0.012), (1.5e-5, 5.75e-5, 2.3e-4)   # pressures
 COUNTS = range(1, 13)
@@ -69,9 +69,15 @@ class Study:
         self.program, self.folder, self.jobs = program, folder, jobs
         self.lines = []   # of tables.md
 
-    def sweep(self, name):
+    def sweeps(self, names):
+        """{name: points}; two sweeps at a time, so that no processor waits for the last points of one."""
+        each = max(self.jobs // 2, 1)
+        with ThreadPoolExecutor(min(self.jobs, 2)) as pool:
+            return dict(zip(names, pool.map(lambda name: self.sweep(name, each), names)))
+
+    def sweep(self, name, jobs):
         out = self.folder / name
-        subprocess.run([self.program, "sweep", HERE / f"{name}.yaml", "-o", out, "-j", str(self.jobs),
+        subprocess.run([self.program, "sweep", HERE / f"{name}.yaml", "-o", out, "-j", str(jobs),
                         "--quiet"], check=False)   # 1: some points failed, and the table says which
         with open(out / "sweep.csv", encoding="utf-8") as file:
             points = [Point(out, row) for row in csv.DictReader(file) if row["status"] == "done"]
@@ -90,9 +96,10 @@ class Study:
         found = json.loads((out / "stability.json").read_text())
         return {**found["results"], "pads": found["pads"]}
 
-    def stabilities(self, scene, every):
+    def stabilities(self, every):
+        """Of pairs of a scene and what is set in it."""
         with ThreadPoolExecutor(self.jobs) as pool:
-            return list(pool.map(lambda sets: self.stability(scene, sets), every))
+            return list(pool.map(lambda one: self.stability(*one), every))
 
     def plot(self, name, **content):
         path = self.folder / "figures" / f"{name}.yaml"
@@ -163,14 +170,15 @@ def study_count(study, name, points, plain, pressures, title):
 
 # --- which pad goes, and why ----------------------------------------------------------------------
 
-def runaway_table(study, scene, pressures, reach, points, counts=COUNTS):
+def runaways(study, scene, pressures, reach):
+    """{(P, n): results of `amontons stability`}, where it ends."""
+    asked = [(P, n) for P in pressures for n in COUNTS]
+    every = [(scene, {"load.pressure": P, "mesh.set.n": n, "time.until.U": reach * P}) for P, n in asked]
+    return {at: one for at, one in zip(asked, study.stabilities(every)) if one}
+
+
+def runaway_table(study, scene, found, points):
     """Which pad the growing mode lies on, and what the trailing pad can resist; by pressure and n."""
-    found = {}
-    for P in pressures:
-        every = [{"load.pressure": P, "mesh.set.n": n, "time.until.U": reach * P} for n in counts]
-        for n, one in zip(counts, study.stabilities(scene, every)):
-            if one:
-                found[P, n] = one
     rows = []
     for (P, n), one in found.items():
         run = [p for p in of_pressure(points, P) if p.n == n]
@@ -188,7 +196,6 @@ def runaway_table(study, scene, pressures, reach, points, counts=COUNTS):
                  "first whole pad, stepping", "pad that goes",
                  "next in mode", "l_c of each pad alone, over its length", "load share",
                  "weakening / resistance", "drag", "drag x length"], rows)
-    return found
 
 
 def study_load(study, a, b):
@@ -209,8 +216,8 @@ def study_drag(study, grooves):
     """Drag of a pad in the middle: by its height, its number, and the depth of grooves."""
     heights, rows, content = (0.0125, 0.025, 0.05, 0.075, 0.1, 0.15), [], []
     for color, n in enumerate((1, 2, 4, 8), start=1):
-        found = study.stabilities("pads", [{"load.pressure": 0.006, "mesh.set.n": n,
-                                            "mesh.set.pad_height": h} for h in heights])
+        found = study.stabilities([("pads", {"load.pressure": 0.006, "mesh.set.n": n, "mesh.set.pad_height": h})
+                                   for h in heights])
         x, y = [], []
         for h, one in zip(heights, found):
             if one is None:
@@ -224,8 +231,8 @@ def study_drag(study, grooves):
                         "line": "thin"})
     for color, count in enumerate((3, 7), start=5):
         depths = sorted({p.mesh["depth"] for p in grooves if near(p.mesh["width"], 0.05)})
-        found = study.stabilities("grooved", [{"load.pressure": 0.006, "mesh.set.grooves": count,
-                                               "mesh.set.depth": d} for d in depths])
+        found = study.stabilities([("grooved", {"load.pressure": 0.006, "mesh.set.grooves": count,
+                                                "mesh.set.depth": d}) for d in depths])
         x, y = [], []
         for d, one in zip(depths, found):
             if one is None:
@@ -418,11 +425,12 @@ def main():
     words = reader.parse_args()
     words.output.mkdir(parents=True, exist_ok=True)
     study = Study(words.program.resolve(), words.output, words.jobs)
-    points = {name: study.sweep(name) for name in SWEEPS}
+    points = study.sweeps(SWEEPS)
     study_count(study, "count", points["count"], points["plain"], SET_A, "set A")
     study_count(study, "count-b", points["count-b"], points["plain-b"], SET_B, "set B")
-    a = runaway_table(study, "pads", SET_A, 10, points["count"])
-    b = runaway_table(study, "pads-b", SET_B, 1, points["count-b"])
+    a, b = runaways(study, "pads", SET_A, 10), runaways(study, "pads-b", SET_B, 1)
+    runaway_table(study, "pads", a, points["count"])
+    runaway_table(study, "pads-b", b, points["count-b"])
     study_load(study, a, b)
     study_drag(study, points["grooves"])
     study_loads(study, points["count"])
