@@ -7,6 +7,7 @@
 import json
 import shutil
 import subprocess
+from concurrent.futures import ThreadPoolExecutor
 
 import h5py
 import numpy as np
@@ -39,19 +40,23 @@ def folder_of(place, name, k):
 
 def measure(place, here, name):
     """One dict for each pressure of set `name`, with l/L by every way there is; nan where there is none."""
-    rows, (scene, length) = [], SCENES[name]
+    scene, length = SCENES[name]
     scene = here / f"{scene}.yaml"
-    for k, P in enumerate(PRESSURES[name][::2] if place.quick else PRESSURES[name]):
+
+    def one(k, P):
         settings = {"load.pressure": f"{P:.8g}", "mesh.set.nx": cells_of(place), "mesh.set.nz": cells_of(place),
                     "time.until": f"{{U: {CYCLE[name] * P * length:.8g}, periodic: true}}"}
         folder = folder_of(place, name, k)
         folder.mkdir(parents=True, exist_ok=True)
         line = ask(place, "model1d", scene, folder / "line", settings)
         block = ask(place, "stability", scene, folder / "block", settings)
-        rows.append({"P": P, "PL": P * length, **read(line["theory"], "line_", LINE_KEYS),
-                     **read(line["simulation"], "simulated_", SIMULATED_KEYS),
-                     **read(block["results"] if block else {}, "block_", BLOCK_KEYS)})
-    return rows
+        return {"P": P, "PL": P * length, **read(line["theory"], "line_", LINE_KEYS),
+                **read(line["simulation"], "simulated_", SIMULATED_KEYS),
+                **read(block["results"] if block else {}, "block_", BLOCK_KEYS)}
+
+    pressures = PRESSURES[name][::2] if place.quick else PRESSURES[name]
+    with ThreadPoolExecutor(place.jobs) as pool:
+        return list(pool.map(one, range(len(pressures)), pressures))
 
 
 LINE_KEYS = {"l_c": "l_c_over_L", "l_c_full": "l_c_full_over_L", "l_sc_full": "l_sc_full_over_L", "l_c_at_V": "l_c_at_V_full_over_L",

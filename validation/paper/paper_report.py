@@ -10,6 +10,8 @@ from interface import History, peak_made_of, same
 from refinement import NAMES
 from windows import AGREE, CELLS_RESOLVED, END_CELLS, branch_words, mu_of, reason
 
+WHOLE = "all"   # in the table of times
+
 
 def table(heads, rows):
     lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
@@ -292,7 +294,7 @@ def write(place, parts):
             "depend on V.\n",
             "\n## What mu_M depends on, set A, L = 1\n\n", parts["depends"],
             "\n## Time\n\n", table(["part", "wall time, s"], [(k, round(v, 1)) for k, v in place.seconds.items()]),
-            f"\nAll: {sum(place.seconds.values()):.0f} s with {place.jobs} points at a time.\n"]
+            f"\n{place.jobs} points at a time, in either set of Figure 2, whose parts share the processors.\n"]
     path = place.folder / "REPORT.md"
     path.write_text("".join(text))
     print(f"report: {path}\nfigures: {place.figures}")

@@ -9,7 +9,9 @@ import json
 import os
 import subprocess
 import sys
+import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -37,11 +39,17 @@ class Place:
         self.fresh = ["--fresh"] if options.fresh else []
         self.figures = self.folder / "figures"
         self.figures.mkdir(parents=True, exist_ok=True)
-        self.seconds, self.pictures = {}, []
+        self.seconds, self.pictures, self.noting = {}, [], threading.Lock()
 
-    def call(self, *words):
-        done = subprocess.run([str(self.program), *map(str, words)], check=False)
-        return done.returncode
+    def call(self, *words, label=None):
+        """Status; what it says goes on, each line behind the label of its part where several run at once."""
+        command = [str(self.program), *map(str, words)]
+        if label is None:
+            return subprocess.run(command, check=False).returncode
+        with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as running:
+            for line in running.stdout:
+                print(f"{label}: {line}", end="", flush=True)
+        return running.returncode
 
     def sweep(self, name, label=None, settings=(), study=None):
         """Rows of the table of study `name` (in the file `study`), as dicts; numbers where they are numbers."""
@@ -53,7 +61,7 @@ class Place:
         for setting in settings:
             words += ["--set", setting]
         print(f"--- {label}", flush=True)
-        if self.call(*words) == 2:
+        if self.call(*words, label=label) == 2:
             sys.exit(f"the study {name} could not be run")
         self.note_time(label, time.monotonic() - started)
         with open(folder / "sweep.csv", newline="") as file:
@@ -65,9 +73,10 @@ class Place:
     def note_time(self, label, seconds):
         """The longest is kept over calls: a sweep taken up again has less to do."""
         path = self.folder / "times.json"
-        known = json.loads(path.read_text()) if path.exists() else {}
-        known[label] = self.seconds[label] = max(seconds, known.get(label, 0))
-        path.write_text(json.dumps(known))
+        with self.noting:
+            known = json.loads(path.read_text()) if path.exists() else {}
+            known[label] = self.seconds[label] = max(seconds, known.get(label, 0))
+            path.write_text(json.dumps(known))
 
     def timed(self, label, work):
         """What work() returns; its wall time is noted."""
@@ -112,15 +121,23 @@ def finer(place, name):
     return compute
 
 
+def pressure_pairs(place, study, material, cells):
+    """Of figure 2a or 2b: pairs of even meshes, and those with finer ones where these do not settle it."""
+    coarse = windows(place.sweep(study))
+    fine = coarse if place.quick else windows(place.sweep(study, f"{study}-80", ["mesh.set.nx=80", "mesh.set.nz=80"]))
+    even = [refinement.Pair(*pair, cells) for pair in zip(coarse, fine)]
+    return even, even if place.quick else refinement.refine(even, material, finer(place, study))
+
+
 def pressure_parts(place, parts):
-    """Figures 2a, 2b and 3a; what they show as pairs of meshes, by set."""
+    """Figures 2a, 2b and 3a; what they show as pairs of meshes, by set. Both sets are computed side by side: towards the end of
+    a sweep, and of one with a point or two, a processor would have nothing to do."""
     cells, found = 20 if place.quick else refinement.EVEN, {}
-    for name, material, filled in (("A", theory.A, False), ("B", theory.B, True)):
+    sets = (("A", theory.A, False), ("B", theory.B, True))
+    with ThreadPoolExecutor(len(sets)) as pool:
+        pairs = list(pool.map(lambda one: pressure_pairs(place, f"fig2{one[0].lower()}", one[1], cells), sets))
+    for (name, material, filled), (even, found[name]) in zip(sets, pairs):
         study, key = f"fig2{name.lower()}", name.lower()
-        coarse = windows(place.sweep(study))
-        fine = coarse if place.quick else windows(place.sweep(study, f"{study}-80", ["mesh.set.nx=80", "mesh.set.nz=80"]))
-        even = [refinement.Pair(*pair, cells) for pair in zip(coarse, fine)]
-        found[name] = even if place.quick else refinement.refine(even, material, finer(place, study))
         figures.figure_2(place, study, found[name], not place.quick, material, filled)
         parts[f"even_{key}"] = report.even_table(even, finer=not place.quick)
         if not place.quick:
@@ -170,7 +187,7 @@ def main():
     parser.add_argument("-j", "--jobs", type=int, default=os.cpu_count() or 1, help="points computed at a time")
     parser.add_argument("--quick", action="store_true", help="20 cells, and nothing finer: a look, in a minute")
     parser.add_argument("--fresh", action="store_true", help="compute again what an earlier call (of another build) left")
-    place, parts = Place(parser.parse_args()), {}
+    place, parts, started = Place(parser.parse_args()), {}, time.monotonic()
     dynamic = pressure_parts(place, parts)
     line_and_profiles(place, parts)
     velocity_parts(place, parts)
@@ -178,6 +195,7 @@ def main():
     front_parts(place, parts)
     parts["readings"] = report.readings_table(place.sweep("readings"))
     parts["depends"] = "(left out: quick)\n" if place.quick else report.depends_table(place.sweep("depends"))
+    place.note_time(report.WHOLE, time.monotonic() - started)
     report.write(place, parts)
 
 
