@@ -14,7 +14,7 @@
 //
 // at a few solutions with J0 for each new column and a LU of P. What is in the border stays there
 // until J0 is made anew: its column of Z does not depend on the row. Used by
-// contact/contact_solver.
+// contact/contact_newton.
 #ifndef AMONTONS_CONTACT_CONTACT_FACTORS_H
 #define AMONTONS_CONTACT_CONTACT_FACTORS_H
 

@@ -6,9 +6,9 @@
 //     S' = S - S_.O S_OO^-1 S_O.
 //
 // Blocks on pads have most of their nodes open while few slip. A node that opens or closes changes
-// S' by two sweeps, which cost as much as a few products with S; factoring S_OO in
-// every linear system costs far more. Made by stepping/ladder for each step size and by
-// stepping/certificate for the damping alone; used by contact/contact_solver.
+// S' by two sweeps, which cost as much as a few products with S; factoring S_OO in every linear
+// system costs far more. Made by stepping/ladder for each step size and by stepping/certificate for
+// the damping alone; used by contact/contact_newton.
 #ifndef AMONTONS_CONTACT_CONTACT_MATRIX_H
 #define AMONTONS_CONTACT_CONTACT_MATRIX_H
 
@@ -27,7 +27,7 @@ typedef struct ContactMatrix {
     int64_t sweeps;   // counted
     int32_t *order;   // [swept] the unknowns swept since then, ~k where others are swept together
         // with k: rounding depends on it
-    int64_t factored;   // which of contact/contact_solver's factorisations is of it; 0: none
+    int64_t factored;   // which of contact/contact_newton's factorisations is of it; 0: none
 } ContactMatrix;
 
 // schur: [count^2]. *matrix is overwritten; on failure contact_matrix_destroy frees what was

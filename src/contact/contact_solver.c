@@ -6,7 +6,6 @@
 #include "contact/contact_solver.h"
 
 #include "base/clock.h"
-#include "base/dense.h"
 #include "base/memory.h"
 #include "contact/contact_equations.h"
 

@@ -42,7 +42,7 @@ class Place:
         self.seconds, self.pictures, self.noting = {}, [], threading.Lock()
 
     def call(self, *words, label=None):
-        """Status; what it says goes on, each line behind the label of its part where several run at once."""
+        """Status; what it says goes on, with a label each line behind it: several may run at once."""
         command = [str(self.program), *map(str, words)]
         if label is None:
             return subprocess.run(command, check=False).returncode

@@ -115,9 +115,10 @@ static void test_together(void **state)
         const double *closed = contact_matrix_close(&matrix, status, MANY);
         assert_non_null(closed);
         for (int k = 0; k < SIZE; k++) {
-            if (status[k / 2] == CONTACT_OPEN) continue;
+            bool swept = status[k / 2] == CONTACT_OPEN;   // there -S_OO^-1: S_OO times it is -1
             for (int i = 0; i < SIZE; i++) {
-                double force = s[k * SIZE + i];
+                if (swept && status[i / 2] != CONTACT_OPEN) continue;
+                double force = swept ? -(i == k) : s[k * SIZE + i];
                 for (int j = 0; j < SIZE; j++)
                     if (status[j / 2] == CONTACT_OPEN)
                         force -= s[j * SIZE + i] * closed[k * SIZE + j];
