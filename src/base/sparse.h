@@ -49,9 +49,9 @@ typedef struct SparseFactor SparseFactor;   // of one matrix; the analysis must 
 SparseFactor *sparse_factorise(SparseAnalysis *analysis, const double *values, Error *err);
 void sparse_factor_destroy(SparseFactor *factor);   // NULL is fine
 
-// S, column-major [border_count * border_count], both triangles, in the order of `border`.
-const double *sparse_schur(const SparseFactor *factor);
-// Its Cholesky factor; 0 above the diagonal.
+// schur := S, column-major [border_count * border_count], both triangles, in the order of `border`.
+void sparse_schur(const SparseFactor *factor, double *schur);
+// Its Cholesky factor, owned by the factor; 0 above the diagonal.
 const double *sparse_schur_lower(const SparseFactor *factor);
 
 // rhs: [size] -> g: [border_count]. Keeps the half-solved system for the expand that follows.

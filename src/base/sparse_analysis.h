@@ -30,7 +30,6 @@ struct SparseFactor {
     SparseAnalysis *analysis;   // not owned
     cholmod_factor *numeric;
     double *border_factor;   // L_bb
-    double *schur;   // S
 };
 
 #endif

@@ -50,7 +50,7 @@ static bool factorise_alone(cholmod_sparse *matrix, cholmod_factor *numeric, cho
     return done;
 }
 
-// S is formed once, with the factor. Not positive definite: a user's mesh or material can cause it.
+// Not positive definite: a user's mesh or material can cause it.
 SparseFactor *sparse_factorise(SparseAnalysis *analysis, const double *values, Error *err)
 {
     cholmod_common *common = &analysis->common;
@@ -59,8 +59,7 @@ SparseFactor *sparse_factorise(SparseAnalysis *analysis, const double *values, E
     if (!factor) goto cleanup;
     factor->analysis = analysis;
     factor->border_factor = NEW_ARRAY(double, count *count, err);
-    factor->schur = NEW_ARRAY(double, count *count, err);
-    if (!factor->border_factor || !factor->schur) goto cleanup;
+    if (!factor->border_factor) goto cleanup;
 
     factor->numeric = analysis->spare ? analysis->spare
                                       : cholmod_copy_factor(analysis->symbolic, common);
@@ -76,7 +75,6 @@ SparseFactor *sparse_factorise(SparseAnalysis *analysis, const double *values, E
         FAIL(err, ERROR_COMPUTE, "the matrix is not positive definite (pivot %zu of %zu)",
              factor->numeric->minor, factor->numeric->n);
     read_border_factor(factor->numeric, analysis->border_count, factor->border_factor);
-    dense_lower_square(factor->border_factor, analysis->border_count, factor->schur);
 cleanup:
     if (error_is_clean(err)) return factor;
     sparse_factor_destroy(factor);
@@ -92,14 +90,12 @@ void sparse_factor_destroy(SparseFactor *factor)
     }
     if (factor->analysis) cholmod_free_factor(&factor->numeric, &factor->analysis->common);
     memory_free(factor->border_factor);
-    memory_free(factor->schur);
     memory_free(factor);
 }
 
-// Owned by the factor, both.
-const double *sparse_schur(const SparseFactor *factor)
+void sparse_schur(const SparseFactor *factor, double *schur)
 {
-    return factor->schur;
+    dense_lower_square(factor->border_factor, factor->analysis->border_count, schur);
 }
 
 const double *sparse_schur_lower(const SparseFactor *factor)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Two slots: what the caller works with, and what the thread factors. Each has a copy of the
-// system, made in the thread, as factors of one analysis share their work space.
+// Two slots: what the caller works with, and what a thread factors; both while the caller waits.
+// Each has a thread and a copy of the system, made there, as factors of one analysis share their
+// work space.
 #include "bulk/factors_ahead.h"
 
 #include "base/memory.h"
@@ -9,26 +10,26 @@
 enum { SLOTS = 2 };
 
 typedef struct Slot {
+    const FactorsAheadDef *def;
     bool copied;
     BulkOperator system;
     FactoredPoint point;   // owned
     OperatorTerms terms;
+    Worker *worker;
 } Slot;
 
 struct FactorsAhead {
     FactorsAheadDef def;
     int32_t given, taken;   // jobs handed to the thread, points to the caller
     Slot slots[SLOTS];
-    Worker *worker;
 };
 
 // In the thread.
 static bool factor_slot(void *context, int32_t number, int32_t waiting, Error *err)
 {
-    FactorsAhead *ahead = context;
-    Slot *slot = &ahead->slots[number];
-    (void)waiting;
-    const FactorsAheadDef *def = &ahead->def;
+    Slot *slot = context;
+    (void)number, (void)waiting;
+    const FactorsAheadDef *def = slot->def;
     FactoredPoint *point = &slot->point;
     interface_operator_destroy(point->full);
     point->full = NULL;
@@ -47,23 +48,20 @@ cleanup:
 }
 
 // In the thread, too: memory is counted where it is asked for.
-static void free_slots(void *context)
+static void free_slot(void *context)
 {
-    FactorsAhead *ahead = context;
-    for (int32_t k = 0; k < SLOTS; k++) {
-        Slot *slot = &ahead->slots[k];
-        interface_operator_destroy(slot->point.full);
-        memory_free(slot->point.held);
-        memory_free(slot->point.pull);
-        bulk_operator_destroy(&slot->system);
-    }
+    Slot *slot = context;
+    interface_operator_destroy(slot->point.full);
+    memory_free(slot->point.held);
+    memory_free(slot->point.pull);
+    bulk_operator_destroy(&slot->system);
 }
 
-static void submit(FactorsAhead *ahead, int32_t slot)
+static void submit(FactorsAhead *ahead, Slot *slot)
 {
     if (ahead->given == ahead->def.count) return;
-    ahead->slots[slot].terms = ahead->def.terms[ahead->given++];
-    worker_submit(ahead->worker);
+    slot->terms = ahead->def.terms[ahead->given++];
+    worker_submit(slot->worker);
 }
 
 bool factors_ahead_create(const FactorsAheadDef *def, FactorsAhead **out, Error *err)
@@ -71,9 +69,13 @@ bool factors_ahead_create(const FactorsAheadDef *def, FactorsAhead **out, Error 
     FactorsAhead *ahead = *out = NEW_ARRAY(FactorsAhead, 1, err);
     if (!ahead) goto cleanup;
     ahead->def = *def;
-    WorkerDef work = {.slots = SLOTS, .work = factor_slot, .end = free_slots, .context = ahead};
-    TRY(worker_create(&work, &ahead->worker, err));
-    for (int32_t slot = 0; slot < SLOTS; slot++) submit(ahead, slot);
+    for (int32_t k = 0; k < SLOTS; k++) {
+        Slot *slot = &ahead->slots[k];
+        WorkerDef work = {.slots = 1, .work = factor_slot, .end = free_slot, .context = slot};
+        slot->def = &ahead->def;
+        TRY(worker_create(&work, &slot->worker, err));
+        submit(ahead, slot);
+    }
 cleanup:
     return error_is_clean(err);
 }
@@ -86,10 +88,11 @@ void factors_ahead_extend(FactorsAhead *ahead, int32_t count)
 // The slot that the caller is done with is factored anew while it works with the other.
 bool factors_ahead_next(FactorsAhead *ahead, FactoredPoint *point, Error *err)
 {
-    int32_t done = (ahead->taken + SLOTS - 1) % SLOTS;   // of the one before
-    if (ahead->taken > 0) submit(ahead, done);
-    TRY(worker_wait_for(ahead->worker, ahead->taken + 1, err));
-    *point = ahead->slots[ahead->taken++ % SLOTS].point;
+    Slot *slot = &ahead->slots[ahead->taken % SLOTS];
+    if (ahead->taken > 0) submit(ahead, &ahead->slots[(ahead->taken - 1) % SLOTS]);
+    TRY(worker_wait_for(slot->worker, ahead->taken / SLOTS + 1, err));
+    *point = slot->point;
+    ahead->taken++;
 cleanup:
     return error_is_clean(err);
 }
@@ -97,6 +100,6 @@ cleanup:
 void factors_ahead_destroy(FactorsAhead *ahead)
 {
     if (!ahead) return;
-    worker_destroy(ahead->worker);
+    for (int32_t k = 0; k < SLOTS; k++) worker_destroy(ahead->slots[k].worker);
     memory_free(ahead);
 }

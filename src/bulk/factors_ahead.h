@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The full mesh's interface operators at points that are known beforehand, each with its answer to
-// the load, made one after another in a second thread while the caller works with the one before.
+// the load, made in two threads in turns: one while the caller works with the one before,
+// both while it waits.
 // Called by bulk/reduction.
 #ifndef AMONTONS_BULK_FACTORS_AHEAD_H
 #define AMONTONS_BULK_FACTORS_AHEAD_H

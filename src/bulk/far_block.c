@@ -5,30 +5,30 @@
 #include "base/memory.h"
 
 #include <string.h>
+#include <stdlib.h>
 
-// Elements between the interface and the first layer, and the layers' own depths together; below
-// FAR_SHARE of all unknowns nothing is replaced.
-enum { FAR_DISTANCE = 20 };
-static const double FAR_SHARE = 0.4;
-
-// Unknowns before a layer that share elements with it.
+// Unknowns outside a patch that share elements with it: near, then of each patch before it.
 typedef struct Border {
     int32_t count;
-    int32_t *dofs;   // ascending; owned
+    int32_t *dofs;   // [count] owned
+    int32_t group_count;
+    int32_t *start;   // [group_count + 1] owned
 } Border;
 
 typedef struct Building {
     const Bulk *bulk;
     FarBlock *block;
-    int32_t *layer, *place;   // [dofs] which layer, -1: near; where in it
-    FarMotions motions[FAR_LAYERS_MAX];
+    FarPatches patches;
+    Border *borders;   // [patches.count]
 } Building;
 
 void far_block_destroy(FarBlock *block)
 {
-    for (int32_t k = 0; k < FAR_LAYERS_MAX; k++) memory_free(block->layers[k].field);
+    memory_free(block->patches);
+    memory_free(block->couplings);
     memory_free(block->indices);
     memory_free(block->matrices);
+    memory_free(block->fields);
     memory_free(block->stiffness);
     far_samples_destroy(&block->samples);
     *block = (FarBlock){0};
@@ -41,107 +41,79 @@ static double *take(double **numbers, int64_t count)
     return taken;
 }
 
+bool far_block_make_lists(int32_t patches, int32_t couplings, FarBlock *block, Error *err)
+{
+    block->patches = NEW_ARRAY(FarPatch, patches, err);
+    block->couplings = NEW_ARRAY(FarCoupling, couplings, err);
+    block->patch_count = patches;
+    block->coupling_count = couplings;
+    return error_is_clean(err);
+}
+
+static void count_entries(FarBlock *block)
+{
+    block->index_count = block->number_count = block->field_count = 0;
+    for (int32_t p = 0; p < block->patch_count; p++) {
+        int64_t q = block->patches[p].count, size = block->patches[p].size;
+        block->index_count += size;
+        block->number_count += 2 * q * (q + 1);
+        block->field_count += size * q;
+    }
+    for (int32_t c = 0; c < block->coupling_count; c++) {
+        const FarCoupling *coupling = &block->couplings[c];
+        if (coupling->before == FAR_NEAR) block->index_count += coupling->count;
+        block->number_count += 2 * (int64_t)coupling->count * block->patches[coupling->patch].count;
+    }
+}
+
 bool far_block_lay_out(FarBlock *block, Error *err)
 {
-    FarLayer *layers = block->layers;
-    block->index_count = layers[0].coupling.count;
-    block->number_count = 0;
-    for (int32_t k = 0; k < block->layer_count; k++) {
-        int64_t q = layers[k].count;
-        block->index_count += layers[k].size;
-        block->number_count += 2 * q * (q + 1 + layers[k].coupling.count);
-    }
+    count_entries(block);
     block->indices = NEW_ARRAY(int32_t, block->index_count, err);
     block->matrices = NEW_ARRAY(double, block->number_count, err);
     if (!block->indices || !block->matrices) return false;
     int32_t *indices = block->indices;
     double *numbers = block->matrices;
-    for (int32_t k = 0; k < block->layer_count; k++) {
-        FarLayer *layer = &layers[k];
-        int64_t q = layer->count, border = layer->coupling.count * q;
-        layer->dofs = indices;
-        indices += layer->size;
-        layer->rotation = take(&numbers, q * q);
-        layer->damping = take(&numbers, q * q);
-        layer->mass = take(&numbers, q);
-        layer->load = take(&numbers, q);
-        layer->coupling.stiffness = take(&numbers, border);
-        layer->coupling.damping = take(&numbers, border);
+    for (int32_t p = 0; p < block->patch_count; p++) {
+        FarPatch *patch = &block->patches[p];
+        int64_t q = patch->count;
+        patch->dofs = indices;
+        indices += patch->size;
+        patch->rotation = take(&numbers, q * q);
+        patch->damping = take(&numbers, q * q);
+        patch->mass = take(&numbers, q);
+        patch->load = take(&numbers, q);
     }
-    layers[0].coupling.rows = indices;
+    for (int32_t c = 0; c < block->coupling_count; c++) {
+        FarCoupling *coupling = &block->couplings[c];
+        int64_t entries = (int64_t)coupling->count * block->patches[coupling->patch].count;
+        if (coupling->before == FAR_NEAR) {
+            coupling->rows = indices;
+            indices += coupling->count;
+        }
+        coupling->stiffness = take(&numbers, entries);
+        coupling->damping = take(&numbers, entries);
+    }
     return true;
+}
+
+bool far_block_lay_out_fields(FarBlock *block, Error *err)
+{
+    double *fields = block->fields = NEW_ARRAY(double, block->field_count, err);
+    for (int32_t p = 0; fields && p < block->patch_count; p++)
+        block->patches[p].field =
+            take(&fields, (int64_t)block->patches[p].size * block->patches[p].count);
+    return block->fields;
 }
 
 static void building_destroy(Building *work)
 {
-    memory_free(work->layer);
-    memory_free(work->place);
-    for (int32_t k = 0; k < FAR_LAYERS_MAX; k++) far_motions_destroy(&work->motions[k]);
-}
-
-// distance: [size] in elements from the interface, -1: out of reach. *farthest of them.
-static bool find_distances(const SparsePattern *pattern, const int32_t *interface_dofs, int32_t m,
-                           int32_t *distance, int32_t *farthest, Error *err)
-{
-    int32_t *list = NEW_ARRAY(int32_t, pattern->size, err), end = 0;
-    if (!list) return false;
-    for (int32_t k = 0; k < pattern->size; k++) distance[k] = -1;
-    for (int32_t j = 0; j < m; j++) {
-        distance[interface_dofs[j]] = 0;
-        list[end++] = interface_dofs[j];
+    for (int32_t p = 0; work->borders && p < work->patches.count; p++) {
+        memory_free(work->borders[p].dofs);
+        memory_free(work->borders[p].start);
     }
-    for (int32_t at = 0; at < end; at++) {
-        *farthest = distance[list[at]];
-        for (int32_t k = pattern->start[list[at]]; k < pattern->start[list[at] + 1]; k++) {
-            int32_t other = pattern->index[k];
-            if (distance[other] >= 0) continue;
-            distance[other] = *farthest + 1;
-            list[end++] = other;
-        }
-    }
-    memory_free(list);
-    return true;
-}
-
-// -1: near. A layer that would be thinner than half of its depth belongs to the one before.
-static int32_t layer_of(int32_t distance, int32_t farthest)
-{
-    if (distance >= 0 && distance <= FAR_DISTANCE) return -1;
-    int32_t layer = 0, depth = FAR_DISTANCE, end = 2 * FAR_DISTANCE;
-    while ((distance < 0 || distance > end) && farthest > end + depth &&
-           layer < FAR_LAYERS_MAX - 1) {
-        depth *= 2;
-        end += depth;
-        layer++;
-    }
-    return layer;
-}
-
-// The unknowns of each layer, in the order of the bulk.
-static bool divide(const int32_t *interface_dofs, int32_t m, Building *work, Error *err)
-{
-    FarBlock *block = work->block;
-    int32_t dofs = work->bulk->dof_count, farthest = 0, far = 0;
-    block->dof_count = dofs;
-    work->layer = NEW_ARRAY(int32_t, dofs, err);
-    work->place = NEW_ARRAY(int32_t, dofs, err);
-    if (!work->layer || !work->place) return false;
-    TRY(find_distances(&work->bulk->pattern, interface_dofs, m, work->layer, &farthest, err));
-    for (int32_t k = 0; k < dofs; k++) {
-        int32_t layer = work->layer[k] = layer_of(work->layer[k], farthest);
-        if (layer < 0) continue;
-        work->place[k] = work->motions[layer].size++;
-        if (layer >= block->layer_count) block->layer_count = layer + 1;
-        far++;
-    }
-    if (far < FAR_SHARE * dofs) block->layer_count = 0;
-    for (int32_t k = 0; k < block->layer_count; k++)
-        work->motions[k].dofs = NEW_ARRAY(int32_t, work->motions[k].size, err);
-    if (!error_is_clean(err)) goto cleanup;
-    for (int32_t k = 0; block->layer_count > 0 && k < dofs; k++)
-        if (work->layer[k] >= 0) work->motions[work->layer[k]].dofs[work->place[k]] = k;
-cleanup:
-    return error_is_clean(err);
+    memory_free(work->borders);
+    far_patches_destroy(&work->patches);
 }
 
 // --- what the matrices are for the motions ------------------------------------------------------
@@ -162,25 +134,27 @@ cleanup:
     return error_is_clean(err);
 }
 
-static bool project(Building *work, int32_t k, Error *err)
+static bool project(Building *work, int32_t p, Error *err)
 {
-    FarLayer *layer = &work->block->layers[k];
-    const FarMotions *motions = &work->motions[k];
+    FarPatch *patch = &work->block->patches[p];
+    const FarMotions *motions = &work->patches.motions[p];
     int64_t q = motions->count, size = motions->size;
     double *stiffness = NEW_ARRAY(double, q *q, err), *damping = NEW_ARRAY(double, q *q, err);
     double *half = NEW_ARRAY(double, q *q, err), *sum = NEW_ARRAY(double, q, err);
     double *load = NEW_ARRAY(double, size, err);
     if (!error_is_clean(err)) goto cleanup;
     double *const square[] = {
-        [BULK_STIFFNESS] = stiffness, [BULK_DAMPING] = damping, [BULK_MASS] = layer->rotation};
+        [BULK_STIFFNESS] = stiffness, [BULK_DAMPING] = damping, [BULK_MASS] = patch->rotation};
     TRY(far_motions_project(motions, work->bulk->mass, square, err));
-    TRY(rotate(stiffness, layer->rotation, (int32_t)q, layer->mass, err));
-    DenseView rotation = dense_view(layer->rotation, q, q);
+    TRY(rotate(stiffness, patch->rotation, (int32_t)q, patch->mass, err));
+    DenseView rotation = dense_view(patch->rotation, q, q);
     dense_multiply(dense_view(damping, q, q), rotation, 1, 0, half);
-    dense_multiply_transposed(rotation, dense_view(half, q, q), 1, 0, layer->damping);
+    dense_multiply_transposed(rotation, dense_view(half, q, q), 1, 0, patch->damping);
     for (int64_t i = 0; i < size; i++) load[i] = work->bulk->load[motions->dofs[i]];
     dense_apply_transposed(dense_view(motions->field, size, q), load, 1, 0, sum);
-    dense_apply_transposed(rotation, sum, 1, 0, layer->load);
+    dense_apply_transposed(rotation, sum, 1, 0, patch->load);
+    memcpy(patch->dofs, motions->dofs, (size_t)size * sizeof *patch->dofs);
+    memcpy(patch->field, motions->field, (size_t)(size * q) * sizeof *patch->field);
 cleanup:
     memory_free(stiffness);
     memory_free(damping);
@@ -190,109 +164,172 @@ cleanup:
     return error_is_clean(err);
 }
 
-static bool list_border(const Building *work, int32_t k, Border *border, Error *err)
+// By patch, near first, then by unknown.
+static int by_patch(const void *left, const void *right, void *of)
+{
+    int32_t a = *(const int32_t *)left, b = *(const int32_t *)right;
+    const int32_t *patch = of;
+    if (patch[a] != patch[b]) return patch[a] < patch[b] ? -1 : 1;
+    return (a > b) - (a < b);
+}
+
+// seen: [dofs] below p.
+static bool list_border(Building *work, int32_t p, int32_t *seen, Error *err)
 {
     const SparsePattern *pattern = &work->bulk->pattern;
-    border->dofs = NEW_ARRAY(int32_t, pattern->size, err);
-    if (!border->dofs) return false;
-    for (int32_t row = 0; row < pattern->size; row++) {
-        if (work->layer[row] != k - 1) continue;
-        int32_t at = pattern->start[row], end = pattern->start[row + 1];
-        while (at < end && work->layer[pattern->index[at]] != k) at++;
-        if (at < end) border->dofs[border->count++] = row;
+    const FarMotions *motions = &work->patches.motions[p];
+    const int32_t *of = work->patches.of;
+    Border *border = &work->borders[p];
+    int32_t entries = 0;
+    for (int32_t i = 0; i < motions->size; i++)
+        entries += pattern->start[motions->dofs[i] + 1] - pattern->start[motions->dofs[i]];
+    border->dofs = NEW_ARRAY(int32_t, entries, err);
+    border->start = NEW_ARRAY(int32_t, (int64_t)entries + 1, err);
+    if (!border->dofs || !border->start) return false;
+    for (int32_t i = 0; i < motions->size; i++) {
+        int32_t row = motions->dofs[i];
+        for (int32_t at = pattern->start[row]; at < pattern->start[row + 1]; at++) {
+            int32_t other = pattern->index[at];
+            if (of[other] >= p || seen[other] == p) continue;
+            seen[other] = p;
+            border->dofs[border->count++] = other;
+        }
     }
+    qsort_r(border->dofs, (size_t)border->count, sizeof *border->dofs, by_patch,
+            work->patches.of);
+    for (int32_t j = 0; j < border->count; j++)
+        if (j == 0 || of[border->dofs[j]] != of[border->dofs[j - 1]])
+            border->start[border->group_count++] = j;
+    border->start[border->group_count] = border->count;
     return true;
 }
 
-// values [border->count * columns]: rows of the bulk's matrix times F of layer k, not rotated.
-static void multiply_border(const Building *work, int32_t k, const double *matrix,
-                            const Border *border, double *values)
+// values [border->count * columns]: rows of the bulk's matrix times F of patch p, not rotated.
+static void multiply_border(const Building *work, int32_t p, const double *matrix, double *values)
 {
-    const int32_t *dofs = border->dofs;
+    const Border *border = &work->borders[p];
     int64_t count = border->count;
     const SparsePattern *pattern = &work->bulk->pattern;
-    const FarMotions *motions = &work->motions[k];
+    const FarMotions *motions = &work->patches.motions[p];
     for (int64_t j = 0; j < count; j++) {
-        for (int32_t at = pattern->start[dofs[j]]; at < pattern->start[dofs[j] + 1]; at++) {
-            if (work->layer[pattern->index[at]] != k) continue;
-            const double *moved = motions->field + work->place[pattern->index[at]];
+        int32_t row = border->dofs[j];
+        for (int32_t at = pattern->start[row]; at < pattern->start[row + 1]; at++) {
+            if (work->patches.of[pattern->index[at]] != p) continue;
+            const double *moved = motions->field + work->patches.place[pattern->index[at]];
             for (int64_t c = 0; c < motions->count; c++)
                 values[c * count + j] += matrix[at] * moved[c * motions->size];
         }
     }
 }
 
-// The same with both rotated: of near unknowns, as they are, or of the layer's before.
-static bool couple(const Building *work, int32_t k, const double *matrix, const Border *border,
-                   double *coupling, Error *err)
+// Rows `first` to `first` + `count` of the border, all of patch `before`: out [its coordinates * q]
+// := (F_before)' turned.
+static bool project_rows(const Building *work, int32_t before, const int32_t *rows, int64_t count,
+                         DenseView turned, double *out, Error *err)
 {
-    const int32_t *dofs = border->dofs;
-    int64_t count = border->count;
-    const FarLayer *layer = &work->block->layers[k];
-    const FarMotions *before = &work->motions[k] - 1;
-    int64_t q = work->motions[k].count, p = k == 0 ? count : before->count;
-    double *values = NEW_ARRAY(double, count *q, err), *moved = NEW_ARRAY(double, count *p, err);
-    double *turned = NEW_ARRAY(double, count *q, err), *half = NEW_ARRAY(double, p *q, err);
-    if (!error_is_clean(err)) goto cleanup;
-    multiply_border(work, k, matrix, border, values);
-    double *out = k == 0 ? coupling : turned;
-    dense_multiply(dense_view(values, count, q), dense_view(layer->rotation, q, q), 1, 0, out);
-    if (k == 0) goto cleanup;
+    const FarMotions *motions = &work->patches.motions[before];
+    int64_t p = motions->count, q = turned.columns;
+    double *moved = NEW_ARRAY(double, count *p, err), *half = NEW_ARRAY(double, p *q, err);
+    if (!moved || !half) goto cleanup;
     for (int64_t c = 0; c < p; c++)
         for (int64_t j = 0; j < count; j++)
-            moved[c * count + j] = before->field[c * before->size + work->place[dofs[j]]];
-    dense_multiply_transposed(dense_view(moved, count, p), dense_view(turned, count, q), 1, 0,
-                              half);
-    dense_multiply_transposed(dense_view(layer[-1].rotation, p, p), dense_view(half, p, q), 1, 0,
-                              coupling);
+            moved[c * count + j] =
+                motions->field[c * motions->size + work->patches.place[rows[j]]];
+    dense_multiply_transposed_rows(dense_view(moved, count, p), turned, 1, 0, half, p);
+    dense_multiply_transposed(dense_view(work->block->patches[before].rotation, p, p),
+                              dense_view(half, p, q), 1, 0, out);
 cleanup:
-    memory_free(values);
     memory_free(moved);
-    memory_free(turned);
     memory_free(half);
     return error_is_clean(err);
 }
 
-static bool find_coupling(const Building *work, int32_t k, const Border *border, Error *err)
+// Couplings `first` on, of patch p, by one of the bulk's matrices.
+static bool couple(const Building *work, int32_t p, int32_t first, BulkTerm term, Error *err)
 {
-    FarCoupling *coupling = &work->block->layers[k].coupling;
-    TRY(couple(work, k, work->bulk->stiffness, border, coupling->stiffness, err));
-    TRY(couple(work, k, work->bulk->damping, border, coupling->damping, err));
-    if (k == 0) memcpy(coupling->rows, border->dofs, (size_t)border->count * sizeof *border->dofs);
+    const Border *border = &work->borders[p];
+    const FarPatch *patch = &work->block->patches[p];
+    const Bulk *bulk = work->bulk;
+    int64_t count = border->count, q = patch->count;
+    double *values = NEW_ARRAY(double, count *q, err), *turned = NEW_ARRAY(double, count *q, err);
+    double *part = NEW_ARRAY(double, count *q, err);
+    if (!values || !turned || !part) goto cleanup;
+    multiply_border(work, p, term == BULK_STIFFNESS ? bulk->stiffness : bulk->damping, values);
+    dense_multiply(dense_view(values, count, q), dense_view(patch->rotation, q, q), 1, 0, turned);
+    for (int32_t g = 0; g < border->group_count; g++) {
+        const FarCoupling *coupling = &work->block->couplings[first + g];
+        const int32_t *rows = border->dofs + border->start[g];
+        int64_t here = border->start[g + 1] - border->start[g];
+        double *out = term == BULK_STIFFNESS ? coupling->stiffness : coupling->damping;
+        double *taken = coupling->before == FAR_NEAR ? out : part;
+        for (int64_t c = 0; c < q; c++)
+            memcpy(taken + c * here, turned + c * count + border->start[g],
+                   (size_t)here * sizeof *taken);
+        if (coupling->before == FAR_NEAR)
+            memcpy(coupling->rows, rows, (size_t)here * sizeof *rows);
+        else
+            TRY(project_rows(work, coupling->before, rows, here, dense_view(part, here, q), out,
+                             err));
+    }
 cleanup:
+    memory_free(values);
+    memory_free(turned);
+    memory_free(part);
     return error_is_clean(err);
 }
 
-// Moves the fields of the motions into the layers, when nothing else is asked of them.
-static void keep_fields(Building *work)
+static bool list_borders(Building *work, int32_t *couplings, Error *err)
 {
-    for (int32_t k = 0; k < work->block->layer_count; k++) {
-        work->block->layers[k].field = work->motions[k].field;
-        work->motions[k].field = NULL;
+    int32_t dofs = work->bulk->dof_count;
+    int32_t *seen = NEW_ARRAY(int32_t, dofs, err);
+    work->borders = NEW_ARRAY(Border, work->patches.count, err);
+    if (!seen || !work->borders) goto cleanup;
+    for (int32_t k = 0; k < dofs; k++) seen[k] = -1;
+    *couplings = 0;
+    for (int32_t p = 0; p < work->patches.count; p++) {
+        TRY(list_border(work, p, seen, err));
+        *couplings += work->borders[p].group_count;
+    }
+cleanup:
+    memory_free(seen);
+    return error_is_clean(err);
+}
+
+// Sizes of patches and couplings from the motions that were found.
+static void list_sizes(const Building *work)
+{
+    FarBlock *block = work->block;
+    FarCoupling *coupling = block->couplings;
+    for (int32_t p = 0; p < block->patch_count; p++) {
+        const Border *border = &work->borders[p];
+        block->patches[p].size = work->patches.motions[p].size;
+        block->patches[p].count = work->patches.motions[p].count;
+        for (int32_t g = 0; g < border->group_count; g++, coupling++) {
+            coupling->patch = p;
+            coupling->before = work->patches.of[border->dofs[border->start[g]]];
+            coupling->count = coupling->before == FAR_NEAR
+                                  ? border->start[g + 1] - border->start[g]
+                                  : work->patches.motions[coupling->before].count;
+        }
     }
 }
 
-// Sizes and layers from the motions that were found.
 static bool fill_block(Building *work, Error *err)
 {
     FarBlock *block = work->block;
-    Border borders[FAR_LAYERS_MAX] = {0};
-    for (int32_t k = 0; k < block->layer_count; k++) {
-        TRY(list_border(work, k, &borders[k], err));
-        block->layers[k].size = work->motions[k].size;
-        block->layers[k].count = work->motions[k].count;
-        block->layers[k].coupling.count = k == 0 ? borders[k].count : work->motions[k - 1].count;
-    }
+    int32_t couplings = 0;
+    TRY(list_borders(work, &couplings, err));
+    TRY(far_block_make_lists(work->patches.count, couplings, block, err));
+    list_sizes(work);
     TRY(far_block_lay_out(block, err));
-    for (int32_t k = 0; k < block->layer_count; k++) {
-        memcpy(block->layers[k].dofs, work->motions[k].dofs,
-               (size_t)work->motions[k].size * sizeof(int32_t));
-        TRY(project(work, k, err));
-        TRY(find_coupling(work, k, &borders[k], err));
+    TRY(far_block_lay_out_fields(block, err));
+    for (int32_t p = 0; p < block->patch_count; p++) TRY(project(work, p, err));
+    for (int32_t p = 0, first = 0; p < block->patch_count; p++) {
+        TRY(couple(work, p, first, BULK_STIFFNESS, err));
+        TRY(couple(work, p, first, BULK_DAMPING, err));
+        first += work->borders[p].group_count;
     }
-    keep_fields(work);
 cleanup:
-    for (int32_t k = 0; k < block->layer_count; k++) memory_free(borders[k].dofs);
     return error_is_clean(err);
 }
 
@@ -300,18 +337,16 @@ static bool replace(const int32_t *interface_dofs, int32_t m, const FarFieldDef 
                     Building *work, Error *err)
 {
     FarBlock *block = work->block;
-    FarMotions *layers[FAR_LAYERS_MAX];
     FarSamples *samples = &block->samples;
-    samples->distance = FAR_DISTANCE;
-    samples->layer_count = block->layer_count;
-    samples->layers = layers;
-    for (int32_t k = 0; k < block->layer_count; k++) layers[k] = &work->motions[k];
+    samples->distance = work->patches.distance;
+    samples->patch_count = work->patches.count;
+    samples->patches = work->patches.motions;
     TRY(far_samples_take(work->bulk, interface_dofs, m, def, samples, err));
     TRY(fill_block(work, err));
     block->stiffness = samples->stiffness;
     samples->stiffness = NULL;
 cleanup:
-    samples->layers = NULL;
+    samples->patches = NULL;
     return error_is_clean(err);
 }
 
@@ -319,13 +354,15 @@ bool far_block_create(const Bulk *bulk, const int32_t *interface_dofs, int32_t i
                       const FarFieldDef *def, FarBlock *block, Error *err)
 {
     Building work = {.bulk = bulk, .block = block};
-    *block = (FarBlock){0};
-    TRY(divide(interface_dofs, interface_count, &work, err));
-    if (block->layer_count > 0) TRY(replace(interface_dofs, interface_count, def, &work, err));
+    *block = (FarBlock){.dof_count = bulk->dof_count};
+    TRY(far_patches_create(&bulk->pattern, interface_dofs, interface_count,
+                           &work.patches, err));
+    if (work.patches.count > 0)
+        TRY(replace(interface_dofs, interface_count, def, &work, err));
 cleanup:
     // The whole bulk is tried then, and says what is wrong.
     if (err->code == ERROR_COMPUTE) {
-        block->layer_count = 0;
+        block->patch_count = 0;
         error_clear(err);
     }
     building_destroy(&work);

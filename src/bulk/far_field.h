@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The bulk that is left where a FarBlock replaces what is far from the interface: unknowns that are
-// near, some 20 rows of elements, and a few dense blocks, whatever the block's height. Called by
+// near, a few rows of elements, and many small dense blocks, few of them high up. Called by
 // bulk/reduction and bulk/far_block.
 #ifndef AMONTONS_BULK_FAR_FIELD_H
 #define AMONTONS_BULK_FAR_FIELD_H
@@ -15,7 +15,7 @@ typedef struct FarField {
     BulkOperator system;   // of `bulk`; owned
     int32_t mesh_dofs, near_count;
     int32_t *near;   // [near_count] unknowns of the mesh, ascending
-    int32_t first[FAR_LAYERS_MAX];   // of a layer's coordinates among the unknowns of `bulk`
+    int32_t *first;   // [patches + 1] of a patch's coordinates among the unknowns of `bulk`
 } FarField;
 
 // mesh: of which the block's bulk is all or a part. unit: E.

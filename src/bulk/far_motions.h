@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Motions of a layer of unknowns, all others at rest: orthonormal in K/E but for rounding, grown
+// Motions of a patch of unknowns, all others at rest: orthonormal in K/E but for rounding, grown
 // from answers of the mesh, of which only what the others lack is taken. Used by bulk/far_samples
 // and bulk/far_field.
 #ifndef AMONTONS_BULK_FAR_MOTIONS_H
@@ -16,21 +16,31 @@ typedef struct FarMotions {
     int32_t count, room;   // columns
     double *field;   // [size * room] F, F'(K/E)F = 1
     double *image;   // [size * room] (K/E) F
-    int32_t columns_max;   // of fields at once
-    double *rows, *next;   // [size * columns_max] work: their rows here, the image of these
-    double *work[2];   // [size * SPARSE_WIDE] of two threads
 } FarMotions;
 
-// None yet. motions->dofs and size are set, by far_block, columns_max by far_samples; unit: E.
-// There is room for `expected`; memory that is never written to is never there.
-bool far_motions_begin(const Bulk *bulk, double unit, int32_t expected, FarMotions *motions,
-                       Error *err);
+// What one thread works in, patch by patch.
+typedef struct FarRoom {
+    double *rows, *next;   // [size * columns] rows of the fields, their image
+    double *parts;   // [(size + columns) * columns]
+    double *sparse;   // [size * SPARSE_WIDE]
+    double *energies, *values, *eigen;   // [columns^2], [columns], [dense_eigen_work(columns)]
+} FarRoom;
+
+// For patches of up to `size` unknowns, `columns` fields at once.
+bool far_room_create(int64_t size, int64_t columns, FarRoom *room, Error *err);
+void far_room_destroy(FarRoom *room);
+
+// None yet. motions->dofs and size are set, by far_block; unit: E. There is room for `expected`;
+// memory that is never written to is never there. place: [dofs of the mesh] -1, also afterwards.
+bool far_motions_begin(const Bulk *bulk, double unit, int32_t expected, int32_t *place,
+                       FarMotions *motions, Error *err);
 void far_motions_destroy(FarMotions *motions);
+bool far_motions_make_room(FarMotions *motions, int32_t columns, Error *err);   // for more
 
 // Takes up what of `fields` [dofs of the mesh, columns] has an energy above `least` beyond the
-// motions that are there; *added of them.
-bool far_motions_add(FarMotions *motions, DenseView fields, double least, int32_t *added,
-                     Error *err);
+// motions that are there; *added of them, for which there is room. false: LAPACK finds no energies.
+bool far_motions_add(FarMotions *motions, DenseView fields, double least, FarRoom *room,
+                     int32_t *added);
 
 // square[term] [count^2]: F'(K/E)F, F'CF, F'MF by BulkTerm; mass: [dofs of the mesh].
 bool far_motions_project(const FarMotions *motions, const double *mass,

@@ -6,14 +6,16 @@
 #include "base/dense.h"
 #include "base/largest_eigen.h"
 #include "base/memory.h"
+#include "base/share.h"
 #include "bulk/factors_ahead.h"
 #include "bulk/inertias.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <string.h>
 
-// Motions asked at once; where fewer than NEW_SHARE of them are new to each layer no more are asked
-// at a point.
+// Motions asked at once; where fewer than NEW_SHARE of them are new to a patch it takes no more at a
+// point.
 enum { CHUNK = 24 };
 static const double NEW_SHARE = 0.75;
 
@@ -33,7 +35,7 @@ static const double NEGATIVE = 1e-3;
 // Of the mean diagonal: S of K alone is lifted by it, where rigid motions cost nothing.
 static const double LIFT = 1;
 
-enum { LEVELS_MAX = 10, POINTS_MAX = STRIP_VISCOSITIES_MAX * (LEVELS_MAX + 1) + 1 };
+enum { LEVELS_MAX = 16, POINTS_MAX = STRIP_VISCOSITIES_MAX * (LEVELS_MAX + 1) + 1 };
 
 typedef struct Sampling {
     const Bulk *bulk;
@@ -53,6 +55,8 @@ typedef struct Sampling {
     double *asked;   // [m * CHUNK] motions of the interface
     double *fields;   // [dofs * (CHUNK + 1)] answers
     uint64_t drawn;   // random numbers
+    bool *busy;   // [patches] whether a patch still finds much that is new
+    FarRoom room[2];   // of two threads
 } Sampling;
 
 // All but what the comparison needs.
@@ -62,6 +66,9 @@ static void sampling_end(Sampling *work)
     memory_free(work->lifted);
     memory_free(work->asked);
     memory_free(work->fields);
+    memory_free(work->busy);
+    for (int which = 0; which < 2; which++) far_room_destroy(&work->room[which]);
+    work->busy = NULL;
     work->statics = NULL;
     work->lifted = work->asked = work->fields = NULL;
 }
@@ -94,7 +101,8 @@ static double draw_sign(uint64_t *drawn)
 static void add_point(Sampling *work, StripPoint point)
 {
     work->points[work->count] = point;
-    work->terms[work->count++] = strip_terms(point, &work->def->scales);
+    work->terms[work->count] = strip_terms(point, &work->def->scales);
+    work->terms[work->count++].lower_only = true;
 }
 
 // At one inertia, with every other viscosity.
@@ -137,8 +145,30 @@ static void list_points(Sampling *work, double slowest, double element_inertia)
     for (int32_t k = 1; k < work->viscosity_count; k++)
         add_point(work, (StripPoint){work->viscosity[k], lowest});
     add_point(work, compared);
-    work->count--;
+    work->terms[--work->count].lower_only = false;
     work->samples->allowed = strip_allowed(&strip, compared, def->tolerance);
+}
+
+static bool begin_patches(Sampling *work, int32_t m, Error *err)
+{
+    FarSamples *samples = work->samples;
+    int32_t dofs = work->bulk->dof_count, size = 0;
+    int32_t *place = NEW_ARRAY(int32_t, dofs, err);
+    work->busy = NEW_ARRAY(bool, samples->patch_count, err);
+    if (!place || !work->busy) goto cleanup;
+    for (int32_t k = 0; k < dofs; k++) place[k] = -1;
+    for (int32_t p = 0; p < samples->patch_count; p++) {
+        FarMotions *patch = &samples->patches[p];
+        int32_t expected = m < patch->size ? m : patch->size;
+        TRY(far_motions_begin(work->bulk, work->def->scales.stiffness, expected, place, patch,
+                              err));
+        if (patch->size > size) size = patch->size;
+    }
+    for (int which = 0; which < 2; which++)
+        TRY(far_room_create(size, CHUNK + 1, &work->room[which], err));
+cleanup:
+    memory_free(place);
+    return error_is_clean(err);
 }
 
 static bool sampling_begin(const int32_t *interface_dofs, int32_t m, Sampling *work, Error *err)
@@ -158,10 +188,7 @@ static bool sampling_begin(const int32_t *interface_dofs, int32_t m, Sampling *w
     TRY(inertia_slowest(&work->mesh, scales, work->statics, &samples->slowest, err));
     list_points(work, samples->slowest, element);
     factors_ahead_extend(work->ahead, work->count + 1);
-    for (int32_t k = 0; k < samples->layer_count; k++) {
-        samples->layers[k]->columns_max = CHUNK + 1;
-        TRY(far_motions_begin(bulk, scales->stiffness, m, samples->layers[k], err));
-    }
+    TRY(begin_patches(work, m, err));
     samples->stiffness = NEW_ARRAY(double, (int64_t)m *m, err);
     work->lifted = NEW_ARRAY(double, (int64_t)m *m, err);
     work->asked = NEW_ARRAY(double, (int64_t)m *CHUNK, err);
@@ -181,17 +208,44 @@ static int32_t take_load(const Sampling *work, const double *held)
     return 1;
 }
 
-// To those of the layers before `count` that found much that was new in the answers before. *count:
-// the layers that did so now; deeper ones find less.
-static bool add_to_layers(Sampling *work, int32_t columns, double least, int32_t *count, Error *err)
+// Patches that found much that was new in the answers before, two at a time.
+typedef struct Turn {
+    Sampling *work;
+    DenseView fields;
+    double least;
+    atomic_int next;   // patch
+    atomic_bool failed;
+} Turn;
+
+static void add_in_turn(void *context, int32_t which)
 {
-    int32_t dofs = work->bulk->dof_count, added = 0, layers = *count;
-    *count = 0;
-    for (int32_t k = 0; k < layers; k++) {
-        FarMotions *layer = work->samples->layers[k];
-        TRY(far_motions_add(layer, dense_view(work->fields, dofs, columns), least, &added, err));
-        if (added > NEW_SHARE * columns) *count = k + 1;
+    Turn *turn = context;
+    Sampling *work = turn->work;
+    int32_t count = work->samples->patch_count, added = 0;
+    for (int32_t p = atomic_fetch_add(&turn->next, 1); p < count;
+         p = atomic_fetch_add(&turn->next, 1)) {
+        if (!work->busy[p]) continue;
+        if (!far_motions_add(&work->samples->patches[p], turn->fields, turn->least,
+                             &work->room[which], &added))
+            atomic_store(&turn->failed, true);
+        work->busy[p] = added > NEW_SHARE * turn->fields.columns;
     }
+}
+
+// *left: patches that found much that is new now, too.
+static bool add_to_patches(Sampling *work, int32_t columns, double least, int32_t *left, Error *err)
+{
+    FarSamples *samples = work->samples;
+    Turn turn = {.work = work,
+                 .fields = dense_view(work->fields, work->bulk->dof_count, columns),
+                 .least = least};
+    for (int32_t p = 0; p < samples->patch_count; p++)
+        if (work->busy[p]) TRY(far_motions_make_room(&samples->patches[p], columns, err));
+    share_in_two(add_in_turn, &turn);
+    if (turn.failed)
+        FAIL(err, ERROR_LIBRARY, "LAPACK: no energies of motions far from the interface");
+    *left = 0;
+    for (int32_t p = 0; p < samples->patch_count; p++) *left += work->busy[p];
 cleanup:
     return error_is_clean(err);
 }
@@ -201,14 +255,15 @@ static bool sample(Sampling *work, InterfaceOperator *full, const double *held, 
                    Error *err)
 {
     int32_t m = work->mesh.interface_count;
-    int32_t layers = work->samples->layer_count;
+    int32_t left = work->samples->patch_count;
+    for (int32_t p = 0; p < left; p++) work->busy[p] = true;
     // m motions are all there are.
-    for (int32_t loads = take_load(work, held), asked = 0; layers > 0 && asked < m;
+    for (int32_t loads = take_load(work, held), asked = 0; left > 0 && asked < m;
          asked += CHUNK) {
         for (int32_t k = 0; k < m * CHUNK; k++) work->asked[k] = draw_sign(&work->drawn);
         dense_lower_divide_transposed(work->lower, m, CHUNK, work->asked);
         TRY(interface_operator_answer(full, work->asked, CHUNK, work->fields, err));
-        TRY(add_to_layers(work, CHUNK + loads, least, &layers, err));
+        TRY(add_to_patches(work, CHUNK + loads, least, &left, err));
         loads = 0;
     }
 cleanup:

@@ -17,9 +17,9 @@ typedef struct FarFieldDef {
 // What the whole mesh says, of which the first three lines are given. `bulk` must outlive it: its
 // last factor is made while the caller goes on.
 typedef struct FarSamples {
-    int32_t distance;   // elements between the interface and the first layer
-    int32_t layer_count;
-    FarMotions *const *layers;   // [layer_count] begun and filled; not owned
+    int32_t distance;   // elements between the interface and the first patches
+    int32_t patch_count;
+    FarMotions *patches;   // [patch_count] begun and filled; not owned
     double *stiffness;   // [interface_count^2] S of K/E; owned
     double slowest;   // inertia of the interior's slowest mode (bulk/inertias)
     struct Sampling *sampling;   // what the comparison needs; owned

@@ -242,7 +242,8 @@ static bool condense_sparse(InterfaceOperator *condensed, OperatorTerms terms, E
     }
     condensed->factor = sparse_factorise(system->analysis, system->values, err);
     if (!condensed->factor) return false;
-    memcpy(condensed->schur, sparse_schur(condensed->factor), (size_t)(m * m) * sizeof(double));
+    if (terms.lower_only) return true;
+    sparse_schur(condensed->factor, condensed->schur);
     for (int64_t j = 0; j < m; j++) condensed->schur[j * m + j] -= shift;
     return true;
 }
@@ -306,7 +307,7 @@ cleanup:
 }
 
 // Memory of a reduced one: m^2 + r^2 + r m doubles, m interface and r interior unknowns; of a full
-// one the sparse factor and 3 m^2. That of C alone, for the certificate, is copied from the
+// one the sparse factor and 2 m^2. That of C alone, for the certificate, is copied from the
 // reduction.
 InterfaceOperator *interface_operator_create(BulkOperator *system, OperatorTerms terms, Error *err)
 {
@@ -314,7 +315,7 @@ InterfaceOperator *interface_operator_create(BulkOperator *system, OperatorTerms
     InterfaceOperator *condensed = NEW_ARRAY(InterfaceOperator, 1, err);
     if (!condensed) goto cleanup;
     condensed->system = system;
-    condensed->schur = NEW_ARRAY(double, m *m, err);
+    condensed->schur = NEW_ARRAY(double, terms.lower_only ? 0 : m *m, err);
     if (!condensed->schur) goto cleanup;
     bool taken = !system->bulk && take_viscous(condensed, terms);
     if (system->bulk)

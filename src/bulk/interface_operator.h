@@ -72,6 +72,7 @@ typedef struct OperatorTerms {
     bool lift;   // A may be singular in the interface's own motion (C or K alone): its interface
         // diagonal is raised to factor it, and S lowered again
     bool schur_only;   // nothing but S will be asked for
+    bool lower_only;   // of a mesh: S will not be asked for, its Cholesky factor may be
 } OperatorTerms;
 
 // The largest relative error of S that the reduction leaves at these terms; 0: full.

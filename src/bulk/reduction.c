@@ -381,7 +381,7 @@ static bool replace_far(Builder *work, const Bulk *bulk, const int32_t *interfac
     const ReductionDef *def = work->def;
     FarFieldDef far_def = {def->tolerance, def->scales, def->materials};
     const FarBlock *above = def->above.block;
-    bool known = above && above->layer_count > 0;
+    bool known = above && above->patch_count > 0;
     work->far.block = known ? above : &work->own;
     if (known) {
         work->far.dofs = def->above.dofs;
@@ -390,10 +390,10 @@ static bool replace_far(Builder *work, const Bulk *bulk, const int32_t *interfac
     } else {
         TRY(far_block_create(bulk, interface_dofs, m, &far_def, &work->own, err));
     }
-    if (work->far.block->layer_count > 0)
+    if (work->far.block->patch_count > 0)
         TRY(far_field_create(bulk, interface_dofs, m, def->scales.stiffness, &work->far, err));
-    if (work->own.layer_count > 0) TRY(far_field_measure(&work->far, &work->own, err));
-    if (work->far.block->layer_count == 0) work->far.block = NULL;
+    if (work->own.patch_count > 0) TRY(far_field_measure(&work->far, &work->own, err));
+    if (work->far.block->patch_count == 0) work->far.block = NULL;
 cleanup:
     return error_is_clean(err);
 }

@@ -11,9 +11,9 @@
 
 // Stands in every key, beside the basis's: a new meaning of the arrays below needs a new number,
 // motions that come out otherwise than before are a new basis.
-static const char FORMAT[] = "upper 1";
+static const char FORMAT[] = "upper 2";
 
-enum { COUNTS = 3 };   // unknowns, layers, rows of the first coupling
+enum { COUNTS = 3 };   // unknowns, patches, couplings
 
 static void find_name(const FarCacheDef *def, char name[HASH_TEXT_SIZE])
 {
@@ -29,46 +29,76 @@ static void find_name(const FarCacheDef *def, char name[HASH_TEXT_SIZE])
     hash_write(&hash, name);
 }
 
-static void field_name(int32_t layer, char name[CACHE_NAME_SIZE])
+static bool take_counts(const CacheFile *file, const char *name, int32_t count, int32_t limit,
+                        int32_t **out, Error *err)
 {
-    snprintf(name, CACHE_NAME_SIZE, "field %d", layer);
+    *out = NEW_ARRAY(int32_t, count, err);
+    return *out && cache_file_whole(file, name, count, limit, *out);
+}
+
+// Patches and couplings that are in order; false: they cannot be.
+static bool read_lists(const CacheFile *file, int32_t dofs, FarBlock *block, Error *err)
+{
+    int32_t patches = block->patch_count, couplings = block->coupling_count;
+    int32_t *size = NULL, *columns = NULL, *patch = NULL, *before = NULL, *rows = NULL;
+    bool sound = take_counts(file, "sizes", patches, dofs, &size, err) &&
+                 take_counts(file, "columns", patches, dofs, &columns, err) &&
+                 take_counts(file, "patch", couplings, patches, &patch, err) &&
+                 take_counts(file, "before", couplings, patches, &before, err) &&
+                 take_counts(file, "rows", couplings, dofs, &rows, err);
+    for (int32_t p = 0; sound && p < patches; p++) {
+        block->patches[p].size = size[p];
+        block->patches[p].count = columns[p];
+    }
+    for (int32_t k = 0; sound && k < couplings; k++) {
+        // `before` is stored from 1 on; 0: near.
+        block->couplings[k] =
+            (FarCoupling){.patch = patch[k], .before = before[k] - 1, .count = rows[k]};
+        bool ascends = k == 0 || patch[k] > patch[k - 1] ||
+                       (patch[k] == patch[k - 1] && before[k] > before[k - 1]);
+        sound = ascends && before[k] - 1 < patch[k] &&
+                (before[k] == 0 || rows[k] == columns[before[k] - 1]);
+    }
+    memory_free(size);
+    memory_free(columns);
+    memory_free(patch);
+    memory_free(before);
+    memory_free(rows);
+    return sound;
 }
 
 // Sizes that are those of the bulk; false: they cannot be.
-static bool read_sizes(const CacheFile *file, const UpperBlock *upper, FarBlock *block)
+static bool read_sizes(const CacheFile *file, const UpperBlock *upper, FarBlock *block, Error *err)
 {
-    int32_t counts[COUNTS], sizes[FAR_LAYERS_MAX], columns[FAR_LAYERS_MAX];
-    int32_t dofs = upper->block.bulk.dof_count;
+    int32_t counts[COUNTS], dofs = upper->block.bulk.dof_count;
     if (!cache_file_whole(file, "counts", COUNTS, CACHE_COUNT_LIMIT, counts)) return false;
-    if (counts[0] != dofs || counts[1] < 1 || counts[1] > FAR_LAYERS_MAX || counts[2] > dofs)
-        return false;
-    if (!cache_file_whole(file, "sizes", counts[1], dofs, sizes) ||
-        !cache_file_whole(file, "columns", counts[1], dofs, columns))
-        return false;
+    if (counts[0] != dofs || counts[1] < 1 || counts[1] > dofs) return false;
     block->dof_count = dofs;
-    block->layer_count = counts[1];
-    for (int32_t k = 0; k < counts[1]; k++) {
-        block->layers[k].size = sizes[k];
-        block->layers[k].count = columns[k];
-        block->layers[k].coupling.count = k == 0 ? counts[2] : columns[k - 1];
-    }
-    return true;
+    return far_block_make_lists(counts[1], counts[2], block, err) &&
+           read_lists(file, dofs, block, err);
 }
 
 // No unknown is replaced twice, and what is near stays so.
 static bool is_sound(const FarBlock *block, const UpperBlock *upper, Error *err)
 {
-    uint8_t *seen = NEW_ARRAY(uint8_t, block->dof_count, err);
-    bool sound = seen != NULL;
-    for (int64_t k = 0; sound && k < block->index_count; k++) {
-        sound = !seen[block->indices[k]];
-        seen[block->indices[k]] = 1;
+    uint8_t *far = NEW_ARRAY(uint8_t, block->dof_count, err);
+    bool sound = far != NULL;
+    for (int32_t p = 0; p < block->patch_count; p++) {
+        const FarPatch *patch = &block->patches[p];
+        for (int32_t i = 0; sound && i < patch->size; i++) {
+            sound = !far[patch->dofs[i]];
+            far[patch->dofs[i]] = 1;
+        }
     }
-    for (int32_t k = 0; sound && k < block->layer_count; k++)
-        for (int32_t i = 0; i < block->layers[k].size; i++) seen[block->layers[k].dofs[i]] = 2;
+    for (int32_t k = 0; k < block->coupling_count; k++) {
+        const FarCoupling *coupling = &block->couplings[k];
+        for (int32_t i = 0; sound && coupling->rows && i < coupling->count; i++)
+            sound = !far[coupling->rows[i]] &&
+                    (i == 0 || coupling->rows[i] > coupling->rows[i - 1]);
+    }
     for (int32_t j = 0; sound && j < upper->interface_count; j++)
-        sound = seen[upper->interface_dofs[j]] != 2;
-    memory_free(seen);
+        sound = !far[upper->interface_dofs[j]];
+    memory_free(far);
     return sound;
 }
 
@@ -76,7 +106,7 @@ static bool is_sound(const FarBlock *block, const UpperBlock *upper, Error *err)
 static bool read_block(const CacheFile *file, const UpperBlock *upper, FarBlock *block, Error *err)
 {
     const double *error = cache_file_array(file, "error", 1);
-    if (!error || !read_sizes(file, upper, block) || !far_block_lay_out(block, err)) return false;
+    if (!error || !read_sizes(file, upper, block, err) || !far_block_lay_out(block, err)) return false;
     const double *matrices = cache_file_array(file, "matrices", block->number_count);
     if (!matrices || !cache_file_whole(file, "indices", (int32_t)block->index_count,
                                        block->dof_count, block->indices))
@@ -88,21 +118,16 @@ static bool read_block(const CacheFile *file, const UpperBlock *upper, FarBlock 
 
 static bool read_fields(const char *name, FarBlock *block, bool *found, char *reason, Error *err)
 {
-    char path[CACHE_PATH_SIZE], array[CACHE_NAME_SIZE];
+    char path[CACHE_PATH_SIZE];
     CacheFile file = {0};
     cache_file_path(name, "field", path);
     TRY(cache_file_read(path, name, &file, found, reason, err));
-    for (int32_t k = 0; *found && k < block->layer_count; k++) {
-        FarLayer *layer = &block->layers[k];
-        int64_t count = (int64_t)layer->size * layer->count;
-        field_name(k, array);
-        const double *field = cache_file_array(&file, array, count);
-        *found = field != NULL;
-        if (!field) break;
-        layer->field = NEW_ARRAY(double, count, err);
-        if (!layer->field) goto cleanup;
-        memcpy(layer->field, field, (size_t)count * sizeof *field);
-    }
+    if (!*found) goto cleanup;
+    const double *fields = cache_file_array(&file, "fields", block->field_count);
+    *found = fields != NULL;
+    if (!fields) goto cleanup;
+    TRY(far_block_lay_out_fields(block, err));
+    memcpy(block->fields, fields, (size_t)block->field_count * sizeof *fields);
 cleanup:
     cache_file_destroy(&file);
     return error_is_clean(err);
@@ -131,36 +156,43 @@ cleanup:
 
 static bool store_fields(const char *path, const char *name, const FarBlock *block, Error *err)
 {
-    CacheArray arrays[FAR_LAYERS_MAX];
-    for (int32_t k = 0; k < block->layer_count; k++) {
-        const FarLayer *layer = &block->layers[k];
-        arrays[k] =
-            (CacheArray){.count = (int64_t)layer->size * layer->count, .values = layer->field};
-        field_name(k, arrays[k].name);
-    }
-    return cache_file_write(path, name, arrays, block->layer_count, err);
+    const CacheArray fields = {"fields", block->field_count, block->fields};
+    return cache_file_write(path, name, &fields, 1, err);
 }
 
 static bool store_block(const char *name, const FarBlock *block, Error *err)
 {
     char path[CACHE_PATH_SIZE];
-    double counts[COUNTS] = {block->dof_count, block->layer_count, block->layers[0].coupling.count};
-    double sizes[FAR_LAYERS_MAX], columns[FAR_LAYERS_MAX];
+    int64_t patches = block->patch_count, couplings = block->coupling_count;
+    double counts[COUNTS] = {block->dof_count, block->patch_count, block->coupling_count};
+    double *sizes = NEW_ARRAY(double, 2 * patches, err), *columns = sizes + patches;
+    double *patch = NEW_ARRAY(double, 3 * couplings, err);
+    double *before = patch + couplings, *rows = before + couplings;
     double *indices = NEW_ARRAY(double, block->index_count, err);
-    if (!indices || !cache_file_path(name, "upper", path)) goto cleanup;
+    if (!sizes || !patch || !indices || !cache_file_path(name, "upper", path)) goto cleanup;
     for (int64_t k = 0; k < block->index_count; k++) indices[k] = block->indices[k];
-    for (int32_t k = 0; k < block->layer_count; k++) {
-        sizes[k] = block->layers[k].size;
-        columns[k] = block->layers[k].count;
+    for (int64_t p = 0; p < patches; p++) {
+        sizes[p] = block->patches[p].size;
+        columns[p] = block->patches[p].count;
+    }
+    for (int64_t k = 0; k < couplings; k++) {
+        patch[k] = block->couplings[k].patch;
+        before[k] = block->couplings[k].before + 1;
+        rows[k] = block->couplings[k].count;
     }
     CacheArray arrays[] = {{"counts", COUNTS, counts},
-                           {"sizes", block->layer_count, sizes},
-                           {"columns", block->layer_count, columns},
+                           {"sizes", patches, sizes},
+                           {"columns", patches, columns},
+                           {"patch", couplings, patch},
+                           {"before", couplings, before},
+                           {"rows", couplings, rows},
                            {"error", 1, &block->error},
                            {"indices", block->index_count, indices},
                            {"matrices", block->number_count, block->matrices}};
     TRY(cache_file_write(path, name, arrays, sizeof arrays / sizeof *arrays, err));
 cleanup:
+    memory_free(sizes);
+    memory_free(patch);
     memory_free(indices);
     return error_is_clean(err);
 }
@@ -170,7 +202,7 @@ static void store(const char *name, const FarCacheDef *def, const FarBlock *bloc
 {
     char path[CACHE_PATH_SIZE];
     Error err = {0};
-    if (!name[0] || block->layer_count == 0 || !cache_file_path(name, "field", path)) return;
+    if (!name[0] || block->patch_count == 0 || !cache_file_path(name, "field", path)) return;
     if (!def->with_fields) unlink(path);
     bool stored = (!def->with_fields || store_fields(path, name, block, &err)) &&
                   store_block(name, block, &err);
@@ -186,7 +218,7 @@ static bool make(const FarCacheDef *def, FarBlock *block, Error *err)
     FarField far = {.block = block};
     TRY(far_block_create(bulk, upper->interface_dofs, upper->interface_count, &def->far, block,
                          err));
-    if (block->layer_count == 0) goto cleanup;
+    if (block->patch_count == 0) goto cleanup;
     TRY(far_field_create(bulk, upper->interface_dofs, upper->interface_count,
                          def->far.scales.stiffness, &far, err));
     TRY(far_field_measure(&far, block, err));

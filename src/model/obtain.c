@@ -16,6 +16,7 @@
 #include "model/shape_cache.h"
 #include "scene/materials.h"
 
+#include <malloc.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -123,6 +124,7 @@ static bool build_basis(Model *model, const ReductionBlock *block, const Interfa
 cleanup:
     far_block_destroy(&far);
     upper_block_destroy(&upper);
+    malloc_trim(0);   // what a reduction needs at once nothing needs afterwards
     return error_is_clean(err);
 }
 

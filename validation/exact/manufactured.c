@@ -152,7 +152,7 @@ static bool solve(Problem *problem, Error *err)
     SparseAnalysis *analysis = NULL;
     SparseFactor *factor = NULL;
     int32_t border = 0;
-    double g, at_border;
+    double g, schur, at_border;
     double *inside = NEW_ARRAY(double, bulk->dof_count, err);
     if (!inside) goto cleanup;
     analysis = sparse_analyse(&bulk->pattern, &border, 1, err);   // one unknown as the border
@@ -160,7 +160,8 @@ static bool solve(Problem *problem, Error *err)
     factor = sparse_factorise(analysis, bulk->stiffness, err);
     if (!factor) goto cleanup;
     TRY(sparse_condense(factor, bulk->load, &g, err));
-    at_border = g / sparse_schur(factor)[0];
+    sparse_schur(factor, &schur);
+    at_border = g / schur;
     TRY(sparse_expand(factor, &at_border, inside, err));
     for (int32_t dof = 0; dof < bulk->dof_count; dof++) problem->u[dof] += inside[dof];
 cleanup:

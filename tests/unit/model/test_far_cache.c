@@ -30,21 +30,27 @@ static bool obtain(const FarCacheDef *def, FarBlock *block, char note[CACHE_NOTE
 
 static void assert_same(const FarBlock *one, const FarBlock *other, bool with_fields)
 {
-    assert_int_equal(one->layer_count, other->layer_count);
-    assert_true(one->layer_count > 0);
+    assert_int_equal(one->patch_count, other->patch_count);
+    assert_true(one->patch_count > 0);
     assert_int_equal(one->number_count, other->number_count);
     assert_memory_equal(one->indices, other->indices, (size_t)one->index_count * sizeof(int32_t));
     assert_memory_equal(one->matrices, other->matrices, (size_t)one->number_count * sizeof(double));
     assert_true(one->error == other->error);
-    for (int32_t k = 0; k < one->layer_count; k++) {
-        const FarLayer *a = &one->layers[k], *b = &other->layers[k];
+    for (int32_t p = 0; p < one->patch_count; p++) {
+        const FarPatch *a = &one->patches[p], *b = &other->patches[p];
         assert_int_equal(a->size, b->size);
         assert_int_equal(a->count, b->count);
-        assert_int_equal(a->coupling.count, b->coupling.count);
         if (!with_fields) continue;
         assert_non_null(b->field);
         assert_memory_equal(a->field, b->field,
                             (size_t)a->size * (size_t)a->count * sizeof(double));
+    }
+    assert_int_equal(one->coupling_count, other->coupling_count);
+    for (int32_t k = 0; k < one->coupling_count; k++) {
+        const FarCoupling *a = &one->couplings[k], *b = &other->couplings[k];
+        assert_int_equal(a->patch, b->patch);
+        assert_int_equal(a->before, b->before);
+        assert_int_equal(a->count, b->count);
     }
 }
 
@@ -73,7 +79,7 @@ static void test_comes_back(void **state)
     assert_true(obtain(&of_moved, &second, note));
     assert_string_equal(note, "");
     assert_same(&first, &second, false);
-    assert_null(second.layers[0].field);
+    assert_null(second.patches[0].field);
     far_block_destroy(&second);
 
     of_moved.with_fields = true;   // which were not kept
@@ -94,16 +100,64 @@ static void test_comes_back(void **state)
     pad_block_destroy(&moved);
 }
 
-// A byte in the middle; then, with a checksum that holds, an unknown of the line that is replaced.
+// The file with its `index`-th number of an array replaced, and a checksum that holds.
+static void replace_number(const char *path, const char *array, int64_t index, double number)
+{
+    Error err = {0};
+    char name[HASH_TEXT_SIZE], reason[CACHE_REASON_SIZE];
+    CacheFile file;
+    bool found = false, replaced = false;
+    snprintf(name, sizeof name, "%.32s", strrchr(path, '/') + 1);
+    assert_true(cache_file_read(path, name, &file, &found, reason, &err));
+    assert_true(found);
+    for (int32_t k = 0; k < file.array_count; k++) {
+        if (strcmp(file.arrays[k].name, array) != 0) continue;
+        assert_true(file.arrays[k].count > index);
+        ((double *)(uintptr_t)file.arrays[k].values)[index] = number;
+        replaced = true;
+    }
+    assert_true(replaced);
+    assert_true(cache_file_write(path, name, file.arrays, file.array_count, &err));
+    cache_file_destroy(&file);
+}
+
+// Numbers that cannot be: an unknown of the line that is replaced; a near row twice; a patch before
+// itself; rows that are not the coordinates of the patch before; couplings out of order.
+static void check_impossible(const FarCacheDef *def, const char *path, const FarBlock *first)
+{
+    int32_t line = def->upper->interface_dofs[0], last = first->coupling_count - 1;
+    int32_t pair = last;   // a coupling of two patches
+    while (first->couplings[pair].before < 0) pair--;
+    const FarCoupling *coupling = &first->couplings[pair];
+    const struct {
+        const char *array;
+        int64_t index;
+        double number;
+    } wrong[] = {{"indices", 0, line},
+                 {"indices", first->index_count - 1, first->indices[first->index_count - 2]},
+                 {"before", pair, coupling->patch + 1},
+                 {"rows", pair, coupling->count - 1},
+                 {"patch", last, 0},
+                 {"patch", 0, first->patch_count},
+                 {"sizes", 0, first->dof_count + 1}};
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        char note[CACHE_NOTE_SIZE];
+        FarBlock second;
+        replace_number(path, wrong[k].array, wrong[k].index, wrong[k].number);
+        assert_false(obtain(def, &second, note));
+        assert_non_null(strstr(note, "missing or wrong"));
+        assert_same(first, &second, false);
+        far_block_destroy(&second);
+    }
+}
+
+// A byte in the middle; then numbers that cannot be.
 static void test_spoilt(void **state)
 {
     (void)state;
-    char note[CACHE_NOTE_SIZE], path[PATH_SIZE], name[HASH_TEXT_SIZE], reason[CACHE_REASON_SIZE];
-    Error err = {0};
+    char note[CACHE_NOTE_SIZE], path[PATH_SIZE];
     PadBlock made;
     FarBlock first, second;
-    CacheFile file;
-    bool found;
     pad_block_build(PAD_DESIGN, &made);
     FarCacheDef def = cache_def(&made);
     assert_false(obtain(&def, &first, note));
@@ -122,18 +176,7 @@ static void test_spoilt(void **state)
     assert_true(obtain(&def, &second, note));
     far_block_destroy(&second);
 
-    snprintf(name, sizeof name, "%.32s", strrchr(path, '/') + 1);
-    assert_true(cache_file_read(path, name, &file, &found, reason, &err));
-    assert_true(found);
-    for (int32_t k = 0; k < file.array_count; k++)
-        if (strcmp(file.arrays[k].name, "indices") == 0)
-            ((double *)(uintptr_t)file.arrays[k].values)[0] = made.upper.interface_dofs[0];
-    assert_true(cache_file_write(path, name, file.arrays, file.array_count, &err));
-    cache_file_destroy(&file);
-    assert_false(obtain(&def, &second, note));
-    assert_non_null(strstr(note, "missing or wrong"));
-    assert_same(&first, &second, false);
-    far_block_destroy(&second);
+    check_impossible(&def, path, &first);
     far_block_destroy(&first);
     pad_block_destroy(&made);
 }
