@@ -31,7 +31,7 @@ void dense_lower_apply_transposed(const double *lower, int32_t n, double *x);
 void dense_lower_solve(const double *lower, int32_t n, double *x);
 void dense_lower_solve_transposed(const double *lower, int32_t n, double *x);
 
-// c = L L' (all of c is written); lower, c: [n * n], distinct.
+// c = L L' (all of c is written); lower, 0 above its diagonal, c: [n * n], distinct.
 void dense_lower_square(const double *lower, int32_t n, double *c);
 
 // Inverse, both triangles, of a symmetric positive definite `a` [n * n] from its Cholesky factor.
@@ -109,6 +109,11 @@ void dense_apply_transposed(DenseView a, const double *x, double factor, double 
 void dense_add_nonzero(DenseView a, const double *x, double factor, double *y);
 // y = a x for `count` vectors, the same bits as one by one: `a` comes from memory once.
 void dense_apply_each(DenseView a, int32_t count, const double *const *x, double *const *y);
+
+// out := a', [a.columns * a.rows] with columns `stride` apart.
+void dense_transpose(DenseView a, double *out, int64_t stride);
+// a [n * n]: its lower triangle into the upper one.
+void dense_mirror(double *a, int64_t n);
 
 double dense_dot(const double *x, const double *y, int32_t n);
 double dense_max_abs(const double *x, int32_t n);

@@ -3,13 +3,16 @@
 #include "base/dense.h"
 
 #include <cblas.h>
+
+enum { SQUARE_WIDE = 128 };   // columns of L L' at once
 #include <stddef.h>
 
 // LAPACK's, as in base/dense.
 void dsygst_(const int *itype, const char *uplo, const int *n, double *a, const int *lda,
              const double *b, const int *ldb, int *info, size_t uplo_size);
 
-// The strictly upper triangle of `lower` is not looked at, here and in what follows.
+// The strictly upper triangle of `lower` is not looked at, here and in what follows but for its
+// square.
 void dense_lower_apply(const double *lower, int32_t n, double *x)
 {
     if (n > 0)
@@ -36,13 +39,13 @@ void dense_lower_solve(const double *lower, int32_t n, double *x)
 // costs half of a general product.
 void dense_lower_square(const double *lower, int32_t n, double *c)
 {
-    if (n == 0) return;
-    size_t size = (size_t)n;
-    for (size_t j = 0; j < size; j++) {
-        for (size_t i = 0; i < size; i++) c[j * size + i] = i >= j ? lower[j * size + i] : 0.0;
+    for (int32_t from = 0; from < n; from += SQUARE_WIDE) {
+        int32_t columns = n - from < SQUARE_WIDE ? n - from : SQUARE_WIDE;
+        const double *rows = lower + from;
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, n - from, columns, from + columns, 1,
+                    rows, n, rows, n, 0, c + (int64_t)from * (n + 1), n);
     }
-    cblas_dtrmm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, n, n, 1.0, lower,
-                n, c, n);
+    dense_mirror(c, n);
 }
 
 void dense_lower_divide(const double *lower, int32_t n, int32_t columns, double *b)

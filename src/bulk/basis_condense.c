@@ -10,6 +10,7 @@
 
 enum {
     WIDE = 64,   // columns of a product
+    STRETCH = 1024,   // numbers that are added up at once
     ALONE = 20000   // entries of Z below which a thread takes as long as it saves
 };
 
@@ -51,16 +52,20 @@ static void in_two(void (*half)(void *context, int32_t which), Condensation *all
     }
 }
 
-// out := sum of factor * term, those that are there.
+// out := sum of factor * term, those that are there, stretch by stretch in the cache.
 static void combine(double *const terms[BULK_TERMS], const double *factor, int64_t count,
                     double *out)
 {
-    const double *k = terms[BULK_STIFFNESS], *c = terms[BULK_DAMPING], *m = terms[BULK_MASS];
-    double of_k = factor[BULK_STIFFNESS], of_c = factor[BULK_DAMPING], of_m = factor[BULK_MASS];
-    if (k)
-        for (int64_t i = 0; i < count; i++) out[i] = of_m * m[i] + of_c * c[i] + of_k * k[i];
-    else
-        for (int64_t i = 0; i < count; i++) out[i] = of_m * m[i] + of_c * c[i];
+    for (int64_t from = 0; from < count; from += STRETCH) {
+        int64_t end = from + STRETCH < count ? from + STRETCH : count;
+        memset(out + from, 0, (size_t)(end - from) * sizeof *out);
+        for (int term = 0; term < BULK_TERMS; term++) {
+            const double *values = terms[term];
+            double share = factor[term];
+            for (int64_t i = from; values && share != 0 && i < end; i++)
+                out[i] += share * values[i];
+        }
+    }
 }
 
 bool basis_condense(const GrowingBasis *basis, const double *factor, double *schur, double *energy,
@@ -73,15 +78,13 @@ bool basis_condense(const GrowingBasis *basis, const double *factor, double *sch
     combine(basis->interior, factor, r * r, interior);
     combine(basis->beside, factor, m * r, beside);
     combine(basis->statics, factor, m * m, schur);
-    for (int64_t j = 0; j < r; j++)
-        for (int64_t i = 0; i < m; i++) z[i * r + j] = beside[j * m + i];
+    dense_transpose(dense_view(beside, m, r), z, r);
     memcpy(z + m * r, basis->load + m, (size_t)r * sizeof *z);
     if (!(*definite = dense_cholesky(interior, (int32_t)r))) goto cleanup;
     Condensation all = {m, r, interior, z, schur};
     in_two(divide_half, &all);
     in_two(square_half, &all);
-    for (int64_t j = 0; j < m; j++)
-        for (int64_t i = 0; i < j; i++) schur[j * m + i] = schur[i * m + j];
+    dense_mirror(schur, m);
     *energy = dense_dot(z + m * r, z + m * r, (int32_t)r);
 cleanup:
     memory_free(interior);

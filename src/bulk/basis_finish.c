@@ -34,8 +34,7 @@ static bool turn_create(const GrowingBasis *basis, Turn *turn, Error *err)
     if (!error_is_clean(err)) goto cleanup;
     memcpy(turn->w, basis->interior[BULK_MASS], (size_t)(r * r) * sizeof *turn->w);
     dense_divide_both_sides(basis->lower, (int32_t)r, turn->w);
-    for (int64_t j = 0; j < r; j++)
-        for (int64_t i = 0; i < j; i++) turn->w[j * r + i] = turn->w[i * r + j];
+    dense_mirror(turn->w, r);
     if (!dense_tridiagonalise(turn->w, (int32_t)r, turn->diagonal, turn->beside, work))
         FAIL(err, ERROR_LIBRARY, "the reduced mass cannot be made tridiagonal");
     dense_lower_divide_transposed(basis->lower, (int32_t)r, (int32_t)r, turn->w);
@@ -60,8 +59,8 @@ static double *put_together(const GrowingBasis *basis, BulkTerm term, const Turn
     for (int64_t j = 0; j < m; j++)
         memcpy(square + j * all, basis->statics[term] + j * m, (size_t)m * sizeof *square);
     for (int64_t j = 0; j < r; j++)
-        for (int64_t i = 0; i < m; i++)
-            square[(m + j) * all + i] = square[i * all + m + j] = beside[j * m + i];
+        memcpy(square + (m + j) * all, beside + j * m, (size_t)m * sizeof *square);
+    dense_transpose(dense_view(beside, m, r), square + m, all);
 cleanup:
     memory_free(beside);
     return square;

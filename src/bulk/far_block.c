@@ -4,8 +4,8 @@
 #include "base/dense.h"
 #include "base/memory.h"
 
-#include <string.h>
 #include <stdlib.h>
+#include <string.h>
 
 // Unknowns outside a patch that share elements with it: near, then of each patch before it.
 typedef struct Border {
@@ -61,7 +61,7 @@ static void count_entries(FarBlock *block)
     }
     for (int32_t c = 0; c < block->coupling_count; c++) {
         const FarCoupling *coupling = &block->couplings[c];
-        if (coupling->before == FAR_NEAR) block->index_count += coupling->count;
+        if (coupling->before == NO_PATCH) block->index_count += coupling->count;
         block->number_count += 2 * (int64_t)coupling->count * block->patches[coupling->patch].count;
     }
 }
@@ -87,7 +87,7 @@ bool far_block_lay_out(FarBlock *block, Error *err)
     for (int32_t c = 0; c < block->coupling_count; c++) {
         FarCoupling *coupling = &block->couplings[c];
         int64_t entries = (int64_t)coupling->count * block->patches[coupling->patch].count;
-        if (coupling->before == FAR_NEAR) {
+        if (coupling->before == NO_PATCH) {
             coupling->rows = indices;
             indices += coupling->count;
         }
@@ -195,8 +195,7 @@ static bool list_border(Building *work, int32_t p, int32_t *seen, Error *err)
             border->dofs[border->count++] = other;
         }
     }
-    qsort_r(border->dofs, (size_t)border->count, sizeof *border->dofs, by_patch,
-            work->patches.of);
+    qsort_r(border->dofs, (size_t)border->count, sizeof *border->dofs, by_patch, work->patches.of);
     for (int32_t j = 0; j < border->count; j++)
         if (j == 0 || of[border->dofs[j]] != of[border->dofs[j - 1]])
             border->start[border->group_count++] = j;
@@ -222,20 +221,19 @@ static void multiply_border(const Building *work, int32_t p, const double *matri
     }
 }
 
-// Rows `first` to `first` + `count` of the border, all of patch `before`: out [its coordinates * q]
-// := (F_before)' turned.
-static bool project_rows(const Building *work, int32_t before, const int32_t *rows, int64_t count,
-                         DenseView turned, double *out, Error *err)
+// out [coordinates of patch `before` * columns] := its motions' rows of the border, [values.rows]
+// of them from `rows` on, times `values`.
+static bool project_rows(const Building *work, int32_t before, const int32_t *rows,
+                         DenseView values, double *out, Error *err)
 {
     const FarMotions *motions = &work->patches.motions[before];
-    int64_t p = motions->count, q = turned.columns;
+    int64_t p = motions->count, q = values.columns, count = values.rows;
     double *moved = NEW_ARRAY(double, count *p, err), *half = NEW_ARRAY(double, p *q, err);
     if (!moved || !half) goto cleanup;
     for (int64_t c = 0; c < p; c++)
         for (int64_t j = 0; j < count; j++)
-            moved[c * count + j] =
-                motions->field[c * motions->size + work->patches.place[rows[j]]];
-    dense_multiply_transposed_rows(dense_view(moved, count, p), turned, 1, 0, half, p);
+            moved[c * count + j] = motions->field[c * motions->size + work->patches.place[rows[j]]];
+    dense_multiply_transposed(dense_view(moved, count, p), values, 1, 0, half);
     dense_multiply_transposed(dense_view(work->block->patches[before].rotation, p, p),
                               dense_view(half, p, q), 1, 0, out);
 cleanup:
@@ -261,15 +259,14 @@ static bool couple(const Building *work, int32_t p, int32_t first, BulkTerm term
         const int32_t *rows = border->dofs + border->start[g];
         int64_t here = border->start[g + 1] - border->start[g];
         double *out = term == BULK_STIFFNESS ? coupling->stiffness : coupling->damping;
-        double *taken = coupling->before == FAR_NEAR ? out : part;
+        double *taken = coupling->before == NO_PATCH ? out : part;
         for (int64_t c = 0; c < q; c++)
             memcpy(taken + c * here, turned + c * count + border->start[g],
                    (size_t)here * sizeof *taken);
-        if (coupling->before == FAR_NEAR)
+        if (coupling->before == NO_PATCH)
             memcpy(coupling->rows, rows, (size_t)here * sizeof *rows);
         else
-            TRY(project_rows(work, coupling->before, rows, here, dense_view(part, here, q), out,
-                             err));
+            TRY(project_rows(work, coupling->before, rows, dense_view(part, here, q), out, err));
     }
 cleanup:
     memory_free(values);
@@ -307,7 +304,7 @@ static void list_sizes(const Building *work)
         for (int32_t g = 0; g < border->group_count; g++, coupling++) {
             coupling->patch = p;
             coupling->before = work->patches.of[border->dofs[border->start[g]]];
-            coupling->count = coupling->before == FAR_NEAR
+            coupling->count = coupling->before == NO_PATCH
                                   ? border->start[g + 1] - border->start[g]
                                   : work->patches.motions[coupling->before].count;
         }
@@ -355,10 +352,8 @@ bool far_block_create(const Bulk *bulk, const int32_t *interface_dofs, int32_t i
 {
     Building work = {.bulk = bulk, .block = block};
     *block = (FarBlock){.dof_count = bulk->dof_count};
-    TRY(far_patches_create(&bulk->pattern, interface_dofs, interface_count,
-                           &work.patches, err));
-    if (work.patches.count > 0)
-        TRY(replace(interface_dofs, interface_count, def, &work, err));
+    TRY(far_patches_create(&bulk->pattern, interface_dofs, interface_count, &work.patches, err));
+    if (work.patches.count > 0) TRY(replace(interface_dofs, interface_count, def, &work, err));
 cleanup:
     // The whole bulk is tried then, and says what is wrong.
     if (err->code == ERROR_COMPUTE) {

@@ -7,9 +7,9 @@
 //         [   F1       ] [ a1     ]            [   .    F1'K11 F1  F1'K12 F2 ]
 //         [      F2    ] [ a2     ]            [   .        .      F2'K22 F2 ]   and so on,
 //
-// with blocks beside the diagonal where two patches touch. M is diagonal: F'MF is made so. The error
-// in S is measured at a point that the motions were not made at; where it is no small part of what
-// is allowed nothing is replaced.
+// with blocks beside the diagonal where two patches touch. M is diagonal: F'MF is made so. The
+// error in S is measured at a point that the motions were not made at; where it is no small part of
+// what is allowed nothing is replaced.
 //
 // The bulk may be the upper block alone, its interface the line that it stands on
 // (bulk/upper_block): then all this serves every design that has this block. The energy of an
@@ -29,7 +29,7 @@ enum { FAR_INTERFACE = 100 };
 // Of a patch with what is near or with a patch before it. Pointers of both structs but `field` lead
 // into the block's `indices` and `matrices`.
 typedef struct FarCoupling {
-    int32_t patch, before;   // the columns'; the rows': FAR_NEAR
+    int32_t patch, before;   // the columns'; the rows': NO_PATCH
     int32_t count;   // rows: of near unknowns those that touch it, of a patch all coordinates
     int32_t *rows;   // [count] near: unknowns of the bulk, ascending; else NULL
     double *stiffness, *damping;   // [count * coordinates of the patch]

@@ -18,7 +18,7 @@ typedef struct Filling {
     int32_t *place;   // [dofs of the mesh] among the near ones; FAR
     int32_t *cursor;   // [dofs of the bulk] where the next entry of a row goes
     int32_t *order;   // [dofs of the bulk] of the rows of a coupling
-    const FarCoupling *coupling;
+    const FarCoupling *coupling;   // which
 } Filling;
 
 void far_field_destroy(FarField *far)
@@ -61,7 +61,7 @@ static bool divide(Filling *work, Error *err)
 // Where row i of a coupling stands among the unknowns.
 static int32_t row_of(const Filling *work, const FarCoupling *coupling, int64_t i)
 {
-    if (coupling->before == FAR_NEAR) return work->place[dof_of(work->far, coupling->rows[i])];
+    if (coupling->before == NO_PATCH) return work->place[dof_of(work->far, coupling->rows[i])];
     return work->far->first[coupling->before] + (int32_t)i;
 }
 
@@ -156,7 +156,7 @@ static void fill_coupling(Filling *work, const FarCoupling *coupling, bool above
     int32_t first = far->first[coupling->patch], end = far->first[coupling->patch + 1];
     work->coupling = coupling;
     for (int32_t i = 0; i < coupling->count; i++) work->order[i] = i;
-    if (coupling->before == FAR_NEAR)
+    if (coupling->before == NO_PATCH)
         qsort_r(work->order, (size_t)count, sizeof *work->order, by_row, work);
     for (int32_t k = 0; k < coupling->count; k++) {
         int32_t i = work->order[k], row = row_of(work, coupling, i);

@@ -176,12 +176,6 @@ bool far_motions_add(FarMotions *motions, DenseView fields, double least, FarRoo
     return true;
 }
 
-static void mirror(double *square, int64_t count)
-{
-    for (int64_t j = 0; j < count; j++)
-        for (int64_t i = 0; i < j; i++) square[j * count + i] = square[i * count + j];
-}
-
 bool far_motions_project(const FarMotions *motions, const double *mass,
                          double *const square[BULK_TERMS], Error *err)
 {
@@ -204,7 +198,7 @@ bool far_motions_project(const FarMotions *motions, const double *mass,
                 image[j * size + i] = mass[motions->dofs[i]] * field[j * size + i];
         dense_multiply_transposed_rows(rest, part, 1, 0, square[BULK_MASS] + at, count);
     }
-    for (int term = 0; term < BULK_TERMS; term++) mirror(square[term], count);
+    for (int term = 0; term < BULK_TERMS; term++) dense_mirror(square[term], count);
     memory_free(image);
     memory_free(work);
     return error_is_clean(err);

@@ -4,14 +4,13 @@
 #include "base/memory.h"
 
 #include <math.h>
-#include <stdlib.h>
-static int FAR_D(void) { return getenv("FD") ? atoi(getenv("FD")) : 0; }
-static int FAR_WIDTH_(void) { return getenv("FW") ? atoi(getenv("FW")) : 64; }
-// Unknowns of the interface that a patch of the first layer is nearest to.
-#define FAR_WIDTH FAR_WIDTH_()
 
-// Elements between the interface and the first layer.
-enum { FAR_NEAR_UNKNOWNS = 4000, FAR_DISTANCE_LEAST = 8, FAR_DISTANCE_MOST = 20 };
+// Elements between the interface and the first layer: FAR_NEAR over the interface's unknowns,
+// within these. The wider an interface, the more a row of elements costs, in products.
+enum { FAR_NEAR = 8000, FAR_DISTANCE_LEAST = 8, FAR_DISTANCE_MOST = 20 };
+
+// Unknowns of the interface that a patch of the first layer is nearest to.
+enum { FAR_WIDTH = 32 };
 
 // Below FAR_SHARE of all unknowns nothing is replaced.
 static const double FAR_SHARE = 0.4;
@@ -35,11 +34,31 @@ void far_patches_destroy(FarPatches *patches)
     *patches = (FarPatches){0};
 }
 
-// The wider the interface, the more a row of elements costs, in products.
 static int32_t distance_for(int32_t m)
 {
-    if (FAR_D()) return FAR_D();
-    return (int32_t)fmin(fmax(FAR_NEAR_UNKNOWNS / m, FAR_DISTANCE_LEAST), FAR_DISTANCE_MOST);
+    return (int32_t)fmin(fmax((double)FAR_NEAR / m, FAR_DISTANCE_LEAST), FAR_DISTANCE_MOST);
+}
+
+// That of the unknowns one element nearer, of which diagonals offer several at the same distance:
+// the one in the middle, so that patches stand upright.
+static int32_t nearest_of(const SparsePattern *pattern, int32_t dof, const Reach *reach)
+{
+    int32_t first = pattern->start[dof], end = pattern->start[dof + 1], count = 0, nearest = 0;
+    double sum = 0, least = INFINITY;
+    for (int32_t k = first; k < end; k++) {
+        if (reach->distance[pattern->index[k]] != reach->distance[dof] - 1) continue;
+        sum += reach->nearest[pattern->index[k]];
+        count++;
+    }
+    for (int32_t k = first; k < end; k++) {
+        int32_t other = pattern->index[k];
+        if (reach->distance[other] != reach->distance[dof] - 1) continue;
+        double off = fabs(reach->nearest[other] - sum / count);
+        if (off >= least) continue;
+        least = off;
+        nearest = reach->nearest[other];
+    }
+    return nearest;
 }
 
 static bool find_reach(const SparsePattern *pattern, const int32_t *interface_dofs, int32_t m,
@@ -58,11 +77,11 @@ static bool find_reach(const SparsePattern *pattern, const int32_t *interface_do
     for (int32_t at = 0; at < end; at++) {
         int32_t from = list[at];
         reach->farthest = distance[from];
+        if (distance[from] > 0) nearest[from] = nearest_of(pattern, from, reach);
         for (int32_t k = pattern->start[from]; k < pattern->start[from + 1]; k++) {
             int32_t other = pattern->index[k];
             if (distance[other] >= 0) continue;
             distance[other] = distance[from] + 1;
-            nearest[other] = nearest[from];
             list[end++] = other;
         }
     }
@@ -71,10 +90,10 @@ cleanup:
     return error_is_clean(err);
 }
 
-// FAR_NEAR: none. A layer that would be thinner than half of its depth belongs to the one before.
+// NO_PATCH: none. A layer that would be thinner than half of its depth belongs to the one before.
 static int32_t layer_of(int32_t distance, int32_t first, int32_t farthest)
 {
-    if (distance >= 0 && distance <= first) return FAR_NEAR;
+    if (distance >= 0 && distance <= first) return NO_PATCH;
     int32_t layer = 0, depth = first, end = 2 * first;
     while ((distance < 0 || distance > end) && farthest > end + depth && layer < LAYERS_MAX - 1) {
         depth *= 2;
@@ -101,8 +120,8 @@ static bool number_patches(const Reach *reach, int32_t m, int32_t dofs, FarPatch
     if (!number) return false;
     for (int32_t k = 0; k < dofs; k++) {
         int32_t layer = layer_of(reach->distance[k], patches->distance, reach->farthest);
-        patches->of[k] = FAR_NEAR;
-        if (layer == FAR_NEAR) continue;
+        patches->of[k] = NO_PATCH;
+        if (layer == NO_PATCH) continue;
         int64_t part = (int64_t)reach->nearest[k] * parts_of(layer, m) / m;
         patches->of[k] = start[layer] + (int32_t)part;
         number[patches->of[k]] = 1;
@@ -111,7 +130,7 @@ static bool number_patches(const Reach *reach, int32_t m, int32_t dofs, FarPatch
     for (int32_t p = 0; p < start[LAYERS_MAX]; p++)
         if (number[p]) number[p] = patches->count++;
     for (int32_t k = 0; k < dofs; k++)
-        if (patches->of[k] != FAR_NEAR) patches->of[k] = number[patches->of[k]];
+        if (patches->of[k] != NO_PATCH) patches->of[k] = number[patches->of[k]];
     if (far < FAR_SHARE * dofs) patches->count = 0;
     memory_free(number);
     return true;
@@ -123,15 +142,14 @@ static bool list_dofs(int32_t dofs, FarPatches *patches, Error *err)
     patches->motions = NEW_ARRAY(FarMotions, patches->count, err);
     if (!error_is_clean(err)) return false;
     for (int32_t k = 0; k < dofs; k++)
-        if (patches->of[k] != FAR_NEAR)
-            patches->place[k] = patches->motions[patches->of[k]].size++;
+        if (patches->of[k] != NO_PATCH) patches->place[k] = patches->motions[patches->of[k]].size++;
     for (int32_t p = 0; p < patches->count; p++) {
         FarMotions *motions = &patches->motions[p];
         motions->dofs = NEW_ARRAY(int32_t, motions->size, err);
         if (!motions->dofs) return false;
     }
     for (int32_t k = 0; k < dofs; k++)
-        if (patches->of[k] != FAR_NEAR)
+        if (patches->of[k] != NO_PATCH)
             patches->motions[patches->of[k]].dofs[patches->place[k]] = k;
     return true;
 }
@@ -140,8 +158,8 @@ bool far_patches_create(const SparsePattern *pattern, const int32_t *interface_d
                         FarPatches *patches, Error *err)
 {
     Reach reach = {0};
-    *patches = (FarPatches){.distance = distance_for(m),
-                            .of = NEW_ARRAY(int32_t, pattern->size, err)};
+    *patches =
+        (FarPatches){.distance = distance_for(m), .of = NEW_ARRAY(int32_t, pattern->size, err)};
     if (!patches->of) goto cleanup;
     TRY(find_reach(pattern, interface_dofs, m, &reach, err));
     TRY(number_patches(&reach, m, pattern->size, patches, err));

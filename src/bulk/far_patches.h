@@ -7,12 +7,12 @@
 
 #include "bulk/far_motions.h"
 
-enum { FAR_NEAR = -1 };   // in the place of a patch
+enum { NO_PATCH = -1 };   // near
 
 typedef struct FarPatches {
     int32_t distance;   // elements between the interface and the first layer
     int32_t count;   // 0: too little is far
-    int32_t *of, *place;   // [dofs] which patch, FAR_NEAR; where in it; owned
+    int32_t *of, *place;   // [dofs] which patch, NO_PATCH; where in it; owned
     FarMotions *motions;   // [count] `dofs` and `size` alone are set; owned, with all in them
 } FarPatches;
 

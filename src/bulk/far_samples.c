@@ -14,14 +14,14 @@
 #include <stdatomic.h>
 #include <string.h>
 
-// Motions asked at once; where fewer than NEW_SHARE of them are new to a patch it takes no more at a
-// point.
+// Motions asked at once; where fewer than NEW_SHARE of them are new to a patch it takes no more at
+// that point.
 enum { CHUNK = 24 };
 static const double NEW_SHARE = 0.75;
 
 // The energy of what a random motion, of energy 1, may lack: a part of tolerance^2, and at rest.
 // What all motions lack adds up in it, so that the worst lacks less.
-static const double LEAST = 0.25, LEAST_AT_REST = 1e-11;
+static const double LEAST = 0.25, LEAST_AT_REST = 1e-12;
 
 static const double INERTIA_STEP = 6;
 
@@ -258,8 +258,7 @@ static bool sample(Sampling *work, InterfaceOperator *full, const double *held, 
     int32_t left = work->samples->patch_count;
     for (int32_t p = 0; p < left; p++) work->busy[p] = true;
     // m motions are all there are.
-    for (int32_t loads = take_load(work, held), asked = 0; left > 0 && asked < m;
-         asked += CHUNK) {
+    for (int32_t loads = take_load(work, held), asked = 0; left > 0 && asked < m; asked += CHUNK) {
         for (int32_t k = 0; k < m * CHUNK; k++) work->asked[k] = draw_sign(&work->drawn);
         dense_lower_divide_transposed(work->lower, m, CHUNK, work->asked);
         TRY(interface_operator_answer(full, work->asked, CHUNK, work->fields, err));

@@ -207,8 +207,8 @@ __attribute__((section(".preinit_array"), used)) static void (*const first)(void
 
 // A full disk or a closed pipe may show only when the last output is written: a command whose
 // answer is lost has failed.
-// What a reduction gives back it asks for again at its next point: the kernel would clear every page
-// anew, a tenth of the time at 800 contact nodes. model/obtain gives back what is left of it.
+// What a reduction gives back it asks for again at its next point: the kernel would clear each page
+// anew, a tenth of the time at 800 contact nodes. model/obtain gives back what is left at the end.
 static void keep_memory(void)
 {
     mallopt(M_ARENA_MAX, 1);

@@ -10,7 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
-const char BASIS_FORMAT[] = "basis 12 " AMONTONS_VERSION;
+const char BASIS_FORMAT[] = "basis 13 " AMONTONS_VERSION;
 
 enum { COUNTS = 4 };
 

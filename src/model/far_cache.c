@@ -106,7 +106,8 @@ static bool is_sound(const FarBlock *block, const UpperBlock *upper, Error *err)
 static bool read_block(const CacheFile *file, const UpperBlock *upper, FarBlock *block, Error *err)
 {
     const double *error = cache_file_array(file, "error", 1);
-    if (!error || !read_sizes(file, upper, block, err) || !far_block_lay_out(block, err)) return false;
+    if (!error || !read_sizes(file, upper, block, err) || !far_block_lay_out(block, err))
+        return false;
     const double *matrices = cache_file_array(file, "matrices", block->number_count);
     if (!matrices || !cache_file_whole(file, "indices", (int32_t)block->index_count,
                                        block->dof_count, block->indices))

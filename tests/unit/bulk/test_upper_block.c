@@ -207,7 +207,7 @@ static void test_reused_motions(void **state)
     if (!far_block_create(&first.upper.block.bulk, first.upper.interface_dofs,
                           first.upper.interface_count, &def, &motions, &err))
         fail_msg("%s", err.message);
-    assert_int_equal(motions.patch_count, 3);
+    assert_int_equal(motions.patch_count, 5);
     int32_t m = other.interface_count;
     FarField far = {.block = &motions, .dofs = other.upper.dofs};
     assert_true(m >= FAR_INTERFACE);
