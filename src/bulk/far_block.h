@@ -22,10 +22,6 @@
 #include "bulk/far_patches.h"
 #include "bulk/far_samples.h"
 
-// Unknowns of an interface below which factors take more of the time than the products that a far
-// field saves (20 x 160 cells, 59 of them: a third slower with it; 60 x 120: an eighth faster).
-enum { FAR_INTERFACE = 100 };
-
 // Of a patch with what is near or with a patch before it. Pointers of both structs but `field` lead
 // into the block's `indices` and `matrices`.
 typedef struct FarCoupling {

@@ -2,22 +2,23 @@
 // With n unknowns on the mesh, m of them on the interface: a sparse factor of a mesh of two
 // dimensions takes n^1.5 operations. Of the n log n entries that a pass goes through more come from
 // far memory where the mesh is larger: n^1.5 fits them, too. A basis takes some factors and
-// products of n x m answers; a stage on it, and the contact problem of either way, passes through
-// matrices of some m x m. The seconds before them were fitted to processor times of thirty shapes
+// products of q x m answers, q what is left when motions replace what is far; a stage on it, and the
+// contact problem of either way, passes through matrices of some m x m. The seconds before them were fitted to processor times of thirty shapes
 // by validation/benchmark/choice.py.
 #include "model/choice.h"
 
+#include "bulk/far_patches.h"
 #include "model/step_rule.h"
 
 #include <math.h>
 
 // s, each for one of what its comment says.
-static const double FULL_FACTOR = 1.3e-8;   // rung and n^1.5
-static const double FULL_STAGE = 1.1e-9;   // stage and n^1.5
-static const double FULL_BORDER = 5.8e-9;   // stage and m^2
-static const double REDUCTION_FACTORS = 4.2e-5;   // n
-static const double REDUCTION_PRODUCTS = 6.3e-10;   // n m^2
-static const double REDUCED_STAGE = 3.1e-9;   // stage and m^2
+static const double FULL_FACTOR = 7.6e-9;   // rung and n^1.5
+static const double FULL_STAGE = 1.2e-9;   // stage and n^1.5
+static const double FULL_BORDER = 4.9e-9;   // stage and m^2
+static const double REDUCTION_FACTORS = 5.0e-5;   // n
+static const double REDUCTION_PRODUCTS = 6.8e-10;   // q m^2
+static const double REDUCED_STAGE = 3.8e-9;   // stage and m^2
 
 static const double RUNGS = 11;   // used by a run with a sliding
 
@@ -25,8 +26,9 @@ static const double RUNGS = 11;   // used by a run with a sliding
 // s.
 static const double NOT_WORTH_ASKING = 0.05;
 
-// Bytes of memory for each entry of n x m, and in all.
-static const double REDUCTION_BYTES = 36, REDUCTION_BYTES_MAX = 6e9;
+// Bytes of memory for each entry of n and of q x m, and in all (4.5e9 at 480 x 480 cells, 1.9e9 at
+// 320 x 320 and at 800 contact nodes on 60 rows).
+static const double BYTES_FACTORS = 9000, BYTES_PRODUCTS = 36, BYTES_MAX = 6e9;
 
 // Of a run up to its first sliding, and of each sliding.
 static const double STAGES_REST = 100, STAGES_SLIDING = 380;
@@ -38,7 +40,9 @@ ExpectedCost choice_expect(const ChoiceSizes *sizes, const Processor *processor)
     double n = sizes->unknowns, square = sizes->interface * sizes->interface;
     double factor = FULL_FACTOR * pow(n, 1.5) * processor->factor;
     double pass = (FULL_STAGE * pow(n, 1.5) + FULL_BORDER * square) * processor->pass;
-    double reduction = (REDUCTION_FACTORS + REDUCTION_PRODUCTS * square) * n * processor->factor;
+    double left = far_patches_left(n, sizes->interface);
+    double reduction = (REDUCTION_FACTORS * n + REDUCTION_PRODUCTS * square * left) *
+                       processor->factor;
     double stage = REDUCED_STAGE * square * processor->pass;
     return (ExpectedCost){.reduction = reduction,
                           .reduced = sizes->stages * stage,
@@ -47,8 +51,10 @@ ExpectedCost choice_expect(const ChoiceSizes *sizes, const Processor *processor)
 
 bool choice_reduces(const ChoiceSizes *sizes, const ExpectedCost *cost)
 {
+    double n = sizes->unknowns, m = sizes->interface;
+    double bytes = BYTES_FACTORS * n + BYTES_PRODUCTS * m * far_patches_left(n, m);
     if (sizes->held) return true;
-    if (REDUCTION_BYTES * sizes->unknowns * sizes->interface > REDUCTION_BYTES_MAX) return false;
+    if (bytes > BYTES_MAX) return false;
     return cost->reduction < NOT_WORTH_ASKING ||
            cost->reduction / sizes->runs + cost->reduced < cost->full;
 }

@@ -183,11 +183,16 @@ def in_source(name):
     return float(re.search(rf"\b{name} = ([-+.\de]+)", SOURCE)[1])
 
 
+def left(n, m):
+    """As far_patches_left of src/bulk/far_patches.c."""
+    return min(n, 1.5 * int(min(max(8000 / m, 8), 20)) * m) if m >= 100 else n
+
+
 def terms(use, ran):
     """What each constant is multiplied by, and 1 for what both ways share."""
     n, m, stages = ran["n"], ran["m"], ran["stages"]
     full = [in_source("RUNGS") * n**1.5, stages * n**1.5, stages * m**2, 0, 0, 0]
-    reduced = [0, 0, 0, n, n * m**2, stages * m**2]
+    reduced = [0, 0, 0, n, left(n, m) * m**2, stages * m**2]
     return (full if use == "full" else reduced) + [1]
 
 

@@ -284,7 +284,7 @@ NOT_A_CHOICE = {
         "STAGES_SLIDING": "the same, counted", "STAGES_STEP": "of SDIRK2",
         "PERIODIC_SLIDINGS": "the same, counted",
         "NOT_WORTH_ASKING": "s that may be lost; choice.py",
-        "REDUCTION_BYTES": "counted", "REDUCTION_BYTES_MAX": "memory"},
+        "BYTES_FACTORS": "counted", "BYTES_PRODUCTS": "counted", "BYTES_MAX": "memory"},
     "model/processor.c": {
         "SIDE": "a lattice that takes 10 ms", "NODES": "of it", "NEIGHBOURS": "of a node",
         "TURNS": "0.1 s in all", "PASSES": "the same",

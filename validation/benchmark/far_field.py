@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """How many motions does the bulk need far from the interface? Figure 1 on n x n cells, in numpy and without the program.
 
-    validation/benchmark/far_field.py [--cells 40] [--distance 8 12 16 24] [--least 0.25] [--at-rest 1e-11] [--step 6]
+    validation/benchmark/far_field.py [--cells 40] [--distance 8 12 16 24] [--least 0.25] [--at-rest 1e-12] [--step 6]
                                       [--chunk 24] [--share 0.75]
 
-Unknowns farther than `distance` elements from the interface become motions, as src/bulk/far_samples.c finds them, in one layer:
+Unknowns farther than `distance` elements from the interface become motions, as src/bulk/far_samples.c finds them, in one patch (the program: many, in layers):
 answers to random motions of the interface, at rest and in turns at inertias `step` apart, `chunk` at once, until less than
 `share` of them is new; new is what has an energy of `least` times tolerance^2, `at-rest` at rest. Shown: motions, unknowns that are left, motions asked,
 and the worst error of S at points drawn at random, over what is allowed. 40 x 40 cells take 20 s."""
@@ -135,7 +135,7 @@ def main():
     parser.add_argument("--cells", type=int, nargs="+", default=[40])
     parser.add_argument("--distance", type=int, nargs="+", default=[8, 12, 16, 24])
     parser.add_argument("--least", type=float, default=0.25)
-    parser.add_argument("--at-rest", type=float, default=1e-11)
+    parser.add_argument("--at-rest", type=float, default=1e-12)
     parser.add_argument("--step", type=float, default=6)
     parser.add_argument("--chunk", type=int, default=24)
     parser.add_argument("--share", type=float, default=0.75)
