@@ -15,8 +15,8 @@ enum { FAR_WIDTH = 32 };
 // Below FAR_SHARE of all unknowns nothing is replaced.
 static const double FAR_SHARE = 0.4;
 
-// Unknowns that are left, over those within that distance of a straight interface: 1.6, 1.5, 1.6, 1.5
-// on 100 x 100, 160 x 160 and 320 x 320 cells and 800 contact nodes.
+// Unknowns that are left, over those within that distance of a straight interface: 1.6, 1.5, 1.6
+// and 1.5 on 100 x 100, 160 x 160 and 320 x 320 cells and at 800 contact nodes.
 static const double LEFT = 1.5;
 
 enum { LAYERS_MAX = 12 };

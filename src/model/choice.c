@@ -2,9 +2,9 @@
 // With n unknowns on the mesh, m of them on the interface: a sparse factor of a mesh of two
 // dimensions takes n^1.5 operations. Of the n log n entries that a pass goes through more come from
 // far memory where the mesh is larger: n^1.5 fits them, too. A basis takes some factors and
-// products of q x m answers, q what is left when motions replace what is far; a stage on it, and the
-// contact problem of either way, passes through matrices of some m x m. The seconds before them were fitted to processor times of thirty shapes
-// by validation/benchmark/choice.py.
+// products of q x m answers, q what is left where motions replace what is far; a stage on it, and
+// the contact problem of either way, passes through matrices of some m x m. The seconds before them
+// were fitted to processor times of thirty shapes by validation/benchmark/choice.py.
 #include "model/choice.h"
 
 #include "bulk/far_patches.h"
