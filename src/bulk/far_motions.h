@@ -30,7 +30,7 @@ typedef struct FarRoom {
 bool far_room_create(int64_t size, int64_t columns, FarRoom *room, Error *err);
 void far_room_destroy(FarRoom *room);
 
-// None yet. motions->dofs and size are set, by far_block; unit: E. There is room for `expected`;
+// None yet. motions->dofs and size are set, by far_patches; unit: E. There is room for `expected`;
 // memory that is never written to is never there. place: [dofs of the mesh] -1, also afterwards.
 bool far_motions_begin(const Bulk *bulk, double unit, int32_t expected, int32_t *place,
                        FarMotions *motions, Error *err);

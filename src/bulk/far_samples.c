@@ -19,6 +19,8 @@
 enum { CHUNK = 24 };
 static const double NEW_SHARE = 0.75;
 
+enum { ROOM = 4 * CHUNK };   // motions of a patch that there is room for at first
+
 // The energy of what a random motion, of energy 1, may lack: a part of tolerance^2, and at rest.
 // What all motions lack adds up in it, so that the worst lacks less.
 static const double LEAST = 0.25, LEAST_AT_REST = 1e-12;
@@ -149,7 +151,7 @@ static void list_points(Sampling *work, double slowest, double element_inertia)
     work->samples->allowed = strip_allowed(&strip, compared, def->tolerance);
 }
 
-static bool begin_patches(Sampling *work, int32_t m, Error *err)
+static bool begin_patches(Sampling *work, Error *err)
 {
     FarSamples *samples = work->samples;
     int32_t dofs = work->bulk->dof_count, size = 0;
@@ -159,9 +161,7 @@ static bool begin_patches(Sampling *work, int32_t m, Error *err)
     for (int32_t k = 0; k < dofs; k++) place[k] = -1;
     for (int32_t p = 0; p < samples->patch_count; p++) {
         FarMotions *patch = &samples->patches[p];
-        int32_t expected = m < patch->size ? m : patch->size;
-        TRY(far_motions_begin(work->bulk, work->def->scales.stiffness, expected, place, patch,
-                              err));
+        TRY(far_motions_begin(work->bulk, work->def->scales.stiffness, ROOM, place, patch, err));
         if (patch->size > size) size = patch->size;
     }
     for (int which = 0; which < 2; which++)
@@ -188,7 +188,7 @@ static bool sampling_begin(const int32_t *interface_dofs, int32_t m, Sampling *w
     TRY(inertia_slowest(&work->mesh, scales, work->statics, &samples->slowest, err));
     list_points(work, samples->slowest, element);
     factors_ahead_extend(work->ahead, work->count + 1);
-    TRY(begin_patches(work, m, err));
+    TRY(begin_patches(work, err));
     samples->stiffness = NEW_ARRAY(double, (int64_t)m *m, err);
     work->lifted = NEW_ARRAY(double, (int64_t)m *m, err);
     work->asked = NEW_ARRAY(double, (int64_t)m *CHUNK, err);

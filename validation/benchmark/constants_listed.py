@@ -222,7 +222,7 @@ NOT_A_CHOICE = {
     "bulk/far_field.c": {"FAR": "in no list of near ones"},
     "bulk/upper_block.c": {"BELOW": "not in the upper block", "UNKNOWN": "no place yet",
                            "LINE_LENGTH": ROUNDING},
-    "bulk/far_samples.c": {"LEVELS_MAX": SIZE, "POINTS_MAX": SIZE,
+    "bulk/far_samples.c": {"LEVELS_MAX": SIZE, "POINTS_MAX": SIZE, "ROOM": SIZE,
                            "NEGATIVE": "from which on all eigenvalues are looked at"},
     "bulk/far_motions.c": {"TOGETHER": SIZE},
     "bulk/basis_condense.c": {"WIDE": SIZE, "STRETCH": SIZE, "ALONE": SIZE},
