@@ -134,10 +134,10 @@ static void take_out(const FarMotions *motions, int64_t columns, FarRoom *room)
                       room->sparse);
 }
 
-// New columns of F and its image: those of the rows times eigenvectors of their energies; how many.
-// -1: LAPACK finds none. *again: some have few digits.
-static int32_t take_up(FarMotions *motions, int32_t columns, double least, FarRoom *room,
-                       bool *again)
+// New columns of F and its image: those of the rows times eigenvectors of their energies; how many,
+// `most` of them. -1: LAPACK finds none. *again: some have few digits.
+static int32_t take_up(FarMotions *motions, int32_t columns, int32_t most, double least,
+                       FarRoom *room, bool *again)
 {
     int64_t size = motions->size, c = columns, first = c, end = size * motions->count;
     double *energies = room->energies, *values = room->values;
@@ -145,7 +145,7 @@ static int32_t take_up(FarMotions *motions, int32_t columns, double least, FarRo
     dense_multiply_transposed(fields, image, 1, 0, energies);
     if (!dense_eigen(energies, columns, values, room->eigen)) return -1;
     double enough = fmax(least, DIGITS * values[c - 1]);
-    while (first > 0 && values[first - 1] > enough) first--;
+    while (first > c - most && values[first - 1] > enough) first--;
     *again = first > 0 && values[first - 1] > least;
     for (int64_t j = first; j < c; j++)
         for (int64_t i = 0; i < c; i++) energies[j * c + i] /= sqrt(values[j]);
@@ -169,7 +169,8 @@ bool far_motions_add(FarMotions *motions, DenseView fields, double least, FarRoo
             room->rows[j * size + i] = fields.values[j * fields.rows + motions->dofs[i]];
     while (again && *added < columns) {
         take_out(motions, columns, room);
-        int32_t taken = take_up(motions, (int32_t)columns, least, room, &again);
+        int32_t most = (int32_t)columns - *added;
+        int32_t taken = take_up(motions, (int32_t)columns, most, least, room, &again);
         if (taken < 0) return false;
         *added += taken;
     }
