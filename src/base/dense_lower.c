@@ -3,9 +3,9 @@
 #include "base/dense.h"
 
 #include <cblas.h>
+#include <stddef.h>
 
 enum { SQUARE_WIDE = 128 };   // columns of L L' at once
-#include <stddef.h>
 
 // LAPACK's, as in base/dense.
 void dsygst_(const int *itype, const char *uplo, const int *n, double *a, const int *lda,
@@ -35,8 +35,8 @@ void dense_lower_solve(const double *lower, int32_t n, double *x)
         cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, n, lower, n, x, 1);
 }
 
-// L is copied into c with zeros above its diagonal, then multiplied by L' from the right, which
-// costs half of a general product.
+// Column by column no further than L goes, and from the diagonal down: a sixth of a general
+// product.
 void dense_lower_square(const double *lower, int32_t n, double *c)
 {
     for (int32_t from = 0; from < n; from += SQUARE_WIDE) {

@@ -20,7 +20,7 @@ typedef struct Slot {
 
 struct FactorsAhead {
     FactorsAheadDef def;
-    int32_t given, taken;   // jobs handed to the thread, points to the caller
+    int32_t given, taken;   // jobs handed to the threads, points to the caller
     Slot slots[SLOTS];
 };
 

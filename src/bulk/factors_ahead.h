@@ -2,7 +2,7 @@
 // The full mesh's interface operators at points that are known beforehand, each with its answer to
 // the load, made in two threads in turns: one while the caller works with the one before,
 // both while it waits.
-// Called by bulk/reduction.
+// Called by bulk/reduction and bulk/far_samples.
 #ifndef AMONTONS_BULK_FACTORS_AHEAD_H
 #define AMONTONS_BULK_FACTORS_AHEAD_H
 

@@ -335,9 +335,7 @@ static bool replace(const int32_t *interface_dofs, int32_t m, const FarFieldDef 
 {
     FarBlock *block = work->block;
     FarSamples *samples = &block->samples;
-    samples->distance = work->patches.distance;
-    samples->patch_count = work->patches.count;
-    samples->patches = work->patches.motions;
+    samples->patches = &work->patches;
     TRY(far_samples_take(work->bulk, interface_dofs, m, def, samples, err));
     TRY(fill_block(work, err));
     block->stiffness = samples->stiffness;

@@ -19,7 +19,6 @@
 #ifndef AMONTONS_BULK_FAR_BLOCK_H
 #define AMONTONS_BULK_FAR_BLOCK_H
 
-#include "bulk/far_patches.h"
 #include "bulk/far_samples.h"
 
 // Of a patch with what is near or with a patch before it. Pointers of both structs but `field` lead

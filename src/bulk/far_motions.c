@@ -47,33 +47,6 @@ void far_room_destroy(FarRoom *room)
     *room = (FarRoom){0};
 }
 
-// place: [bulk->dof_count] where an unknown stands in the layer; -1: it is none of it.
-static bool copy_matrices(const Bulk *bulk, const int32_t *place, double unit, FarMotions *motions,
-                          Error *err)
-{
-    const SparsePattern *from = &bulk->pattern;
-    const int32_t *dofs = motions->dofs;
-    int32_t size = motions->size, entries = 0;
-    for (int32_t j = 0; j < size; j++) entries += from->start[dofs[j] + 1] - from->start[dofs[j]];
-    motions->pattern = (SparsePattern){.size = size,
-                                       .start = NEW_ARRAY(int32_t, (int64_t)size + 1, err),
-                                       .index = NEW_ARRAY(int32_t, entries, err)};
-    motions->stiffness = NEW_ARRAY(double, entries, err);
-    motions->damping = NEW_ARRAY(double, entries, err);
-    if (!error_is_clean(err)) return false;
-    int32_t filled = 0;
-    for (int32_t j = 0; j < size; j++) {
-        for (int32_t k = from->start[dofs[j]]; k < from->start[dofs[j] + 1]; k++) {
-            if (place[from->index[k]] < 0) continue;
-            motions->pattern.index[filled] = place[from->index[k]];
-            motions->stiffness[filled] = bulk->stiffness[k] / unit;
-            motions->damping[filled++] = bulk->damping[k];
-        }
-        motions->pattern.start[j + 1] = filled;
-    }
-    return true;
-}
-
 // Not zeroed: what is not written to stays without memory behind it.
 static bool lengthen(double **columns, int64_t filled, int64_t needed, Error *err)
 {
@@ -96,16 +69,6 @@ bool far_motions_make_room(FarMotions *motions, int32_t columns, Error *err)
         return false;
     motions->room = (int32_t)needed;
     return true;
-}
-
-bool far_motions_begin(const Bulk *bulk, double unit, int32_t expected, int32_t *place,
-                       FarMotions *motions, Error *err)
-{
-    for (int32_t j = 0; j < motions->size; j++) place[motions->dofs[j]] = j;
-    bool done = far_motions_make_room(motions, expected, err) &&
-                copy_matrices(bulk, place, unit, motions, err);
-    for (int32_t j = 0; j < motions->size; j++) place[motions->dofs[j]] = -1;
-    return done;
 }
 
 static double square_sum(const double *values, int64_t count)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Motions of a patch of unknowns, all others at rest: orthonormal in K/E but for rounding, grown
-// from answers of the mesh, of which only what the others lack is taken. Used by bulk/far_samples
-// and bulk/far_field.
+// from answers of the mesh, of which only what the others lack is taken. Made by
+// bulk/far_patches; used by bulk/far_samples and bulk/far_block.
 #ifndef AMONTONS_BULK_FAR_MOTIONS_H
 #define AMONTONS_BULK_FAR_MOTIONS_H
 
@@ -30,12 +30,9 @@ typedef struct FarRoom {
 bool far_room_create(int64_t size, int64_t columns, FarRoom *room, Error *err);
 void far_room_destroy(FarRoom *room);
 
-// None yet. motions->dofs and size are set, by far_patches; unit: E. There is room for `expected`;
-// memory that is never written to is never there. place: [dofs of the mesh] -1, also afterwards.
-bool far_motions_begin(const Bulk *bulk, double unit, int32_t expected, int32_t *place,
-                       FarMotions *motions, Error *err);
 void far_motions_destroy(FarMotions *motions);
-bool far_motions_make_room(FarMotions *motions, int32_t columns, Error *err);   // for more
+// For `columns` more; memory that is never written to is never there.
+bool far_motions_make_room(FarMotions *motions, int32_t columns, Error *err);
 
 // Takes up what of `fields` [dofs of the mesh, columns] has an energy above `least` beyond the
 // motions that are there; *added of them, for which there is room. false: LAPACK finds no energies.

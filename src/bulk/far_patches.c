@@ -158,6 +158,43 @@ static bool list_dofs(int32_t dofs, FarPatches *patches, Error *err)
     return true;
 }
 
+static bool copy_matrices(const Bulk *bulk, double unit, const FarPatches *patches, int32_t p,
+                          Error *err)
+{
+    const SparsePattern *from = &bulk->pattern;
+    FarMotions *motions = &patches->motions[p];
+    const int32_t *dofs = motions->dofs;
+    int32_t size = motions->size, entries = 0, filled = 0;
+    for (int32_t j = 0; j < size; j++) entries += from->start[dofs[j] + 1] - from->start[dofs[j]];
+    motions->pattern = (SparsePattern){.size = size,
+                                       .start = NEW_ARRAY(int32_t, (int64_t)size + 1, err),
+                                       .index = NEW_ARRAY(int32_t, entries, err)};
+    motions->stiffness = NEW_ARRAY(double, entries, err);
+    motions->damping = NEW_ARRAY(double, entries, err);
+    if (!error_is_clean(err)) return false;
+    for (int32_t j = 0; j < size; j++) {
+        for (int32_t k = from->start[dofs[j]]; k < from->start[dofs[j] + 1]; k++) {
+            if (patches->of[from->index[k]] != p) continue;
+            motions->pattern.index[filled] = patches->place[from->index[k]];
+            motions->stiffness[filled] = bulk->stiffness[k] / unit;
+            motions->damping[filled++] = bulk->damping[k];
+        }
+        motions->pattern.start[j + 1] = filled;
+    }
+    return true;
+}
+
+bool far_patches_begin(const Bulk *bulk, double unit, int32_t expected, FarPatches *patches,
+                       Error *err)
+{
+    for (int32_t p = 0; p < patches->count; p++) {
+        TRY(copy_matrices(bulk, unit, patches, p, err));
+        TRY(far_motions_make_room(&patches->motions[p], expected, err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
 double far_patches_left(double unknowns, double interface_count)
 {
     double left = LEFT * distance_for(interface_count) * interface_count;

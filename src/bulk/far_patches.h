@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The unknowns far from the interface, divided into patches: layers by their distance from it, each
 // twice as deep as the one before, and each cut into parts that are nearest to the same part of the
-// interface, twice as wide, too. Called by bulk/far_block.
+// interface, twice as wide, too. Called by bulk/far_block
+// and bulk/far_samples, its counts by model/choice.
 #ifndef AMONTONS_BULK_FAR_PATCHES_H
 #define AMONTONS_BULK_FAR_PATCHES_H
 
@@ -17,12 +18,15 @@ typedef struct FarPatches {
     int32_t distance;   // elements between the interface and the first layer
     int32_t count;   // 0: too little is far
     int32_t *of, *place;   // [dofs] which patch, NO_PATCH; where in it; owned
-    FarMotions *motions;   // [count] `dofs` and `size` alone are set; owned, with all in them
+    FarMotions *motions;   // [count] none yet, `dofs` and `size` set; owned, with all in them
 } FarPatches;
 
 // interface_dofs: [m], neighbours side by side.
 bool far_patches_create(const SparsePattern *pattern, const int32_t *interface_dofs, int32_t m,
                         FarPatches *patches, Error *err);
+// Each patch's own matrices, and room for `expected` motions. unit: E.
+bool far_patches_begin(const Bulk *bulk, double unit, int32_t expected, FarPatches *patches,
+                       Error *err);
 void far_patches_destroy(FarPatches *patches);
 
 // How many of a mesh's unknowns are left where this is done, about: near ones and motions.

@@ -123,7 +123,7 @@ static void list_first_points(Sampling *work, double element_inertia)
     strip_list(&def->materials, &def->scales, element_inertia, element_inertia, &levels, &strip);
     work->viscosity_count = strip_viscosities(&def->materials, &def->scales, work->viscosity);
     // Half a step below where answers no longer reach that far.
-    work->top = strip.element_inertia * pow(FALLEN / work->samples->distance, 2) /
+    work->top = strip.element_inertia * pow(FALLEN / work->samples->patches->distance, 2) /
                 sqrt(INERTIA_STEP);
     add_level(work, 0, work->top);
     add_level(work, 1, work->top / INERTIA_STEP);
@@ -153,21 +153,16 @@ static void list_points(Sampling *work, double slowest, double element_inertia)
 
 static bool begin_patches(Sampling *work, Error *err)
 {
-    FarSamples *samples = work->samples;
-    int32_t dofs = work->bulk->dof_count, size = 0;
-    int32_t *place = NEW_ARRAY(int32_t, dofs, err);
-    work->busy = NEW_ARRAY(bool, samples->patch_count, err);
-    if (!place || !work->busy) goto cleanup;
-    for (int32_t k = 0; k < dofs; k++) place[k] = -1;
-    for (int32_t p = 0; p < samples->patch_count; p++) {
-        FarMotions *patch = &samples->patches[p];
-        TRY(far_motions_begin(work->bulk, work->def->scales.stiffness, ROOM, place, patch, err));
-        if (patch->size > size) size = patch->size;
-    }
+    FarPatches *patches = work->samples->patches;
+    int32_t size = 0;
+    work->busy = NEW_ARRAY(bool, patches->count, err);
+    if (!work->busy) goto cleanup;
+    TRY(far_patches_begin(work->bulk, work->def->scales.stiffness, ROOM, patches, err));
+    for (int32_t p = 0; p < patches->count; p++)
+        if (patches->motions[p].size > size) size = patches->motions[p].size;
     for (int which = 0; which < 2; which++)
         TRY(far_room_create(size, CHUNK + 1, &work->room[which], err));
 cleanup:
-    memory_free(place);
     return error_is_clean(err);
 }
 
@@ -221,12 +216,13 @@ static void add_in_turn(void *context, int32_t which)
 {
     Turn *turn = context;
     Sampling *work = turn->work;
-    int32_t count = work->samples->patch_count, added = 0;
+    const FarPatches *patches = work->samples->patches;
+    int32_t count = patches->count, added = 0;
     for (int32_t p = atomic_fetch_add(&turn->next, 1); p < count;
          p = atomic_fetch_add(&turn->next, 1)) {
         if (!work->busy[p]) continue;
-        if (!far_motions_add(&work->samples->patches[p], turn->fields, turn->least,
-                             &work->room[which], &added))
+        if (!far_motions_add(&patches->motions[p], turn->fields, turn->least, &work->room[which],
+                             &added))
             atomic_store(&turn->failed, true);
         work->busy[p] = added > NEW_SHARE * turn->fields.columns;
     }
@@ -235,17 +231,17 @@ static void add_in_turn(void *context, int32_t which)
 // *left: patches that found much that is new now, too.
 static bool add_to_patches(Sampling *work, int32_t columns, double least, int32_t *left, Error *err)
 {
-    FarSamples *samples = work->samples;
+    const FarPatches *patches = work->samples->patches;
     Turn turn = {.work = work,
                  .fields = dense_view(work->fields, work->bulk->dof_count, columns),
                  .least = least};
-    for (int32_t p = 0; p < samples->patch_count; p++)
-        if (work->busy[p]) TRY(far_motions_make_room(&samples->patches[p], columns, err));
+    for (int32_t p = 0; p < patches->count; p++)
+        if (work->busy[p]) TRY(far_motions_make_room(&patches->motions[p], columns, err));
     share_in_two(add_in_turn, &turn);
     if (turn.failed)
         FAIL(err, ERROR_LIBRARY, "LAPACK: no energies of motions far from the interface");
     *left = 0;
-    for (int32_t p = 0; p < samples->patch_count; p++) *left += work->busy[p];
+    for (int32_t p = 0; p < patches->count; p++) *left += work->busy[p];
 cleanup:
     return error_is_clean(err);
 }
@@ -255,7 +251,7 @@ static bool sample(Sampling *work, InterfaceOperator *full, const double *held, 
                    Error *err)
 {
     int32_t m = work->mesh.interface_count;
-    int32_t left = work->samples->patch_count;
+    int32_t left = work->samples->patches->count;
     for (int32_t p = 0; p < left; p++) work->busy[p] = true;
     // m motions are all there are.
     for (int32_t loads = take_load(work, held), asked = 0; left > 0 && asked < m; asked += CHUNK) {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Motions of what is far from the interface, from answers of the whole mesh to motions of the
 // interface drawn at random (Halko, Martinsson, Tropp, SIAM Review 53, 2011; for substructures:
-// Buhr and Smetana, SIAM J. Sci. Comput. 40, 2018). Used by bulk/far_field alone.
+// Buhr and Smetana, SIAM J. Sci. Comput. 40, 2018). Used by bulk/far_block
+// and bulk/far_field.
 #ifndef AMONTONS_BULK_FAR_SAMPLES_H
 #define AMONTONS_BULK_FAR_SAMPLES_H
 
-#include "bulk/far_motions.h"
+#include "bulk/far_patches.h"
 #include "bulk/strip.h"
 
 typedef struct FarFieldDef {
@@ -14,12 +15,10 @@ typedef struct FarFieldDef {
     Materials materials;
 } FarFieldDef;
 
-// What the whole mesh says, of which the first three lines are given. `bulk` must outlive it: its
+// What the whole mesh says, of which the first line is given. `bulk` must outlive it: its
 // last factor is made while the caller goes on.
 typedef struct FarSamples {
-    int32_t distance;   // elements between the interface and the first patches
-    int32_t patch_count;
-    FarMotions *patches;   // [patch_count] begun and filled; not owned
+    FarPatches *patches;   // begun and filled; not owned
     double *stiffness;   // [interface_count^2] S of K/E; owned
     double slowest;   // inertia of the interior's slowest mode (bulk/inertias)
     struct Sampling *sampling;   // what the comparison needs; owned

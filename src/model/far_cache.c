@@ -166,11 +166,11 @@ static bool store_block(const char *name, const FarBlock *block, Error *err)
     char path[CACHE_PATH_SIZE];
     int64_t patches = block->patch_count, couplings = block->coupling_count;
     double counts[COUNTS] = {block->dof_count, block->patch_count, block->coupling_count};
-    double *sizes = NEW_ARRAY(double, 2 * patches, err), *columns = sizes + patches;
+    double *sizes = NEW_ARRAY(double, 2 * patches, err);
     double *patch = NEW_ARRAY(double, 3 * couplings, err);
-    double *before = patch + couplings, *rows = before + couplings;
     double *indices = NEW_ARRAY(double, block->index_count, err);
     if (!sizes || !patch || !indices || !cache_file_path(name, "upper", path)) goto cleanup;
+    double *columns = sizes + patches, *before = patch + couplings, *rows = before + couplings;
     for (int64_t k = 0; k < block->index_count; k++) indices[k] = block->indices[k];
     for (int64_t p = 0; p < patches; p++) {
         sizes[p] = block->patches[p].size;
