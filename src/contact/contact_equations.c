@@ -33,31 +33,22 @@ bool contact_has_statuses(const ContactEquations *equations, const uint8_t *copy
            memcmp(copy + contacts, equations->at->rod_touches, (size_t)interface->rod_count) == 0;
 }
 
-static bool put(double value, double *place)
-{
-    bool differs = *place != value;
-    *place = value;
-    return differs;
-}
-
-bool contact_hold(const ContactEquations *equations)
+void contact_hold(const ContactEquations *equations)
 {
     const ContactProblem *problem = equations->problem;
     const Interface *interface = problem->interface;
     const ContactSolution *at = equations->at;
-    bool moved = false;
     for (int32_t i = 0; i < interface->contact_count; i++) {
         int32_t t = interface_tangent(i), n = interface_normal(i);
         if (at->status[i] == CONTACT_OPEN) continue;
-        moved |= put(problem->bound[n], &at->velocity[n]);
-        if (at->status[i] == CONTACT_STICK) moved |= put(0, &at->velocity[t]);
+        at->velocity[n] = problem->bound[n];
+        if (at->status[i] == CONTACT_STICK) at->velocity[t] = 0;
     }
     for (int32_t j = 0; j < interface->rod_count; j++) {
         int32_t x = interface_rod(interface, j);
         if (at->rod_touches[j] && rod_stiffness(problem, j) == 0)
-            moved |= put(problem->bound[x], &at->velocity[x]);
+            at->velocity[x] = problem->bound[x];
     }
-    return moved;
 }
 
 void contact_react(const ContactEquations *equations)

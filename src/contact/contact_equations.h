@@ -56,8 +56,8 @@ static inline int32_t contact_slipping_node(const ContactEquations *equations, i
 void contact_copy_statuses(const ContactEquations *equations, uint8_t *copy);
 bool contact_has_statuses(const ContactEquations *equations, const uint8_t *copy);
 
-// Puts what is held in its place; what is free keeps its velocity. true: some velocity was another.
-bool contact_hold(const ContactEquations *equations);
+// Puts what is held in its place; what is free keeps its velocity.
+void contact_hold(const ContactEquations *equations);
 
 // r = S v - g, from the velocities as they are.
 void contact_react(const ContactEquations *equations);

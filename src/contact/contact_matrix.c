@@ -147,6 +147,7 @@ void contact_matrix_archive(ContactMatrix *matrix, int64_t last, Archive *archiv
     if (archive->failed) return;
     if (swept > 0) archive_indices(archive, matrix->order, swept, -matrix->count, matrix->count);
     archive_count(archive, &sweeps);
+    archive_count(archive, &matrix->imaged);
     archive_count(archive, &factored);
     if (!archive_reads(archive)) return;
     matrix->factored = factored;

@@ -19,6 +19,8 @@ bool contact_newton_create(const Interface *interface, ContactNewton *newton, Er
     newton->step = NEW_ARRAY(double, count, err);
     newton->more = NEW_ARRAY(double, count, err);
     newton->pull = NEW_ARRAY(double, count, err);
+    newton->velocity = NEW_ARRAY(double, count, err);
+    newton->image = NEW_ARRAY(double, count, err);
     return error_is_clean(err) && contact_factors_create(interface, &newton->factors, err);
 }
 
@@ -31,6 +33,8 @@ void contact_newton_destroy(ContactNewton *newton)
     memory_free(newton->step);
     memory_free(newton->more);
     memory_free(newton->pull);
+    memory_free(newton->velocity);
+    memory_free(newton->image);
     *newton = (ContactNewton){0};
 }
 
@@ -40,27 +44,73 @@ void contact_newton_begin(ContactNewton *newton, const ContactProblem *problem,
     newton->equations = (ContactEquations){
         .problem = problem, .at = solution, .free = newton->free, .row = newton->row};
     newton->rounding = rounding * dense_max_abs(problem->g, problem->interface->count);
+    int64_t *of = &problem->matrix->imaged;
+    bool kept = *of > 0 && *of == newton->images;
+    *of = 0;
+    if (!kept) {
+        contact_newton_react(newton);
+        return;
+    }
+    newton->exact = false;
+    for (int32_t k = 0; k < problem->interface->count; k++)
+        solution->reaction[k] = newton->image[k] - problem->g[k];
+    contact_newton_follow(newton);
+}
+
+void contact_newton_end(ContactNewton *newton)
+{
+    const ContactProblem *problem = newton->equations.problem;
+    for (int32_t k = 0; k < problem->interface->count; k++)
+        newton->image[k] = newton->equations.at->reaction[k] + problem->g[k];
+    problem->matrix->imaged = ++newton->images;
+}
+
+// Reactions are of the velocities as they are.
+static void note_velocities(ContactNewton *newton)
+{
+    size_t count = (size_t)newton->equations.problem->interface->count;
+    memcpy(newton->velocity, newton->equations.at->velocity, count * sizeof(double));
 }
 
 void contact_newton_react(ContactNewton *newton)
 {
     contact_react(&newton->equations);
+    note_velocities(newton);
     newton->exact = true;
 }
 
-void contact_newton_settle(ContactNewton *newton, bool known)
+// What moved by less than rounding has not: until it has come further.
+void contact_newton_follow(ContactNewton *newton)
+{
+    const ContactProblem *problem = newton->equations.problem;
+    const ContactSolution *at = newton->equations.at;
+    int32_t count = problem->interface->count;
+    double nothing = newton->rounding / problem->matrix->diagonal;
+    bool moved = false;
+    for (int32_t k = 0; k < count; k++) {
+        newton->more[k] = 0;
+        if (fabs(at->velocity[k] - newton->velocity[k]) <= nothing) continue;
+        newton->more[k] = at->velocity[k] - newton->velocity[k];
+        newton->velocity[k] = at->velocity[k];
+        moved = true;
+    }
+    if (!moved) return;
+    newton->exact = false;
+    dense_add_nonzero((DenseView){problem->matrix->schur, count, count}, newton->more, 1,
+                      at->reaction);
+}
+
+void contact_newton_settle(ContactNewton *newton)
 {
     const ContactSolution *at = newton->equations.at;
     newton->listed = false;
-    bool moved = contact_hold(&newton->equations);
+    contact_hold(&newton->equations);
     for (int32_t i = 0; i < newton->equations.problem->interface->contact_count; i++) {
         double *slip_rate = &at->velocity[interface_tangent(i)];
-        if (status_slips(at->status[i]) && *slip_rate * status_direction(at->status[i]) < 0) {
+        if (status_slips(at->status[i]) && *slip_rate * status_direction(at->status[i]) < 0)
             *slip_rate = 0;
-            moved = true;
-        }
     }
-    if (moved || !known) contact_newton_react(newton);
+    contact_newton_follow(newton);
 }
 
 bool contact_newton_list(ContactNewton *newton)
@@ -151,10 +201,6 @@ static void take_step(ContactNewton *newton)
     int32_t count = newton->equations.problem->interface->count,
             free_count = newton->equations.free_count;
     for (int32_t a = 0; a < free_count; a++) at->velocity[newton->free[a]] += newton->step[a];
-    if (newton->open_count == 0) {
-        contact_newton_react(newton);
-        return;
-    }
     memset(newton->more, 0, (size_t)count * sizeof(double));
     for (int32_t a = 0; a < free_count; a++) newton->more[newton->free[a]] = newton->step[a];
     dense_add_nonzero((DenseView){newton->closed, count, count}, newton->more, -1, newton->pull);
@@ -164,6 +210,7 @@ static void take_step(ContactNewton *newton)
         at->velocity[unknown] += newton->pull[unknown];
         at->reaction[unknown] = 0;
     }
+    note_velocities(newton);
     newton->exact = false;
 }
 
@@ -175,8 +222,8 @@ bool contact_newton_step(ContactNewton *newton)
     int32_t free_count = equations->free_count;
     if (!find_factors(newton)) return false;
     for (int32_t a = 0; a < free_count; a++) newton->step[a] = -newton->step[a];
+    find_pull(newton);
     if (newton->open_count > 0) {
-        find_pull(newton);
         contact_combine(equations, newton->pull, newton->more);
         dense_add_scaled(1, newton->more, free_count, newton->step);
     }
@@ -209,6 +256,9 @@ void contact_newton_archive(ContactNewton *newton, Archive *archive)
 {
     contact_factors_archive(&newton->factors, archive);
     archive_flag(archive, &newton->factors_gain);
+    archive_numbers(archive, newton->velocity, newton->factors.count);
+    archive_numbers(archive, newton->image, newton->factors.count);
+    archive_count(archive, &newton->images);
     archive_count(archive, &newton->factorisations);
     archive_count(archive, &newton->updates);
 }

@@ -190,7 +190,7 @@ static bool starts_fast(Solve *solve)
     solve->least = INFINITY;
     solve->stalled = 0;
     solve->newton->listed = false;
-    contact_newton_react(solve->newton);
+    contact_newton_follow(solve->newton);
     return true;
 }
 
@@ -221,7 +221,7 @@ static Progress judge_step(Solve *solve)
     if (!update_statuses(solve, CLEARLY * off)) return equal ? SOLVED : GOES_ON;
     note_statuses(solve);
     if (solve->change_all) solve->started = -1;
-    contact_newton_settle(solve->newton, true);
+    contact_newton_settle(solve->newton);
     return GOES_ON;
 }
 
@@ -241,7 +241,7 @@ static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
     contact_newton_begin(newton, problem, solution, 1e-3 * solver->def.tolerance);
     fix_rod_kind(&solve);
     note_statuses(&solve);
-    contact_newton_settle(newton, false);
+    contact_newton_settle(newton);
     while (may_go_on(&solve)) {
         if (!newton->listed && !contact_newton_list(newton)) return false;
         solver->iterations++;
@@ -250,6 +250,7 @@ static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
         Progress progress = judge_step(&solve);
         if (progress == GIVEN_UP) return false;
         if (progress == SOLVED) {
+            contact_newton_end(newton);
             clean_solution(&solve);
             return true;
         }

@@ -2,7 +2,7 @@
 // The list is gone through three times: to measure, to write, and later to read (base/archive). In
 // front of it stands what it is and of what, behind it a checksum:
 //
-//     "amontons-state 4, reduced"  version  identity  time  { parts of the state }  checksum
+//     "amontons-state 5, reduced"  version  identity  time  { parts of the state }  checksum
 //
 // What can be made again from the scene is not saved: mesh, matrices, the rungs' factors. What
 // depends on rounding in the past is: factors that the next step may use again, the order of sweeps
@@ -22,7 +22,7 @@
 #include <unistd.h>
 
 // A new number where the list changes its order or meaning.
-static const char *const FORMATS[] = {"amontons-state 4, full mesh", "amontons-state 4, reduced"};
+static const char *const FORMATS[] = {"amontons-state 5, full mesh", "amontons-state 5, reduced"};
 enum { WORD_SIZE = 32, CHECKSUM_SIZE = HASH_TEXT_SIZE - 1 };
 
 // --- of what ------------------------------------------------------------------------------------

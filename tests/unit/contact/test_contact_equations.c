@@ -139,9 +139,7 @@ static void test_holds(void **state)
         ContactEquations equations = make_equations(&random, trial);
         double before[COUNT], force = 0, diagonal = 0;
         memcpy(before, hand.velocity, sizeof before);
-        bool moves = equations.free_count < COUNT;
-        assert_int_equal(contact_hold(&equations), moves);
-        assert_false(contact_hold(&equations));   // all is in its place already
+        contact_hold(&equations);
         for (int32_t k = 0, a = 0; k < COUNT; k++) {
             bool is_free = a < equations.free_count && free_list[a] == k;
             a += is_free;

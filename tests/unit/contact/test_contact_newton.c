@@ -56,8 +56,9 @@ static void test_step_adds_up(void **state)
     ContactSolution solution = {hand.velocity, hand.reaction, hand.status, hand.rod_touches};
     ContactProblem problem = hand_problem(&hand, &matrix);
     contact_newton_begin(&newton, &problem, &solution, 1e-15);
-    contact_newton_settle(&newton, false);
-    assert_true(newton.exact && contact_newton_list(&newton));
+    assert_true(newton.exact);
+    contact_newton_settle(&newton);
+    assert_true(contact_newton_list(&newton));
     assert_int_equal(newton.open_count, 2 * 18);
     double before = contact_newton_residual(&newton), after = before;
     for (int step = 0; step < 8; step++) {
@@ -73,6 +74,47 @@ static void test_step_adds_up(void **state)
     assert_true(newton.exact);
     contact_newton_destroy(&newton);
     contact_matrix_destroy(&matrix);
+}
+
+// The next solve with the same matrix begins from S v of the last, with what else moved, another g
+// and other bounds; one with another matrix, or after a solve that did not succeed, anew.
+static void test_next_solve_begins_from_the_last(void **state)
+{
+    (void)state;
+    Error err = {0};
+    Random random = {.state = 43};
+    ContactMatrix matrices[2];
+    ContactNewton newton;
+    make_problem(&random);
+    for (int k = 0; k < 2; k++)
+        assert_true(contact_matrix_create(hand.schur, hand.interface.count, &matrices[k], &err));
+    assert_true(contact_newton_create(&hand.interface, &newton, &err));
+    ContactSolution solution = {hand.velocity, hand.reaction, hand.status, hand.rod_touches};
+    const int matrix_of[] = {0, 0, 0, 1, 0, 0, 0}, succeeds[] = {1, 1, 1, 1, 1, 0, 1};
+    const int whole[] = {1, 0, 0, 1, 1, 0, 1};
+    for (int solve = 0; solve < 7; solve++) {
+        ContactProblem problem = hand_problem(&hand, &matrices[matrix_of[solve]]);
+        for (int32_t k = 0; k < hand.interface.count; k++) {
+            hand.g[k] += random_between(&random, -1, 1);
+            hand.bound[k] = random_between(&random, -1e-3, 1e-3);
+            hand.reaction[k] = NAN;   // of no use to it
+        }
+        hand.velocity[interface_tangent(3)] += 0.25;
+        contact_newton_begin(&newton, &problem, &solution, 1e-15);
+        assert_int_equal(newton.exact, whole[solve]);
+        for (int part = 0; part < 2; part++) {
+            for (int32_t k = 0; k < hand.interface.count; k++)
+                assert_near("reaction", hand.reaction[k], force_of(k), 1e-12);
+            contact_newton_settle(&newton);
+        }
+        hand.velocity[interface_tangent(8)] -= 0.125;
+        contact_newton_follow(&newton);
+        assert_near("one that moved", hand.reaction[5], force_of(5), 1e-12);
+        contact_newton_react(&newton);
+        if (succeeds[solve]) contact_newton_end(&newton);
+    }
+    contact_newton_destroy(&newton);
+    for (int k = 0; k < 2; k++) contact_matrix_destroy(&matrices[k]);
 }
 
 // To the last bit, not as steps added them up.
@@ -102,6 +144,7 @@ static void test_solution_is_exact(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_step_adds_up),
+                                       cmocka_unit_test(test_next_solve_begins_from_the_last),
                                        cmocka_unit_test(test_solution_is_exact)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
