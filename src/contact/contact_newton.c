@@ -54,7 +54,6 @@ void contact_newton_begin(ContactNewton *newton, const ContactProblem *problem,
     newton->exact = false;
     for (int32_t k = 0; k < problem->interface->count; k++)
         solution->reaction[k] = newton->image[k] - problem->g[k];
-    contact_newton_follow(newton);
 }
 
 void contact_newton_end(ContactNewton *newton)
@@ -201,6 +200,10 @@ static void take_step(ContactNewton *newton)
     int32_t count = newton->equations.problem->interface->count,
             free_count = newton->equations.free_count;
     for (int32_t a = 0; a < free_count; a++) at->velocity[newton->free[a]] += newton->step[a];
+    if (newton->open_count == 0) {
+        contact_newton_react(newton);
+        return;
+    }
     memset(newton->more, 0, (size_t)count * sizeof(double));
     for (int32_t a = 0; a < free_count; a++) newton->more[newton->free[a]] = newton->step[a];
     dense_add_nonzero((DenseView){newton->closed, count, count}, newton->more, -1, newton->pull);
@@ -222,8 +225,8 @@ bool contact_newton_step(ContactNewton *newton)
     int32_t free_count = equations->free_count;
     if (!find_factors(newton)) return false;
     for (int32_t a = 0; a < free_count; a++) newton->step[a] = -newton->step[a];
-    find_pull(newton);
     if (newton->open_count > 0) {
+        find_pull(newton);
         contact_combine(equations, newton->pull, newton->more);
         dense_add_scaled(1, newton->more, free_count, newton->step);
     }

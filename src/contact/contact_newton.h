@@ -43,8 +43,8 @@ typedef struct ContactNewton {
 bool contact_newton_create(const Interface *interface, ContactNewton *newton, Error *err);
 void contact_newton_destroy(ContactNewton *newton);
 
-// A solve begins, with the reactions of the velocities that are handed in. rounding: part of the
-// largest entry of g.
+// A solve begins; contact_newton_settle brings velocities and reactions in line. rounding: part of
+// the largest entry of g.
 void contact_newton_begin(ContactNewton *newton, const ContactProblem *problem,
                           ContactSolution *solution, double rounding);
 

@@ -102,11 +102,9 @@ static void test_next_solve_begins_from_the_last(void **state)
         hand.velocity[interface_tangent(3)] += 0.25;
         contact_newton_begin(&newton, &problem, &solution, 1e-15);
         assert_int_equal(newton.exact, whole[solve]);
-        for (int part = 0; part < 2; part++) {
-            for (int32_t k = 0; k < hand.interface.count; k++)
-                assert_near("reaction", hand.reaction[k], force_of(k), 1e-12);
-            contact_newton_settle(&newton);
-        }
+        contact_newton_settle(&newton);
+        for (int32_t k = 0; k < hand.interface.count; k++)
+            assert_near("reaction", hand.reaction[k], force_of(k), 1e-12);
         hand.velocity[interface_tangent(8)] -= 0.125;
         contact_newton_follow(&newton);
         assert_near("one that moved", hand.reaction[5], force_of(5), 1e-12);
