@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// With x = [u; w/s], w = lambda u, the shifted inverse maps x = [a; b] to [u; u + a/s] where
+// With x = [u; w/s], w = lambda u, the shifted inverse maps x = [a; b] to [y - a/s; y] where
 //
-//     (A - W) u = -M (a + b) - (C - W) a/s,   A = s M + C + K/s,  friction rows combined as in P,
+//     (A - W) y = K a/s^2 - M b,   A = s M + C + K/s,  friction rows combined as in P,
 //
-// and its eigenvalues are theta = 1/(lambda - s). Held unknowns are 0 throughout.
+// and its eigenvalues are theta = 1/(lambda - s). Held unknowns are 0 throughout. K has the springs
+// of soft rod nodes and the machine's.
 //
 // A state's unknowns are [u; w/s], 2 dof_count of them: w is scaled by s so that both halves have
 // one unit. Behind them stands the way R of a rod on a spring, which has no mass and hence no w:
@@ -20,7 +21,8 @@
 #include <string.h>
 
 static const double SAME_RATE = 1e-6;   // two shifts saw one rate, relative
-static const double NO_RATE = 1e-10;   // |theta| s below it is 0: of the rod, which has no mass
+static const double NO_RATE = 1e-7;   // |theta| s below it is 0: of a rod, which has no mass, or of
+    // motions so stiff that y and a/s differ by rounding
 
 struct Growth {
     GrowthDef def;
@@ -173,6 +175,25 @@ static bool factor_moving(Growth *growth, int32_t k)
     return dense_lu(growth->matrix, moving->count, growth->pivots);
 }
 
+static bool moves(const MovingSet *moving, int32_t unknown)
+{
+    for (int32_t r = 0; r < moving->count; r++)
+        if (moving->list[r].unknown == unknown) return true;
+    return false;
+}
+
+// Rod nodes that are held go the rod's way to the last bit: what they would fall behind by rounding
+// is an eigenvector of its own, with theta = -1/s.
+static void put_rod(const Growth *growth, double way, double *to)
+{
+    const Interface *interface = growth->interface;
+    to[2 * (int64_t)growth->system->dof_count] = way;
+    for (int32_t j = 0; j < interface->rod_count; j++) {
+        int32_t x = interface_rod(interface, j);
+        if (!moves(&growth->moving, x)) to[growth->system->interface_dofs[x]] = way;
+    }
+}
+
 // to = shifted inverse of from; both [state_size].
 // to and from must be distinct. Held unknowns come out as 0: the border is set so.
 static bool apply_inverse(Growth *growth, int32_t k, const double *from, double *to, Error *err)
@@ -181,18 +202,16 @@ static bool apply_inverse(Growth *growth, int32_t k, const double *from, double 
     int32_t n = system->dof_count;
     double s = growth->shift[k];
     const double *a = from, *b = from + n;
-    for (int32_t j = 0; j < n; j++) to[j] = a[j] + b[j];
-    bulk_operator_apply(system, BULK_MASS, to, growth->rhs);
-    bulk_operator_apply(system, BULK_DAMPING, a, growth->image);
-    for (int32_t j = 0; j < n; j++) growth->rhs[j] = -growth->rhs[j] - growth->image[j] / s;
+    double rod = growth->on_spring ? from[2 * (int64_t)n] : 0, square = s * s;
+    bulk_operator_apply(system, BULK_MASS, b, growth->rhs);
+    bulk_operator_apply(system, BULK_STIFFNESS, a, growth->image);
+    for (int32_t j = 0; j < n; j++) growth->rhs[j] = growth->image[j] / square - growth->rhs[j];
+    interface_operator_pull(growth->at[k], system->machine.stiffness * rod / square);
     TRY(interface_operator_condense(growth->at[k], growth->rhs, growth->g, err));
-    double rod = growth->on_spring ? from[2 * (int64_t)n] : 0;
     for (int32_t r = 0; r < growth->moving.count; r++) {
         const MovingUnknown *row = &growth->moving.list[r];
-        double against = row->spring > 0 ? rod : 0;   // soft nodes are led by the rod
-        growth->step[r] = growth->g[row->unknown] +
-                          (row->weakening - row->damper) *
-                              (a[system->interface_dofs[row->unknown]] - against) / s;
+        double way = a[system->interface_dofs[row->unknown]] - rod;   // of soft nodes
+        growth->step[r] = growth->g[row->unknown] + row->spring * way / square;
         if (row->normal >= 0) growth->step[r] += row->friction * growth->g[row->normal];
     }
     dense_lu_solve(growth->matrix, growth->moving.count, growth->pivots, growth->step);
@@ -200,11 +219,11 @@ static bool apply_inverse(Growth *growth, int32_t k, const double *from, double 
     for (int32_t r = 0; r < growth->moving.count; r++)
         growth->border[growth->moving.list[r].unknown] = growth->step[r];
     double own = interface_operator_release(growth->at[k], growth->border);
-    if (growth->on_spring) to[2 * (int64_t)n] = own;
-    TRY(interface_operator_expand(growth->at[k], growth->border, to, err));
+    TRY(interface_operator_expand(growth->at[k], growth->border, to + n, err));
     for (int32_t j = 0; j < growth->interface->count; j++)
-        to[system->interface_dofs[j]] = growth->border[j];
-    for (int32_t j = 0; j < n; j++) to[n + j] = to[j] + a[j] / s;
+        to[n + system->interface_dofs[j]] = growth->border[j];
+    for (int32_t j = 0; j < n; j++) to[j] = to[n + j] - a[j] / s;
+    if (growth->on_spring) put_rod(growth, own - rod / s, to);
 cleanup:
     return error_is_clean(err);
 }
@@ -362,7 +381,7 @@ static bool rates_near_shift(Growth *growth, int32_t k, GrowthRates *rates, Erro
         double last = hypot(re[count - 1], pair ? im[count - 1] : 0);
         if (pair) j++;
         if (!(rest * last <= growth->def.tolerance * sqrt(square))) continue;
-        if (growth->on_spring && s * sqrt(square) < NO_RATE) continue;
+        if (s * sqrt(square) < NO_RATE) continue;
         // lambda = s + 1/theta; of a pair the one with im > 0 is kept, whose vector is conjugate.
         GrowthRate found = {.re = s + x / square, .im = fabs(y) / square};
         take_pair(growth, count, found, re, im, rates);
