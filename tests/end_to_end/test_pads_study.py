@@ -151,6 +151,39 @@ class PadsStudy(unittest.TestCase):
         self.assertAlmostEqual(run["mu_M"] / high, 1, delta=0.01)
         self.assertRegex(self.said, rf"mu_hold +{run['mu_hold']:.4f} ")
 
+    def put(self, study, point, report):
+        path = os.path.join(self.folder, study, "count", "points", point)
+        os.makedirs(path)
+        with open(os.path.join(path, "run.json"), "w", encoding="utf-8") as file:
+            json.dump(report, file)
+
+    def compare(self, old, new):
+        words = [os.path.join(STUDY, "compare.py"), *(os.path.join(self.folder, name) for name in (old, new))]
+        return subprocess.run(words, timeout=60, capture_output=True, text=True)
+
+    def test_two_studies(self):
+        """Of a run that repeats 2 % are seen, and of one that does not 3 parts against bars of 3 and 4."""
+        report = self.run_program("run", "pads.yaml", "run.json", P=0.006, n=2, **{"time.until.U": 0.06})
+        results, drops = report["results"], report["results"]["drops"]
+        self.assertGreater(drops["period"], 0)
+        self.put("old", "a", report)
+        results["mu_hold"] *= 1.02
+        self.put("new", "a", report)
+        drops["period"], results["mu_hold_error"], drops["mean_error"] = 0, 0.003, 0.001
+        results["mu_hold"], drops["mean"] = 0.3, 0.4
+        self.put("old", "b", report)
+        results["mu_hold_error"], results["mu_hold"], drops["mean"] = 0.004, 0.303, 0.41
+        self.put("new", "b", report)
+        self.put("new", "c", report)   # the other has none
+        said = self.compare("old", "new").stdout
+        self.assertRegex(said, r"same period: 1 runs\n +mu_hold within 0.1 %: 0, within 1 %: 0, at most 2 %")
+        self.assertRegex(said, r"\n +count, P = 0.006, n 2")
+        self.assertRegex(said, r"mu_hold: 1 of 1 within both bars, at most 0.6 of them")
+        self.assertRegex(said, r"mean of drops: 0 of 1 within both bars, at most 7.1 of them")
+        wrong = self.compare("old", "nothing")
+        self.assertEqual(wrong.returncode, 2)
+        self.assertIn("no point in common", wrong.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()
