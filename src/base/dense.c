@@ -143,9 +143,7 @@ bool dense_invert_factored(double *a, int32_t n)
 {
     int info = invert_lower(a, n);
     if (n > 0 && info == 0) dlauum_("L", &n, a, &n, &info, 1);
-    for (int64_t j = 0; j < n; j++) {
-        for (int64_t i = j + 1; i < n; i++) a[i * n + j] = a[j * n + i];
-    }
+    dense_mirror(a, n);
     return info == 0;
 }
 

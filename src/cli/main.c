@@ -205,8 +205,6 @@ static void meet_limits(void)
 
 __attribute__((section(".preinit_array"), used)) static void (*const first)(void) = meet_limits;
 
-// A full disk or a closed pipe may show only when the last output is written: a command whose
-// answer is lost has failed.
 // What a reduction gives back it asks for again at its next point: the kernel would clear each page
 // anew, a tenth of the time at 800 contact nodes. model/obtain gives back what is left at the end.
 static void keep_memory(void)
@@ -216,6 +214,8 @@ static void keep_memory(void)
     mallopt(M_TRIM_THRESHOLD, -1);
 }
 
+// A full disk or a closed pipe may show only when the last output is written: a command whose
+// answer is lost has failed.
 int main(int argc, char **argv)
 {
     keep_memory();

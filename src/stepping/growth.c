@@ -195,7 +195,7 @@ static void put_rod(const Growth *growth, double way, double *to)
 }
 
 // to = shifted inverse of from; both [state_size].
-// to and from must be distinct. Held unknowns come out as 0: the border is set so.
+// to and from must be distinct. Held unknowns come out as 0, as they come in: the border is set so.
 static bool apply_inverse(Growth *growth, int32_t k, const double *from, double *to, Error *err)
 {
     BulkOperator *system = growth->system;

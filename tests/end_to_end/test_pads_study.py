@@ -152,10 +152,17 @@ class PadsStudy(unittest.TestCase):
         self.assertRegex(self.said, rf"mu_hold +{run['mu_hold']:.4f} ")
 
     def put(self, study, point, report):
-        path = os.path.join(self.folder, study, "count", "points", point)
-        os.makedirs(path)
-        with open(os.path.join(path, "run.json"), "w", encoding="utf-8") as file:
+        """A point of a sweep's folder: its report and its row in the table."""
+        sweep = os.path.join(self.folder, study, "count")
+        os.makedirs(os.path.join(sweep, "points", point))
+        with open(os.path.join(sweep, "points", point, "run.json"), "w", encoding="utf-8") as file:
             json.dump(report, file)
+        row = {"mu_M": "", "mu_hold": report["results"]["mu_hold"], "l_c": "", "mu_first_pad": "",
+               "status": "done", "run": f"points/{point}"}
+        with open(os.path.join(sweep, "sweep.csv"), "a", encoding="utf-8") as file:
+            if file.tell() == 0:
+                file.write(",".join(row) + "\n")
+            file.write(",".join(map(str, row.values())) + "\n")
 
     def compare(self, old, new):
         words = [os.path.join(STUDY, "compare.py"), *(os.path.join(self.folder, name) for name in (old, new))]

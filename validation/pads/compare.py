@@ -10,40 +10,36 @@ has that do not repeat, and now and then between two that do: what is in the bar
 far outside is a change of the program.
 """
 import argparse
-import json
 import math
 from pathlib import Path
+
+from study import read_points
 
 SHOWN = 0.01   # differences of mu_hold that are listed
 
 
-class Run:
-    """One point; what tells it from others, and its results."""
-
-    def __init__(self, path):
-        report = json.loads(path.read_text())
-        scene, results = report["scene"], report["results"]
-        numbers = {key: value for key, value in scene["mesh"]["set"].items() if isinstance(value, (int, float))}
-        self.name = f"{path.parts[-4]}, P = {scene['load']['pressure']:g}, " + " ".join(
-            f"{key} {value:g}" for key, value in numbers.items() if key in ("n", "pad_height", "fill", "gap"))
-        self.steps, self.period = report["steps"]["accepted"], results["drops"]["period"]
-        self.hold, self.hold_error = results["mu_hold"], results["mu_hold_error"]
-        self.mean, self.mean_error = results["drops"]["mean"], results["drops"]["mean_error"]
-
-
 def pairs(old, new):
-    """The points that both folders have, each scene once."""
-    seen = {}
-    for path in sorted(old.glob("*/points/*/run.json")):
-        other = new / path.relative_to(old)
-        if path.parent.name not in seen and other.exists():
-            seen[path.parent.name] = (Run(path), Run(other))
-    return [pair for pair in seen.values() if all(run.hold for run in pair)]
+    """Points that both folders have, each scene once."""
+    found = {}
+    for path in sorted(old.glob("*/sweep.csv")):
+        other = new / path.relative_to(old).parent
+        if not (other / "sweep.csv").exists():
+            continue
+        after = {point.place: point for point in read_points(other)}
+        for before in read_points(path.parent):
+            if before.place in after and before.hold and after[before.place].hold:
+                found.setdefault(before.place, (before, after[before.place]))
+    return list(found.values())
+
+
+def name_of(point):
+    varied = [f"{key} {point.mesh[key]:g}" for key in ("n", "pad_height", "fill", "gap") if key in point.mesh]
+    return f"{point.sweep}, P = {point.P:g}, {' '.join(varied)}"
 
 
 def in_bars(pair, value, error):
     """The difference in units of both bars together; None where there is none."""
-    (a, b), (u, v) = ([getattr(run, name) for run in pair] for name in (value, error))
+    (a, b), (u, v) = ([getattr(point, name) for point in pair] for name in (value, error))
     return abs(b - a) / math.hypot(u, v) if None not in (a, b, u, v) and (u or v) else None
 
 
@@ -55,7 +51,7 @@ def show_regular(title, found):
               f"at most {100 * parts[-1]:.2g} %")
     for old, new in found:
         if abs(new.hold / old.hold - 1) > SHOWN:
-            print(f"    {old.name}: {old.hold:.4f} to {new.hold:.4f}, period {old.period} to {new.period}")
+            print(f"    {name_of(old)}: {old.hold:.4f} to {new.hold:.4f}, period {old.period} to {new.period}")
 
 
 def show_chaotic(found):

@@ -39,6 +39,8 @@ class Point:
         self.scene, self.results = scene, run["results"]
         self.pads = self.results["pads"]
         self.P, self.mesh = scene["load"]["pressure"], scene["mesh"]["set"]
+        self.sweep, self.place = folder.name, row["run"]
+        self.steps = run["steps"]["accepted"]
         self.n = int(self.mesh.get("n", 0))
         self.mu, self.hold = number(row["mu_M"]), number(row["mu_hold"])
         self.l_c, self.first_pad = number(row["l_c"]), number(row["mu_first_pad"])
@@ -64,6 +66,13 @@ class Point:
         return ", ".join(f"{b['mu']:.3f} ({b['pads']})" for b in self.results["drops"]["branches"])
 
 
+def read_points(folder):
+    """Those of a sweep's folder that are done, by pressure and number of pads."""
+    with open(folder / "sweep.csv", encoding="utf-8") as file:
+        points = [Point(folder, row) for row in csv.DictReader(file) if row["status"] == "done"]
+    return sorted(points, key=lambda p: (p.P, p.n))
+
+
 class Study:
     def __init__(self, program, folder, jobs):
         self.program, self.folder, self.jobs = program, folder, jobs
@@ -79,9 +88,7 @@ class Study:
         out = self.folder / name
         subprocess.run([self.program, "sweep", HERE / f"{name}.yaml", "-o", out, "-j", str(jobs),
                         "--quiet"], check=False)   # 1: some points failed, and the table says which
-        with open(out / "sweep.csv", encoding="utf-8") as file:
-            points = [Point(out, row) for row in csv.DictReader(file) if row["status"] == "done"]
-        return sorted(points, key=lambda p: (p.P, p.n))
+        return read_points(out)
 
     def stability(self, scene, sets):
         """results and pads of `amontons stability`; None where it failed."""
