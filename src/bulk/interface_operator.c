@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The reduced operator keeps, for each A, the inverse of its interior block and the map
-//
-//     B = A_qq^-1 A_qb,   S = A_bb - A_bq B,   g = rhs_b - B' rhs_q,   v_q = A_qq^-1 rhs_q - B v_b.
-//
-// The full operator leaves all this to base/sparse, which reads S out of CHOLMOD's factor. Callers
-// do not know which of the two they have (a test compares them). Unknowns of the full system are
-// those of the mesh; of the reduced one the interface's come first, then the interior's coordinates
-// q. A stage reads B twice (the second time what moves of it), half of A_qq^-1 and, for M v, M_qb.
+// The full operator leaves all to base/sparse, which reads S out of CHOLMOD's factor, the reduced
+// one to bulk/reduced_operator. Callers do not know which of the two they have (a test compares
+// them). Unknowns of the full system are those of the mesh; of the reduced one the interface's come
+// first, then the interior's coordinates q.
 #include "bulk/interface_operator.h"
 
 #include "base/dense.h"
@@ -19,9 +15,7 @@ struct InterfaceOperator {
     BulkOperator *system;   // not owned
     double *schur;   // [interface_count^2] S, not lifted; owned
     SparseFactor *factor;   // full; owned
-    double *inverse;   // reduced: [interior^2] A_qq^-1; owned
-    double *map;   // reduced: [interior * interface] B; owned
-    double *half;   // reduced: [interior] A_qq^-1 rhs_q; owned
+    CondensedBulk *small;   // reduced; owned
     MachineColumn machine;   // empty: the rod is rigid; owned
 };
 
@@ -46,9 +40,9 @@ bool bulk_operator_create(const Bulk *bulk, const double *position, const int32_
 {
     TRY(allocate_full(bulk, interface_dofs, interface_count, system, err));
     memcpy(system->load, bulk->load, (size_t)bulk->dof_count * sizeof(double));
-    for (int32_t dof = 0; dof < bulk->dof_count; dof += 2) {
-        system->rotation[dof] = position ? -position[dof + 1] : 0;
-        system->rotation[dof + 1] = position ? position[dof] : 0;
+    for (int32_t dof = 0; position && dof < bulk->dof_count; dof += 2) {
+        system->rotation[dof] = -position[dof + 1];
+        system->rotation[dof + 1] = position[dof];
         system->mass_total += bulk->mass[dof];
     }
     system->analysis = sparse_analyse(&bulk->pattern, interface_dofs, interface_count, err);
@@ -69,24 +63,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// M_qq where it is tridiagonal (reduced_bulk_narrow), close together.
-static bool copy_narrow_mass(BulkOperator *system, Error *err)
-{
-    const ReducedBulk *reduced = system->reduced;
-    int64_t r = reduced->interior_count, stride = reduced->count;
-    const double *mass = reduced->mass + reduced->interface_count * (stride + 1);
-    for (int64_t j = 0; j < r; j++)
-        for (int64_t i = j + 2; i < r; i++)
-            if (mass[j * stride + i] != 0) return true;
-    system->interior_mass = NEW_ARRAY(double, 2 * r, err);
-    if (!system->interior_mass) return false;
-    for (int64_t j = 0; j < r; j++) {
-        system->interior_mass[j] = mass[j * stride + j];
-        if (j + 1 < r) system->interior_mass[r + j] = mass[j * stride + j + 1];
-    }
-    return true;
-}
-
 bool bulk_operator_reduce(const ReducedBulk *reduced, const double *interface_rotation,
                           double mass_total, BulkOperator *system, Error *err)
 {
@@ -103,7 +79,7 @@ bool bulk_operator_reduce(const ReducedBulk *reduced, const double *interface_ro
     for (int32_t k = 0; k < reduced->interface_count; k++) system->interface_dofs[k] = k;
     for (int32_t k = 0; k < reduced->count; k++)
         system->load[k] = reduced->scales.load * reduced->load[k];
-    TRY(copy_narrow_mass(system, err));
+    system->small = reduced_operator_create(reduced, err);
 cleanup:
     return error_is_clean(err);
 }
@@ -114,38 +90,9 @@ void bulk_operator_destroy(BulkOperator *system)
     memory_free(system->load);
     memory_free(system->rotation);
     memory_free(system->values);
-    memory_free(system->interior_mass);
+    reduced_operator_destroy(system->small);
     sparse_analysis_destroy(system->analysis);
     *system = (BulkOperator){0};
-}
-
-// y = K x, C x or M x in the scene's units: normalised matrices times their scale.
-static void apply_reduced(const BulkOperator *system, BulkTerm term, const double *x, double *y)
-{
-    const ReducedBulk *reduced = system->reduced;
-    const BulkScales *scales = &reduced->scales;
-    double factor = scales->stiffness;
-    if (term == BULK_STIFFNESS) {
-        int32_t m = reduced->interface_count;
-        memset(y, 0, (size_t)m * sizeof(double));
-        dense_add_nonzero((DenseView){reduced->stiffness, m, m}, x, 1, y);
-        memcpy(y + reduced->interface_count, x + reduced->interface_count,
-               (size_t)reduced->interior_count * sizeof(double));
-    } else if (term == BULK_MASS && system->interior_mass) {
-        factor = scales->mass;
-        dense_bordered_apply(
-            (DenseBordered){.values = reduced->mass,
-                            .size = reduced->count,
-                            .border = reduced->interface_count,
-                            .diagonal = system->interior_mass,
-                            .beside = system->interior_mass + reduced->interior_count},
-            x, y);
-    } else {
-        factor = term == BULK_MASS ? scales->mass : scales->damping;
-        dense_symmetric_apply(term == BULK_MASS ? reduced->mass : reduced->damping, reduced->count,
-                              x, y);
-    }
-    for (int32_t k = 0; k < reduced->count; k++) y[k] *= factor;
 }
 
 // x, y: [dof_count], distinct.
@@ -153,7 +100,7 @@ void bulk_operator_apply(const BulkOperator *system, BulkTerm term, const double
 {
     const Bulk *bulk = system->bulk;
     if (!bulk) {
-        apply_reduced(system, term, x, y);
+        reduced_operator_apply(system->small, term, x, y);
     } else if (term == BULK_MASS) {
         for (int32_t k = 0; k < system->dof_count; k++) y[k] = bulk->mass[k] * x[k];
     } else {
@@ -185,21 +132,13 @@ double bulk_operator_size(const BulkOperator *system, const double *x)
 }
 
 // Nothing is lost: u = V q in every node of the mesh.
-void bulk_operator_recover(const BulkOperator *system, const double *x, double *full)
+bool bulk_operator_recover(const BulkOperator *system, int32_t count, const double *const *x,
+                           double *const *full, Error *err)
 {
-    if (system->bulk)
-        memcpy(full, x, (size_t)system->dof_count * sizeof(double));
-    else
-        reduced_bulk_recover(system->reduced, x, full);
-}
-
-void bulk_operator_recover_each(const BulkOperator *system, int32_t count, const double *const *x,
-                                double *const *full)
-{
-    if (system->reduced)
-        reduced_bulk_recover_each(system->reduced, count, x, full);
-    else
-        for (int32_t k = 0; k < count; k++) bulk_operator_recover(system, x[k], full[k]);
+    if (system->reduced) return reduced_bulk_recover(system->reduced, count, x, full, err);
+    for (int32_t k = 0; k < count; k++)
+        memcpy(full[k], x[k], (size_t)system->dof_count * sizeof(double));
+    return true;
 }
 
 // The share of inertia in A, normalised as bulk/reduction has it.
@@ -248,67 +187,9 @@ static bool condense_sparse(InterfaceOperator *condensed, OperatorTerms terms, E
     return true;
 }
 
-// Rows `first` to `first + rows` of a column of A, but for its part in K.
-static void reduced_column(const ReducedBulk *reduced, OperatorTerms terms, int64_t column,
-                           int64_t first, int64_t rows, double *out)
-{
-    int64_t at = column * reduced->count + first;
-    const double *mass = reduced->mass + at, *damping = reduced->damping + at;
-    double m = terms.mass * reduced->scales.mass, c = terms.damping * reduced->scales.damping;
-    for (int64_t row = 0; row < rows; row++) out[row] = m * mass[row] + c * damping[row];
-}
-
-// S of C alone, where the reduction has it and nothing else will be asked for.
-static bool take_viscous(InterfaceOperator *condensed, OperatorTerms terms)
-{
-    const ReducedBulk *reduced = condensed->system->reduced;
-    if (!reduced->viscous || !terms.schur_only || terms.mass != 0 || terms.stiffness != 0)
-        return false;
-    double factor = terms.damping * reduced->scales.damping;
-    int64_t entries = (int64_t)reduced->interface_count * reduced->interface_count;
-    for (int64_t k = 0; k < entries; k++) condensed->schur[k] = factor * reduced->viscous[k];
-    return true;
-}
-
-// The formulas at the head. The inverse itself, not a factor: a product with it is one pass over
-// memory for each of many right-hand sides, and A_qq is well conditioned (K_qq = 1).
-static bool condense_dense(InterfaceOperator *condensed, OperatorTerms terms, Error *err)
-{
-    const ReducedBulk *reduced = condensed->system->reduced;
-    int64_t m = reduced->interface_count, r = reduced->interior_count;
-    double *coupling = NEW_ARRAY(double, r *m, err);
-    condensed->inverse = NEW_ARRAY(double, r *r, err);
-    condensed->map = NEW_ARRAY(double, r *m, err);
-    condensed->half = NEW_ARRAY(double, r, err);
-    if (!error_is_clean(err)) goto cleanup;
-    double k = terms.stiffness * reduced->scales.stiffness;
-    for (int64_t column = 0; column < r; column++) {
-        reduced_column(reduced, terms, m + column, m, r, condensed->inverse + column * r);
-        condensed->inverse[column * r + column] += k;
-    }
-    for (int64_t column = 0; column < m; column++) {
-        double *schur = condensed->schur + column * m;
-        const double *stiffness = reduced->stiffness + column * m;
-        reduced_column(reduced, terms, column, m, r, coupling + column * r);
-        reduced_column(reduced, terms, column, 0, m, schur);
-        for (int64_t row = 0; row < m; row++) schur[row] += k * stiffness[row];
-    }
-    if (!dense_cholesky(condensed->inverse, (int32_t)r) ||
-        !dense_invert_factored(condensed->inverse, (int32_t)r))
-        FAIL(err, ERROR_COMPUTE, "the interior of the reduced bulk is not positive definite");
-    DenseView inverse = {condensed->inverse, (int32_t)r, (int32_t)r};
-    DenseView couple = {coupling, (int32_t)r, (int32_t)m};
-    DenseView map = {condensed->map, (int32_t)r, (int32_t)m};
-    dense_multiply(inverse, couple, 1, 0, condensed->map);
-    dense_multiply_transposed(couple, map, -1, 1, condensed->schur);
-cleanup:
-    memory_free(coupling);
-    return error_is_clean(err);
-}
-
-// Memory of a reduced one: m^2 + r^2 + r m doubles, m interface and r interior unknowns; of a full
-// one the sparse factor and 2 m^2. That of C alone, for the certificate, is copied from the
-// reduction.
+// Memory of a reduced one: m^2 + r^2 + r m doubles, m interface and r interior unknowns, of halves
+// m^2 and half of the rest; of a full one the sparse factor and 2 m^2. That of C alone, for the
+// certificate, is taken from the reduction.
 InterfaceOperator *interface_operator_create(BulkOperator *system, OperatorTerms terms, Error *err)
 {
     int64_t m = system->interface_count;
@@ -317,11 +198,12 @@ InterfaceOperator *interface_operator_create(BulkOperator *system, OperatorTerms
     condensed->system = system;
     condensed->schur = NEW_ARRAY(double, terms.lower_only ? 0 : m *m, err);
     if (!condensed->schur) goto cleanup;
-    bool taken = !system->bulk && take_viscous(condensed, terms);
+    bool taken = false;
     if (system->bulk)
         TRY(condense_sparse(condensed, terms, err));
-    else if (!taken)
-        TRY(condense_dense(condensed, terms, err));
+    else
+        TRY(condensed->small =
+                condensed_bulk_create(system->small, terms, condensed->schur, &taken, err));
     system->factorisations += !taken;
     if (system->machine.stiffness > 0)
         TRY(machine_soften(&system->machine, terms.stiffness, (int32_t)m, condensed->schur,
@@ -337,9 +219,7 @@ void interface_operator_destroy(InterfaceOperator *condensed)
     if (!condensed) return;
     sparse_factor_destroy(condensed->factor);
     memory_free(condensed->schur);
-    memory_free(condensed->inverse);
-    memory_free(condensed->map);
-    memory_free(condensed->half);
+    condensed_bulk_destroy(condensed->small);
     machine_column_destroy(&condensed->machine);
     memory_free(condensed);
 }
@@ -354,20 +234,14 @@ const double *interface_operator_schur_lower(const InterfaceOperator *condensed)
     return sparse_schur_lower(condensed->factor);
 }
 
-// The half-solved right-hand side (reduced: A_qq^-1 rhs_q) is kept for the expand that follows.
+// The half-solved right-hand side is kept for the expand that follows.
 bool interface_operator_condense(InterfaceOperator *condensed, const double *rhs, double *g,
                                  Error *err)
 {
-    const ReducedBulk *reduced = condensed->system->reduced;
-    if (condensed->factor) {
+    if (condensed->factor)
         TRY(sparse_condense(condensed->factor, rhs, g, err));
-    } else {
-        int32_t m = reduced->interface_count, r = reduced->interior_count;
-        memcpy(g, rhs, (size_t)m * sizeof(double));
-        dense_symmetric_apply(condensed->inverse, r, rhs + m, condensed->half);
-        // B last: the expand reads it next.
-        dense_apply_transposed((DenseView){condensed->map, r, m}, rhs + m, -1, 1, g);
-    }
+    else
+        condensed_bulk_condense(condensed->small, rhs, g);
     if (condensed->machine.column) machine_refer(&condensed->machine, g);
 cleanup:
     return error_is_clean(err);
@@ -388,11 +262,7 @@ bool interface_operator_expand(InterfaceOperator *condensed, const double *inter
 {
     condensed->system->solves++;
     if (condensed->factor) return sparse_expand(condensed->factor, interface, v, err);
-    const ReducedBulk *reduced = condensed->system->reduced;
-    int32_t m = reduced->interface_count, r = reduced->interior_count;
-    memcpy(v, interface, (size_t)m * sizeof(double));
-    memcpy(v + m, condensed->half, (size_t)r * sizeof(double));
-    dense_add_nonzero((DenseView){condensed->map, r, m}, interface, -1, v + m);
+    condensed_bulk_expand(condensed->small, interface, v);
     return true;
 }
 
@@ -425,6 +295,14 @@ static void hash_numbers(Hash *hash, const double *numbers, int64_t count)
     hash_bytes(hash, numbers, (size_t)count * sizeof(double));
 }
 
+static void hash_reduced(Hash *hash, const ReducedBulk *reduced)
+{
+    int64_t m = reduced->interface_count, all = reduced->count;
+    hash_numbers(hash, reduced->mass, all * all);
+    hash_numbers(hash, reduced->damping, all * all);
+    hash_numbers(hash, reduced->stiffness, m * m);
+}
+
 // A reduced state is in coordinates of its basis: the same mesh reduced on another computer may
 // have another one.
 void bulk_operator_hash(const BulkOperator *system, Hash *hash)
@@ -440,9 +318,7 @@ void bulk_operator_hash(const BulkOperator *system, Hash *hash)
         hash_numbers(hash, bulk->stiffness, entries);
         hash_numbers(hash, bulk->damping, entries);
     } else {
-        int64_t m = reduced->interface_count, all = reduced->count;
-        hash_numbers(hash, reduced->mass, all * all);
-        hash_numbers(hash, reduced->damping, all * all);
-        hash_numbers(hash, reduced->stiffness, m * m);
+        for (int h = 0; h < (reduced->half ? 2 : 1); h++)
+            hash_reduced(hash, reduced->half ? &reduced->half[h] : reduced);
     }
 }

@@ -14,10 +14,7 @@
 #include "base/hash.h"
 #include "bulk/assembly.h"
 #include "bulk/machine.h"
-#include "bulk/reduced_bulk.h"
-
-typedef enum BulkTerm { BULK_STIFFNESS, BULK_DAMPING, BULK_MASS } BulkTerm;
-enum { BULK_TERMS = BULK_MASS + 1 };
+#include "bulk/reduced_operator.h"
 
 typedef struct BulkOperator {
     int32_t dof_count;
@@ -29,8 +26,7 @@ typedef struct BulkOperator {
     Machine machine;   // behind the rod; set before an operator is made, rigid at first
     const Bulk *bulk;   // full: K, C, M; not owned; NULL when reduced
     const ReducedBulk *reduced;   // reduced: likewise; not owned; NULL when full
-    double *interior_mass;   // reduced: [2, interior] diagonal of M_qq, what is beside it; owned;
-        // NULL: M_qq has more than that
+    ReducedOperator *small;   // of it; owned
     SparseAnalysis *analysis;   // full; owned
     double *values;   // full: [entries] work, A; owned
     int64_t factorisations;   // counted: sparse, or dense of the interior
@@ -61,19 +57,10 @@ void bulk_operator_apply_many(const BulkOperator *system, BulkTerm term, const d
 // interior.
 double bulk_operator_size(const BulkOperator *system, const double *x);
 
-// full: [2 * nodes] from the system's unknowns, a copy or modes * x.
-void bulk_operator_recover(const BulkOperator *system, const double *x, double *full);
-// Of `count` vectors, as displacement and velocity, at far less than the cost of as many.
-void bulk_operator_recover_each(const BulkOperator *system, int32_t count, const double *const *x,
-                                double *const *full);
-
-typedef struct OperatorTerms {
-    double mass, damping, stiffness;   // factors of M, C, K in A
-    bool lift;   // A may be singular in the interface's own motion (C or K alone): its interface
-        // diagonal is raised to factor it, and S lowered again
-    bool schur_only;   // nothing but S will be asked for
-    bool lower_only;   // of a mesh: S will not be asked for, its Cholesky factor may be
-} OperatorTerms;
+// full: [2 * nodes] of `count` vectors x of the system's unknowns, as displacement and velocity:
+// copies, or modes * x at far less than the cost of as many calls.
+bool bulk_operator_recover(const BulkOperator *system, int32_t count, const double *const *x,
+                           double *const *full, Error *err);
 
 // The largest relative error of S that the reduction leaves at these terms; 0: full.
 double bulk_operator_error(const BulkOperator *system, OperatorTerms terms);

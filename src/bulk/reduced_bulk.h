@@ -5,7 +5,8 @@
 //     u = [ I   0   ] [ u_b ]      K = [ S_K 0 ]      M = [ M_bb M_bq ]    C full,
 //         [ Psi Phi ] [ q   ]          [ 0   I ]          [ M_qb T    ],
 //
-// T tridiagonal: a product with M or K costs m r, not (m + r)^2.
+// T tridiagonal: a product with M or K costs m r, not (m + r)^2. A block that is its own mirror
+// image is kept as two of half the size, which share no entry (bulk/halves).
 //
 // All matrices are normalised: K/E, C/eta, M/(rho L^2) with lengths over L; so one serves every
 // size and stiffness of a shape. Built by bulk/reduction, stored by model/basis_cache, used through
@@ -13,9 +14,7 @@
 #ifndef AMONTONS_BULK_REDUCED_BULK_H
 #define AMONTONS_BULK_REDUCED_BULK_H
 
-#include "base/error.h"
-
-#include <stdint.h>
+#include "bulk/halves.h"
 
 // Factors from the normalised matrices to those of a scene.
 typedef struct BulkScales {
@@ -51,18 +50,23 @@ typedef struct ReducedBulk {
     double *storage;   // the array that those above lie in (a file's); owned; NULL: none
     ReductionErrors errors;
     BulkScales scales;
+    Halves *halves;   // how it is put together of two: matrices above but `load` are NULL, errors
+        // are theirs, interior unknowns begin with those of images; owned; NULL: it is one
+    struct ReducedBulk *half;   // [2] those two; owned
 } ReducedBulk;
 
 void reduced_bulk_destroy(ReducedBulk *reduced);
+// Of normalised matrices and of those of its halves.
+void reduced_bulk_set_scales(ReducedBulk *reduced, BulkScales scales);
+bool reduced_bulk_has_modes(const ReducedBulk *reduced);
 
 // The error of S to expect at `inertia` (normalised, see bulk/reduction): the larger of those
 // measured on either side of it.
 double reduced_bulk_error(const ReducedBulk *reduced, double inertia);
 
-// full [full_dofs] = modes * state [count]. The modes must be at hand.
-void reduced_bulk_recover(const ReducedBulk *reduced, const double *state, double *full);
-// Of several states, at far less than the cost of as many.
-void reduced_bulk_recover_each(const ReducedBulk *reduced, int32_t count,
-                               const double *const *states, double *const *full);
+// full [full_dofs] = modes * state [count] of several states, at far less than the cost of as many
+// calls. The modes must be at hand.
+bool reduced_bulk_recover(const ReducedBulk *reduced, int32_t count, const double *const *states,
+                          double *const *full, Error *err);
 
 #endif

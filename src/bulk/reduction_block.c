@@ -2,6 +2,7 @@
 #include "bulk/reduction_block.h"
 
 #include "base/memory.h"
+#include "bulk/mirror_nodes.h"
 
 #include <math.h>
 
@@ -9,6 +10,9 @@
 // rounding. Its steps are powers of 2, so that no length that one draws is half a step, which
 // rounding could push either way.
 static const double GRID = 0x1p30;
+
+// Between a node and its image on that grid.
+static const double MIRROR_STEPS = 3;
 
 // Scenes whose numbers differ by rounding get the same. Should this fail for a node (within 1e-16
 // of a half step) a basis is built twice, and both are right.
@@ -51,8 +55,23 @@ static Materials normalise(const Materials *given)
 void reduction_block_destroy(ReductionBlock *block)
 {
     memory_free(block->position);
+    memory_free(block->image);
     bulk_destroy(&block->bulk);
     *block = (ReductionBlock){0};
+}
+
+// A mesher's two sides differ by a part of a step, and may be rounded to neighbouring ones.
+static bool find_images(ReductionBlock *block, int32_t nodes, Error *err)
+{
+    bool found = false;
+    block->image = NEW_ARRAY(int32_t, nodes, err);
+    if (!block->image ||
+        !mirror_nodes_find(block->position, nodes, MIRROR_STEPS / GRID, block->image, &found, err))
+        return false;
+    if (found) return true;
+    memory_free(block->image);
+    block->image = NULL;
+    return true;
 }
 
 // Assembled from the rounded positions and viscosities: M, C and K are exactly those of one block,
@@ -70,6 +89,7 @@ bool reduction_block_create(const Mesh *mesh, const Bulk *bulk, const Materials 
         block->position[2 * i] = put_on_grid((at[0] - mesh->x_min) / length);
         block->position[2 * i + 1] = put_on_grid(at[1] / length);
     }
+    TRY(find_images(block, mesh->node_count, err));
     Mesh scaled = *mesh;   // borrows all but the positions
     scaled.position = block->position;
     TRY(bulk_assemble_like(bulk, &scaled, block->materials.list, &block->bulk, err));

@@ -2,9 +2,10 @@
 // With n unknowns on the mesh, m of them on the interface: a sparse factor of a mesh of two
 // dimensions takes n^1.5 operations. Of the n log n entries that a pass goes through more come from
 // far memory where the mesh is larger: n^1.5 fits them, too. A basis takes some factors and
-// products of q x m answers, q what is left where motions replace what is far; a stage on it, and
-// the contact problem of either way, passes through matrices of some m x m. The seconds before them
-// were fitted to processor times of thirty shapes by validation/benchmark/choice.py.
+// products of q x m answers, q what is left where motions replace what is far; of two halves
+// (bulk/mirror) those of each. A stage on it, and the contact problem of either way, passes through
+// matrices of some m x m. The seconds before them were fitted to processor times of thirty shapes
+// by validation/benchmark/choice.py.
 #include "model/choice.h"
 
 #include "bulk/far_patches.h"
@@ -17,7 +18,7 @@ static const double FULL_FACTOR = 7.6e-9;   // rung and n^1.5
 static const double FULL_STAGE = 1.2e-9;   // stage and n^1.5
 static const double FULL_BORDER = 4.9e-9;   // stage and m^2
 static const double REDUCTION_FACTORS = 5.0e-5;   // n
-static const double REDUCTION_PRODUCTS = 6.8e-10;   // q m^2
+static const double REDUCTION_PRODUCTS = 6.8e-10;   // q m^2 of each half
 static const double REDUCED_STAGE = 3.8e-9;   // stage and m^2
 
 static const double RUNGS = 11;   // used by a run with a sliding
@@ -40,9 +41,9 @@ ExpectedCost choice_expect(const ChoiceSizes *sizes, const Processor *processor)
     double n = sizes->unknowns, square = sizes->interface * sizes->interface;
     double factor = FULL_FACTOR * pow(n, 1.5) * processor->factor;
     double pass = (FULL_STAGE * pow(n, 1.5) + FULL_BORDER * square) * processor->pass;
-    double left = far_patches_left(n, sizes->interface);
-    double reduction = (REDUCTION_FACTORS * n + REDUCTION_PRODUCTS * square * left) *
-                       processor->factor;
+    double parts = sizes->halves, m = sizes->interface / parts;
+    double products = REDUCTION_PRODUCTS * parts * m * m * far_patches_left(n / parts, m);
+    double reduction = (REDUCTION_FACTORS * n + products) * processor->factor;
     double stage = REDUCED_STAGE * square * processor->pass;
     return (ExpectedCost){.reduction = reduction,
                           .reduced = sizes->stages * stage,
@@ -51,7 +52,7 @@ ExpectedCost choice_expect(const ChoiceSizes *sizes, const Processor *processor)
 
 bool choice_reduces(const ChoiceSizes *sizes, const ExpectedCost *cost)
 {
-    double n = sizes->unknowns, m = sizes->interface;
+    double n = sizes->unknowns / sizes->halves, m = sizes->interface / sizes->halves;
     double bytes = BYTES_FACTORS * n + BYTES_PRODUCTS * m * far_patches_left(n, m);
     if (sizes->held) return true;
     if (bytes > BYTES_MAX) return false;

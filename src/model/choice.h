@@ -11,6 +11,7 @@ typedef struct ChoiceSizes {
     double unknowns;   // of the mesh
     double interface;   // of those on floor and rod
     double stages;   // of the run
+    double halves;   // 2: the block is likely its own mirror image (bulk/mirror); else 1
     double runs;   // that the basis will serve, this one too
     bool held;   // the basis is in the cache
 } ChoiceSizes;

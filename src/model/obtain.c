@@ -6,7 +6,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "bulk/reduction.h"
+#include "bulk/mirrored_reduction.h"
 #include "bulk/reduction_block.h"
 #include "model/assemble.h"
 #include "model/basis_cache.h"
@@ -80,7 +80,7 @@ static bool adopt_shape(Model *model, Shape *shape, Error *err)
     model->contact_region = (int32_t)shape->sizes.contact_region;
     memcpy(model->materials.area, shape->sizes.region_area, sizeof shape->sizes.region_area);
     materials_find_mean(&model->materials);
-    model->reduced.scales = bulk_scales(model, load);
+    reduced_bulk_set_scales(&model->reduced, bulk_scales(model, load));
     model->is_reduced = true;
     return model_set_load(model, shape->sizes.load_resultant, err) &&
            bulk_operator_reduce(&model->reduced, shape->rotation,
@@ -102,7 +102,7 @@ static bool list_rotation(const Model *model, const ReductionBlock *block, Shape
 }
 
 // What is far from the contact, of the upper block alone, and the basis with it.
-static bool build_basis(Model *model, const ReductionBlock *block, const Interface *interface,
+static bool build_upper(Model *model, const ReductionBlock *block, const Interface *interface,
                         ReductionDef *def, Error *err)
 {
     UpperBlock upper = {0};
@@ -124,7 +124,40 @@ static bool build_basis(Model *model, const ReductionBlock *block, const Interfa
 cleanup:
     far_block_destroy(&far);
     upper_block_destroy(&upper);
+    return error_is_clean(err);
+}
+
+// By halves, where there are two.
+static bool build_basis(Model *model, const ReductionBlock *block, const Interface *interface,
+                        ReductionDef *def, Error *err)
+{
+    Mirror mirror = {0};
+    if (block->image)
+        TRY(mirror_find(&block->bulk, block->image, interface->dofs, interface->count, &mirror,
+                        err));
+    if (mirror.found)
+        TRY(mirrored_reduction_build(&mirror, interface->count, def, &model->reduced, err));
+    else
+        TRY(build_upper(model, block, interface, def, err));
+cleanup:
+    mirror_destroy(&mirror);
     malloc_trim(0);   // what a reduction needs at once nothing needs afterwards
+    return error_is_clean(err);
+}
+
+// That of the shape's name, from the cache; *found: it is there, and of this block.
+static bool load_basis(Model *model, const ReductionBlock *block, const Shape *shape, Error *err)
+{
+    ReducedBulk *reduced = &model->reduced;
+    bool *found = &model->from_cache;
+    TRY(basis_cache_load(shape->basis, wants_mesh(model->scene), reduced, found, model->cache_note,
+                         err));
+    if (*found && reduced->interface_count == shape->interface.count &&
+        reduced->full_dofs == block->bulk.dof_count)
+        return true;
+    *found = false;
+    reduced_bulk_destroy(reduced);
+cleanup:
     return error_is_clean(err);
 }
 
@@ -138,9 +171,6 @@ static bool obtain_basis(Model *model, const ReductionBlock *block, Shape *shape
                         .materials = block->materials,
                         .modes = wants_mesh(scene),
                         .scales = {.stiffness = 1, .damping = 1, .mass = 1, .load = 1}};
-    bool *found = &model->from_cache;
-    bool with_modes = wants_mesh(scene);
-    char *note = model->cache_note;
     FileLock lock = {0};
     if (scene->reduction.cache) {
         Hash hash = hash_start();
@@ -149,13 +179,12 @@ static bool obtain_basis(Model *model, const ReductionBlock *block, Shape *shape
         reduction_block_hash(block, &model->mesh, interface->dofs, interface->count, &hash);
         hash_write(&hash, shape->basis);
     }
-    TRY(basis_cache_load(shape->basis, with_modes, &model->reduced, found, note, err));
-    if (*found) goto cleanup;
-    if (basis_cache_lock(shape->basis, &lock))
-        TRY(basis_cache_load(shape->basis, with_modes, &model->reduced, found, note, err));
-    if (*found) goto cleanup;
+    TRY(load_basis(model, block, shape, err));
+    if (model->from_cache) goto cleanup;
+    if (basis_cache_lock(shape->basis, &lock)) TRY(load_basis(model, block, shape, err));
+    if (model->from_cache) goto cleanup;
     TRY(build_basis(model, block, interface, &def, err));
-    if (!basis_cache_store(shape->basis, &model->reduced, note)) shape->basis[0] = 0;
+    if (!basis_cache_store(shape->basis, &model->reduced, model->cache_note)) shape->basis[0] = 0;
 cleanup:
     file_lock_release(&lock);
     return error_is_clean(err);
@@ -243,12 +272,18 @@ static double yield_per_mu(const Model *model)
 static bool expect(Model *model, bool held, Error *err)
 {
     const Scene *scene = model->scene;
+    const Mesh *mesh = &model->mesh;
     Processor processor;
+    bool mirrored = model->reduced.halves != NULL;
+    if (!held && is_reducible(scene))
+        TRY(mirror_is_likely(&model->bulk, mesh->position, model->interface.dofs,
+                             model->interface.count, &mirrored, err));
     TRY(processor_kept(&processor, model->cache_note, err));
     model->choice =
         (ChoiceSizes){.unknowns = model->full_dofs,
                       .interface = model->interface.count,
                       .stages = choice_stages(scene, yield_per_mu(model)),
+                      .halves = mirrored ? 2 : 1,
                       .runs = scene->reduction.cache ? fmax(scene->reduction.runs, 1) : 1,
                       .held = held};
     model->expected = choice_expect(&model->choice, &processor);

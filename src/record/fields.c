@@ -48,7 +48,7 @@ static void add_time(Fields *fields, double time)
 }
 
 // The mesh in all times that wait: its modes, tens of megabytes, come from memory once for them.
-static void recover_waiting(Fields *fields, int32_t slot, int32_t waiting)
+static bool recover_waiting(Fields *fields, int32_t slot, int32_t waiting, Error *err)
 {
     const double *unknowns[2 * FIELD_SLOTS];
     double *whole[2 * FIELD_SLOTS];
@@ -57,8 +57,8 @@ static void recover_waiting(Fields *fields, int32_t slot, int32_t waiting)
         unknowns[k] = copy->unknowns[k % 2];
         whole[k] = copy->whole[k % 2];
     }
-    bulk_operator_recover_each(fields->system, 2 * waiting, unknowns, whole);
     fields->recovered = waiting;
+    return bulk_operator_recover(fields->system, 2 * waiting, unknowns, whole, err);
 }
 
 // The list is written anew whenever no other time waits: a run that is cut off leaves one that
@@ -71,7 +71,7 @@ static bool write_time(void *self, int32_t slot, int32_t waiting, Error *err)
     FieldState state = {
         .displacement = copy->whole[0], .velocity = copy->whole[1], .time = copy->time};
     double started = clock_seconds();
-    if (fields->recovered == 0) recover_waiting(fields, slot, waiting);
+    if (fields->recovered == 0) TRY(recover_waiting(fields, slot, waiting, err));
     fields->recovered--;
     name_files(fields->entry_count / 2, bulk, line);
     snprintf(path, sizeof path, "%s/fields/%s", fields->folder, bulk);

@@ -24,8 +24,8 @@ bool amontons_simulation_block(Simulation *simulation, BlockView *view, Error *e
         TRY((simulation->block_motion = NEW_ARRAY(double, 4 * (int64_t)mesh->node_count, err)));
     double *displacement = simulation->block_motion;
     double *velocity = displacement + 2 * (int64_t)mesh->node_count;
-    bulk_operator_recover_each(system, 2, (const double *[]){now->displacement, now->velocity},
-                               (double *[]){displacement, velocity});
+    TRY(bulk_operator_recover(system, 2, (const double *[]){now->displacement, now->velocity},
+                              (double *[]){displacement, velocity}, err));
     *view = (BlockView){.nodes = mesh->node_count,
                         .dimensions = 2,
                         .elements = mesh->element_count,

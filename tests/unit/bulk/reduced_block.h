@@ -8,6 +8,7 @@
 #include "bulk/interface_operator.h"
 #include "bulk/reduction.h"
 #include "dense_by_hand.h"
+#include "energy_differences.h"
 #include "marked_layer.h"
 
 typedef struct ReducedBlock {
@@ -74,6 +75,31 @@ static inline void reduced_block_destroy(ReducedBlock *block)
     mesh_destroy(&block->mesh);
 }
 
+static inline double *dense_matrix(const Bulk *bulk, const double *values)
+{
+    int32_t n = bulk->dof_count;
+    double *a = hand_matrix(n, n);
+    for (int32_t j = 0; j < n; j++)
+        for (int32_t k = bulk->pattern.start[j]; k < bulk->pattern.start[j + 1]; k++)
+            a[j * n + bulk->pattern.index[k]] = values[k];
+    return a;
+}
+
+static inline double *dense_mass(const Bulk *bulk)
+{
+    int32_t n = bulk->dof_count;
+    double *a = hand_matrix(n, n);
+    for (int32_t j = 0; j < n; j++) a[j * n + j] = bulk->mass[j];
+    return a;
+}
+
+// full [full_dofs] of one state.
+static inline void recover_state(const ReducedBulk *reduced, const double *state, double *full)
+{
+    Error err = {0};
+    assert_true(reduced_bulk_recover(reduced, 1, &state, &full, &err));
+}
+
 // S of A = mass M + damping C + stiffness K: on the full mesh, or on a reduced bulk.
 static inline double *full_schur(ReducedBlock *block, OperatorTerms terms)
 {
@@ -105,44 +131,6 @@ static inline double *reduced_schur(const ReducedBulk *reduced, OperatorTerms te
     bulk_operator_destroy(&system);
     free(rotation);
     return schur;
-}
-
-// The least and the largest eigenvalue of `wanted`^-1 (value - wanted), by Gauss and Jacobi:
-// relative differences in the energy norm of `wanted`, with their sign.
-static inline void energy_differences(const double *value, const double *wanted, int32_t n,
-                                      double *least, double *largest)
-{
-    double *lower = hand_matrix(n, n), *a = hand_matrix(n, n), *values = hand_matrix(n, 1);
-    memcpy(lower, wanted, (size_t)(n * n) * sizeof *lower);
-    for (int32_t j = 0; j < n; j++) {   // Cholesky: lower, columns
-        for (int32_t k = 0; k < j; k++)
-            for (int32_t i = j; i < n; i++) lower[j * n + i] -= lower[k * n + i] * lower[k * n + j];
-        double root = sqrt(lower[j * n + j]);
-        assert_true(root > 0);
-        for (int32_t i = j; i < n; i++) lower[j * n + i] /= root;
-    }
-    for (int32_t k = 0; k < n * n; k++) a[k] = value[k] - wanted[k];
-    for (int side = 0; side < 2; side++) {   // a := L^-1 a, transposed: twice gives L^-1 a L^-T
-        for (int32_t j = 0; j < n; j++) {
-            for (int32_t i = 0; i < n; i++) {
-                for (int32_t k = 0; k < i; k++) a[j * n + i] -= lower[k * n + i] * a[j * n + k];
-                a[j * n + i] /= lower[i * n + i];
-            }
-        }
-        for (int32_t j = 0; j < n; j++) {
-            for (int32_t i = 0; i < j; i++) {
-                double swapped = a[j * n + i];
-                a[j * n + i] = a[i * n + j];
-                a[i * n + j] = swapped;
-            }
-        }
-    }
-    hand_eigenvalues(a, n, values);
-    *least = values[0];
-    *largest = values[n - 1];
-    free(lower);
-    free(a);
-    free(values);
 }
 
 #endif

@@ -74,7 +74,7 @@ static void recover_static(const ReducedBulk *reduced, const double *motion, dou
 {
     double *state = hand_matrix(reduced->count, 1);
     memcpy(state, motion, (size_t)reduced->interface_count * sizeof *state);
-    reduced_bulk_recover(reduced, state, full);
+    recover_state(reduced, state, full);
     free(state);
 }
 

@@ -94,6 +94,105 @@ static void test_round_trip(void **state)
     assert_int_equal(memory_counters().live, live);
 }
 
+static void make_fold(int32_t count, int32_t whole, int32_t first, Fold *fold)
+{
+    Error err = {0};
+    assert_true(fold_create(count, fold, &err));
+    for (int32_t k = 0; k < count; k++) {
+        int32_t other = k + 1 < count ? whole - 1 - k : NO_IMAGE;
+        fold_append(fold, first + k, other, k % 2 ? -1 : 1);
+    }
+}
+
+// M = 7 and 2 images: halves of 5 and 4 on the border, 3 and 2 inside.
+static void make_halves(ReducedBulk *reduced)
+{
+    enum { IMAGES = 2 };
+    static const int32_t border[] = {5, 4}, interior[] = {3, 2}, dofs[] = {21, DOFS - 21};
+    Error err = {0};
+    Random random = {.state = 9};
+    *reduced = (ReducedBulk){.full_dofs = DOFS,
+                             .interface_count = M,
+                             .interior_count = IMAGES + 5,
+                             .count = M + IMAGES + 5,
+                             .load = random_array(&random, M + IMAGES + 5),
+                             .half = NEW_ARRAY(ReducedBulk, 2, &err),
+                             .halves = NEW_ARRAY(Halves, 1, &err)};
+    Halves *halves = reduced->halves;
+    *halves = (Halves){.interface_count = M,
+                       .images = IMAGES,
+                       .follow = random_array(&random, IMAGES * M),
+                       .lower = random_array(&random, IMAGES * IMAGES)};
+    for (int h = 0; h < 2; h++) {
+        ReducedBulk *half = &reduced->half[h];
+        int32_t m = border[h], all = m + interior[h];
+        halves->interior[h] = interior[h];
+        make_fold(m, M + IMAGES, h, &halves->border[h]);
+        make_fold(dofs[h], DOFS, h, &halves->mesh[h]);
+        *half = (ReducedBulk){.full_dofs = dofs[h],
+                              .interface_count = m,
+                              .interior_count = interior[h],
+                              .count = all,
+                              .mass = random_array(&random, all * all),
+                              .damping = random_array(&random, all * all),
+                              .stiffness = random_array(&random, m * m),
+                              .viscous = random_array(&random, m * m),
+                              .load = random_array(&random, all),
+                              .modes = random_array(&random, dofs[h] * all),
+                              .errors = {LEVELS, {1, 10, 1e4}, {1e-4 * (h + 1), 2e-4, 0.3}}};
+    }
+}
+
+static void assert_same_fold(const Fold *a, const Fold *b)
+{
+    assert_int_equal(a->count, b->count);
+    assert_memory_equal(a->one, b->one, (size_t)a->count * sizeof *a->one);
+    assert_memory_equal(a->other, b->other, (size_t)a->count * sizeof *a->other);
+    assert_memory_equal(a->sign, b->sign, (size_t)a->count * sizeof *a->sign);
+}
+
+static void test_halves(void **state)
+{
+    (void)state;
+    ReducedBulk made, read;
+    char note[CACHE_NOTE_SIZE] = "";
+    int64_t live = memory_counters().live;
+    make_halves(&made);
+    assert_true(basis_cache_store(NAME, &made, note));
+    for (int with_modes = 0; with_modes < 2; with_modes++) {
+        assert_true(load(NAME, with_modes, &read, note));
+        assert_true(read.full_dofs == DOFS && read.count == made.count);
+        assert_true(read.interior_count == made.interior_count && read.halves->images == 2);
+        assert_same(read.load, made.load, (size_t)made.count);
+        assert_same(read.halves->follow, made.halves->follow, 2 * M);
+        assert_same(read.halves->lower, made.halves->lower, 4);
+        for (int h = 0; h < 2; h++) {
+            const ReducedBulk *half = &read.half[h], *wanted = &made.half[h];
+            size_t all = (size_t)wanted->count, m = (size_t)wanted->interface_count;
+            assert_int_equal(read.halves->interior[h], wanted->interior_count);
+            assert_same_fold(&read.halves->border[h], &made.halves->border[h]);
+            assert_same(half->mass, wanted->mass, all * all);
+            assert_same(half->damping, wanted->damping, all * all);
+            assert_same(half->stiffness, wanted->stiffness, m * m);
+            assert_same(half->viscous, wanted->viscous, m * m);
+            assert_same(half->load, wanted->load, all);
+            assert_memory_equal(&half->errors.error, &wanted->errors.error, LEVELS * 8);
+            if (!with_modes) continue;
+            assert_same_fold(&read.halves->mesh[h], &made.halves->mesh[h]);
+            assert_same(half->modes, wanted->modes, (size_t)wanted->full_dofs * all);
+        }
+        reduced_bulk_destroy(&read);
+    }
+    // Another length than its halves have together: not whole.
+    made.interior_count++;
+    made.count++;
+    assert_true(basis_cache_store(NAME, &made, note));
+    assert_false(load(NAME, false, &read, note));
+    assert_string_equal(note, "a cached basis is not used: an array is missing");
+    reduced_bulk_destroy(&made);
+    assert_int_equal(memory_counters().live, live);
+}
+
 // A cut file, modes that are cut or gone, another basis's file under this name, no name.
 static void test_not_trusted(void **state)
 {
@@ -178,7 +277,7 @@ static void test_memory_faults(void **state)
 // The recorded basis: of this block, in the format named. Trace of S at dt = 1, 0.1, 0.01, 1e-4,
 // and how many modes. When this fails and the new basis is meant to be so: give BASIS_FORMAT a new
 // number, and write it here with the numbers that the message shows.
-static const char RECORDED_FORMAT[] = "basis 13 ";   // and the version
+static const char RECORDED_FORMAT[] = "basis 14 ";   // and the version
 static const int32_t RECORDED_MODES = 39;
 static const double RECORDED_TRACES[4] = {29.6363560258, 19.9828148797, 28.2719551359,
                                           699.509537686};
@@ -214,11 +313,9 @@ static void test_format_follows_the_basis(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_round_trip),
-        cmocka_unit_test(test_not_trusted),
-        cmocka_unit_test(test_missing_arrays),
-        cmocka_unit_test(test_memory_faults),
-        cmocka_unit_test(test_format_follows_the_basis),
+        cmocka_unit_test(test_round_trip),    cmocka_unit_test(test_halves),
+        cmocka_unit_test(test_not_trusted),   cmocka_unit_test(test_missing_arrays),
+        cmocka_unit_test(test_memory_faults), cmocka_unit_test(test_format_follows_the_basis),
     };
     return cmocka_run_group_tests(tests, cache_begin, cache_end);
 }

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A reduced bulk put together of those of two halves (bulk/mirror). Each half has its own unknowns
+// z on the border, which is the interface and the images of those of its unknowns, as of rod
+// nodes, that have none there, and its own interior. What the images u_R move beside the static
+// motion that follows the interface is interior to the whole, in coordinates w with the unit matrix
+// as K:
+//
+//     x = [ u_b; w; q_0; q_1 ],   u_R = L^-T w - E u_b,   z_h = T_h [u_b; u_R],
+//
+// E = S_RR^-1 S_Rb and L L' = S_RR of the border's S of K. Called by bulk/reduced_operator and
+// bulk/reduced_bulk; made by bulk/mirrored_reduction.
+#ifndef AMONTONS_BULK_HALVES_H
+#define AMONTONS_BULK_HALVES_H
+
+#include "bulk/fold.h"
+
+typedef struct Halves {
+    int32_t interface_count, images;   // m; unknowns of w
+    int32_t interior[2];   // q of each half
+    Fold border[2];   // of [u_b; u_R]; owned, like all below
+    Fold mesh[2];   // of the whole mesh's unknowns; empty where the modes are not at hand
+    double *follow;   // [images * m] E
+    double *lower;   // [images^2] L
+} Halves;
+
+void halves_destroy(Halves *halves);
+
+// E and L of S [border^2] of K on the border. ERROR_COMPUTE: not definite where it must be.
+bool halves_settle(Halves *halves, const double *schur, Error *err);
+
+// Motions x into local[h] = [z; q], and back. border: [m + images] work.
+void halves_split_motion(const Halves *halves, const double *x, double *const local[2],
+                         double *border);
+void halves_join_motion(const Halves *halves, const double *const local[2], double *x,
+                        double *border);
+// Forces: what does the same work.
+void halves_split_force(const Halves *halves, const double *force, double *const local[2],
+                        double *border);
+void halves_join_force(const Halves *halves, const double *const local[2], double *force,
+                       double *border);
+
+#endif
