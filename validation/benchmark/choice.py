@@ -92,7 +92,7 @@ def measure(shape, use):
     return {"cpu": ended.seconds, "memory": ended.memory, "phases": ended.phases,
             "n": model["full_dofs"],
             "m": 2 * (model["contact_nodes"] + model["rod_nodes"]),
-            "unknowns": model["reduced_dofs"], "steps": ended.report["steps"]["accepted"],
+            "halves": 2 if model["by_halves"] else 1, "unknowns": model["reduced_dofs"], "steps": ended.report["steps"]["accepted"],
             "stages": ended.phases["bulk"][1]}
 
 
@@ -192,7 +192,8 @@ def terms(use, ran):
     """What each constant is multiplied by, and 1 for what both ways share."""
     n, m, stages = ran["n"], ran["m"], ran["stages"]
     full = [in_source("RUNGS") * n**1.5, stages * n**1.5, stages * m**2, 0, 0, 0]
-    reduced = [0, 0, 0, n, left(n, m) * m**2, stages * m**2]
+    parts = ran["halves"]
+    reduced = [0, 0, 0, n, left(n / parts, m / parts) * m**2 / parts, stages * m**2]
     return (full if use == "full" else reduced) + [1]
 
 

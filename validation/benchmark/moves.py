@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Designs of pads one after another, as a designer asks for them, each on a new mesh: what their reductions take.
 
-    validation/benchmark/moves.py [--turns 3] [--size 0.003125] PROGRAM ...
+    validation/benchmark/moves.py [--turns 3] [--size 0.003125] [--equal] PROGRAM ...
 
 Programs take turns; each turn begins with an empty cache. Of each design the least of all turns (moves.md): seconds of the
 reduction by the clock, and processor seconds of the whole run, of which gmsh takes 0.4.
@@ -16,9 +16,13 @@ import tempfile
 from pathlib import Path
 
 SCENE = Path(__file__).resolve().parents[1] / "pads" / "pads.yaml"
-# The first one, its pads longer, its pads at the ends of the block, eight pads.
-DESIGNS = {"4 pads, fill 0.6": [], "fill 0.7": ["mesh.set.fill=0.7"], "gap 0.075": ["mesh.set.gap=0.075"],
-           "8 pads": ["mesh.set.n=8"]}
+# Pads of two lengths: a design that is its own mirror image shares no block, it is reduced by halves. The first one, its
+# pads longer, a gap half as wide, another quotient of the lengths.
+UNEQUAL = ["mesh.set.n=2", "mesh.set.pad_ratio=2"]
+DESIGNS = {"2 pads, fill 0.6": UNEQUAL, "fill 0.75": [*UNEQUAL, "mesh.set.fill=0.75"],
+           "gap 0.1": [*UNEQUAL, "mesh.set.gap=0.1"], "1 to 3": [*UNEQUAL, "mesh.set.pad_ratio=3"]}
+EQUAL = {"4 pads, fill 0.6": [], "fill 0.7": ["mesh.set.fill=0.7"], "gap 0.075": ["mesh.set.gap=0.075"],
+         "8 pads": ["mesh.set.n=8"]}
 SHORT = ["time.until.U=1e-7", "output.figures=[]", "output.fields=none", "output.history=false"]
 
 
@@ -39,12 +43,14 @@ def main():
     parser.add_argument("programs", nargs="+", metavar="PROGRAM")
     parser.add_argument("--turns", type=int, default=3)
     parser.add_argument("--size", type=float, default=0.003125, help="of cells")
+    parser.add_argument("--equal", action="store_true", help="designs of equal pads, each its own mirror image")
     arguments = parser.parse_args()
+    designs = EQUAL if arguments.equal else DESIGNS
     least = {}
     for _ in range(arguments.turns):
         for number, program in enumerate(arguments.programs):
             with tempfile.TemporaryDirectory(prefix="amontons-moves-") as name:
-                for title, design in DESIGNS.items():
+                for title, design in designs.items():
                     report, spent = reduce(program, design, arguments.size, Path(name))
                     clock, model = report["timing_s"]["reduce"], report["model"]
                     before = least.get((title, number), (clock, spent))
@@ -52,7 +58,7 @@ def main():
                     print(f"{title:18s} {program}: {clock:.2f} s, {spent:.2f} s;", model["contact_nodes"], "nodes,",
                           model["full_dofs"], "unknowns",
                           "upper block from the cache" if model.get("upper_from_cache") else "", flush=True)
-    for title in DESIGNS:
+    for title in designs:
         print(f"{title:18s}", *("{:6.2f} {:6.2f}".format(*least[title, k]) for k in range(len(arguments.programs))))
 
 
