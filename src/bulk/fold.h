@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // One of the two halves of a vector that has a mirror image: what is alike on both sides, or what
 // is opposite. A pair of unknowns x, x* of the whole is (x + s x*)/sqrt(2) in a half, with s = 1
-// or -1; an unknown that is its own image is as it is, in one of them. Both halves together are an
-// orthogonal turn T of the whole. Used where there are halves (bulk/mirror).
+// or -1; an unknown that is its own image is as it is, in one of them: it stands as a pair with
+// itself and s = 0. Both halves together are an orthogonal turn T of the whole. Used where there
+// are halves (bulk/mirror).
 #ifndef AMONTONS_BULK_FOLD_H
 #define AMONTONS_BULK_FOLD_H
 
@@ -12,12 +13,10 @@
 
 typedef struct Fold {
     int32_t count;   // of the half
-    int32_t *one,
-        *other;   // [count] unknowns of the whole; other: NO_IMAGE of its own image; owned
+    int32_t *one, *other;   // [count] unknowns of the whole; owned
     double *sign;   // [count] s; owned
+    double *weight;   // [count] 1/sqrt(2) of a pair, else 1; owned
 } Fold;
-
-enum { NO_IMAGE = -1 };
 
 // Room for at most `count`; Fold.count starts at 0.
 bool fold_create(int32_t count, Fold *fold, Error *err);

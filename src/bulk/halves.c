@@ -12,32 +12,43 @@ void halves_destroy(Halves *halves)
         fold_destroy(&halves->border[h]);
         fold_destroy(&halves->mesh[h]);
     }
-    memory_free(halves->follow);
-    memory_free(halves->lower);
+    images_destroy(&halves->at_rest);
     *halves = (Halves){0};
 }
 
-bool halves_settle(Halves *halves, const double *schur, Error *err)
+void images_destroy(FollowingImages *images)
 {
-    int64_t m = halves->interface_count, n = halves->images, all = m + n;
-    halves->follow = NEW_ARRAY(double, n *m, err);
-    halves->lower = NEW_ARRAY(double, n *n, err);
+    memory_free(images->follow);
+    memory_free(images->lower);
+    *images = (FollowingImages){0};
+}
+
+bool images_condense(const double *border, int32_t m, int32_t count, FollowingImages *images,
+                     double *schur, Error *err)
+{
+    int64_t n = count, all = m + n;
+    images->follow = NEW_ARRAY(double, n *m, err);
+    images->lower = NEW_ARRAY(double, n *n, err);
     if (!error_is_clean(err)) goto cleanup;
-    for (int64_t j = 0; j < n; j++)
-        memcpy(halves->lower + j * n, schur + (m + j) * all + m, (size_t)n * sizeof(double));
     for (int64_t j = 0; j < m; j++)
-        memcpy(halves->follow + j * n, schur + j * all + m, (size_t)n * sizeof(double));
-    if (!dense_cholesky(halves->lower, (int32_t)n))
-        FAIL(err, ERROR_COMPUTE, "the other side is not held by the interface");
-    dense_lower_divide(halves->lower, (int32_t)n, (int32_t)m, halves->follow);
-    dense_lower_divide_transposed(halves->lower, (int32_t)n, (int32_t)m, halves->follow);
+        memcpy(images->follow + j * n, border + j * all + m, (size_t)n * sizeof *border);
+    for (int64_t j = 0; j < n; j++)
+        memcpy(images->lower + j * n, border + (m + j) * all + m, (size_t)n * sizeof *border);
+    if (!dense_cholesky(images->lower, count))
+        FAIL(err, ERROR_COMPUTE, "images of the interface are not held by it");
+    DenseView half = dense_view(images->follow, n, m);
+    dense_lower_divide(images->lower, count, m, images->follow);
+    for (int64_t j = 0; schur && j < m; j++)
+        memcpy(schur + j * m, border + j * all, (size_t)m * sizeof *schur);
+    if (schur && n > 0) dense_multiply_transposed(half, half, -1, 1, schur);
+    dense_lower_divide_transposed(images->lower, count, m, images->follow);
 cleanup:
     return error_is_clean(err);
 }
 
 static DenseView follow_of(const Halves *halves)
 {
-    return dense_view(halves->follow, halves->images, halves->interface_count);
+    return dense_view(halves->at_rest.follow, halves->images, halves->interface_count);
 }
 
 // z of the border and q of x.
@@ -71,7 +82,7 @@ void halves_split_motion(const Halves *halves, const double *x, double *const lo
 {
     int32_t m = halves->interface_count, n = halves->images;
     memcpy(border, x, (size_t)(m + n) * sizeof *border);
-    dense_lower_solve_transposed(halves->lower, n, border + m);
+    dense_lower_solve_transposed(halves->at_rest.lower, n, border + m);
     dense_apply(follow_of(halves), x, -1, 1, border + m);
     split(halves, border, x, local);
 }
@@ -82,7 +93,7 @@ void halves_join_motion(const Halves *halves, const double *const local[2], doub
     int32_t m = halves->interface_count, n = halves->images;
     join(halves, local, border, x);
     dense_apply(follow_of(halves), x, 1, 1, x + m);
-    dense_lower_apply_transposed(halves->lower, n, x + m);
+    dense_lower_apply_transposed(halves->at_rest.lower, n, x + m);
 }
 
 void halves_split_force(const Halves *halves, const double *force, double *const local[2],
@@ -90,7 +101,7 @@ void halves_split_force(const Halves *halves, const double *force, double *const
 {
     int32_t m = halves->interface_count, n = halves->images;
     memcpy(border, force, (size_t)(m + n) * sizeof *border);
-    dense_lower_apply(halves->lower, n, border + m);
+    dense_lower_apply(halves->at_rest.lower, n, border + m);
     dense_apply_transposed(follow_of(halves), border + m, 1, 1, border);
     split(halves, border, force, local);
 }
@@ -101,5 +112,5 @@ void halves_join_force(const Halves *halves, const double *const local[2], doubl
     int32_t m = halves->interface_count, n = halves->images;
     join(halves, local, border, force);
     dense_apply_transposed(follow_of(halves), border + m, -1, 1, force);
-    dense_lower_solve(halves->lower, n, force + m);
+    dense_lower_solve(halves->at_rest.lower, n, force + m);
 }

@@ -14,19 +14,27 @@
 
 #include "bulk/fold.h"
 
+// Images condensed out of an S on the border.
+typedef struct FollowingImages {
+    double *follow;   // [images * m] E = S_RR^-1 S_Rb; owned
+    double *lower;   // [images^2] L of S_RR; owned
+} FollowingImages;
+
+// border: [m + count, squared] S. schur [m^2] := S_bb - S_bR E; NULL: not asked for.
+// ERROR_COMPUTE: S_RR is not definite.
+bool images_condense(const double *border, int32_t m, int32_t count, FollowingImages *images,
+                     double *schur, Error *err);
+void images_destroy(FollowingImages *images);
+
 typedef struct Halves {
     int32_t interface_count, images;   // m; unknowns of w
     int32_t interior[2];   // q of each half
     Fold border[2];   // of [u_b; u_R]; owned, like all below
     Fold mesh[2];   // of the whole mesh's unknowns; empty where the modes are not at hand
-    double *follow;   // [images * m] E
-    double *lower;   // [images^2] L
+    FollowingImages at_rest;   // of K
 } Halves;
 
 void halves_destroy(Halves *halves);
-
-// E and L of S [border^2] of K on the border. ERROR_COMPUTE: not definite where it must be.
-bool halves_settle(Halves *halves, const double *schur, Error *err);
 
 // Motions x into local[h] = [z; q], and back. border: [m + images] work.
 void halves_split_motion(const Halves *halves, const double *x, double *const local[2],

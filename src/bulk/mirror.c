@@ -14,18 +14,17 @@
 // yet, for what lies between them in the smallest cells.
 static const double ALIKE = 1e-9, NEARLY_ALIKE = 1e-3;
 
-// Between a node and its image, over the block's length: bulk/reduction_block puts them together.
-static const double APART = 3e-9;
-
 // More images than this part of the interface: it lies on one side, and halves gain little.
 static const double IMAGES_MAX = 0.25;
+
+enum { NONE = -1 };
 
 typedef struct Finder {
     const Bulk *bulk;
     int32_t *image;   // [dof_count] of each unknown
-    int32_t *half_of[2];   // [dof_count] the unknown of each half that it is part of, or NO_IMAGE
+    int32_t *half_of[2];   // [dof_count] the unknown of each half that it is part of, or NONE
     int32_t border_count, *border;   // the interface and images that are not on it
-    int32_t *place;   // [dof_count] of each on that list, or NO_IMAGE
+    int32_t *place;   // [dof_count] of each on that list, or NONE
     double *root[2];   // [dof_count] of the diagonal of K and of C
     bool found;
 } Finder;
@@ -111,10 +110,10 @@ static bool list_unknowns(Finder *find, int h, Fold *fold, Error *err)
     for (int32_t dof = 0; dof < dofs; dof++) {
         int32_t image = find->image[dof];
         double sign = sign_in(h, dof);
-        half_of[dof] = image < dof ? half_of[image] : NO_IMAGE;
+        half_of[dof] = image < dof ? half_of[image] : NONE;
         if (image < dof || (image == dof && sign < 0)) continue;
         half_of[dof] = fold->count;
-        fold_append(fold, dof, image == dof ? NO_IMAGE : image, sign);
+        fold_append(fold, dof, image, sign);
     }
     return true;
 }
@@ -138,11 +137,11 @@ static bool fold_pattern(const Finder *find, int h, const Fold *fold, SparsePatt
     if (!error_is_clean(err)) goto cleanup;
     for (int32_t j = 0; j < fold->count; j++) {
         int32_t end = to->start[j];
-        int32_t both[] = {fold->one[j], fold->other[j] == NO_IMAGE ? fold->one[j] : fold->other[j]};
+        const int32_t both[] = {fold->one[j], fold->other[j]};
         for (int k = 0; k < 2; k++) {
             for (int32_t at = from->start[both[k]]; at < from->start[both[k] + 1]; at++) {
                 int32_t row = half_of[from->index[at]];
-                if (row == NO_IMAGE || seen[row] == j + 1) continue;
+                if (row == NONE || seen[row] == j + 1) continue;
                 seen[row] = j + 1;
                 to->index[end++] = row;
             }
@@ -161,17 +160,15 @@ static void fold_matrix(const Finder *find, int h, const Fold *fold, const doubl
 {
     const SparsePattern *from = &find->bulk->pattern;
     const int32_t *half_of = find->half_of[h];
-    const double root = sqrt(0.5);
     for (int32_t j = 0; j < fold->count; j++) {
-        bool paired = fold->other[j] != NO_IMAGE;
-        for (int side = 0; side < (paired ? 2 : 1); side++) {
-            int32_t column = side == 0 ? fold->one[j] : fold->other[j];
-            double weight = (paired ? root : 1) * (side == 0 ? 1 : fold->sign[j]);
-            for (int32_t at = from->start[column]; at < from->start[column + 1]; at++) {
+        const int32_t both[] = {fold->one[j], fold->other[j]};
+        const double signs[] = {1, fold->sign[j]};
+        for (int side = 0; side < 2 && signs[side] != 0; side++) {
+            double weight = fold->weight[j] * signs[side];
+            for (int32_t at = from->start[both[side]]; at < from->start[both[side] + 1]; at++) {
                 int32_t dof = from->index[at], row = half_of[dof];
-                if (row == NO_IMAGE) continue;
-                bool two = fold->other[row] != NO_IMAGE;
-                double share = (two ? root : 1) * (dof == fold->one[row] ? 1 : fold->sign[row]);
+                if (row == NONE) continue;
+                double share = fold->weight[row] * (dof == fold->one[row] ? 1 : fold->sign[row]);
                 out[sparse_entry(to, row, j)] += weight * share * values[at];
             }
         }
@@ -196,9 +193,8 @@ static bool fold_bulk(const Finder *find, int h, MirrorHalf *half, Error *err)
     fold_matrix(find, h, fold, bulk->damping, &to->pattern, to->damping);
     fold_take(fold, bulk->load, to->load);
     for (int32_t k = 0; k < fold->count; k++) {
-        double here = bulk->mass[fold->one[k]];
         to->held[k] = bulk->held[fold->one[k]];
-        to->mass[k] = fold->other[k] == NO_IMAGE ? here : (here + bulk->mass[fold->other[k]]) / 2;
+        to->mass[k] = (bulk->mass[fold->one[k]] + bulk->mass[fold->other[k]]) / 2;
     }
 cleanup:
     return error_is_clean(err);
@@ -213,11 +209,10 @@ static bool fold_border(const Finder *find, int h, MirrorHalf *half, Error *err)
     for (int32_t k = 0; k < find->border_count; k++) {
         int32_t dof = find->border[k], image = find->place[find->image[dof]];
         int32_t unknown = find->half_of[h][dof];
-        if (unknown == NO_IMAGE || image < k) continue;
+        if (unknown == NONE || image < k) continue;
         int32_t first = half->unknowns.one[unknown] == dof ? k : image;
-        int32_t second = image == k ? NO_IMAGE : k + image - first;
         half->border_dofs[half->border.count] = unknown;
-        fold_append(&half->border, first, second, sign_in(h, dof));
+        fold_append(&half->border, first, k + image - first, sign_in(h, dof));
     }
     return true;
 }
@@ -228,7 +223,7 @@ static bool list_border(Finder *find, const int32_t *interface_dofs, int32_t m, 
     find->border = NEW_ARRAY(int32_t, 2 * (int64_t)m, err);
     find->place = NEW_ARRAY(int32_t, dofs, err);
     if (!error_is_clean(err)) return false;
-    for (int32_t k = 0; k < dofs; k++) find->place[k] = NO_IMAGE;
+    for (int32_t k = 0; k < dofs; k++) find->place[k] = NONE;
     for (int32_t k = 0; k < m; k++) {
         find->border[k] = interface_dofs[k];
         find->place[interface_dofs[k]] = k;
@@ -236,7 +231,7 @@ static bool list_border(Finder *find, const int32_t *interface_dofs, int32_t m, 
     find->border_count = m;
     for (int32_t k = 0; k < m; k++) {
         int32_t image = find->image[interface_dofs[k]];
-        if (find->place[image] != NO_IMAGE) continue;
+        if (find->place[image] != NONE) continue;
         find->place[image] = find->border_count;
         find->border[find->border_count++] = image;
     }
@@ -261,15 +256,11 @@ bool mirror_is_likely(const Bulk *bulk, const double *position, const int32_t *i
 {
     Finder find = {.bulk = bulk};
     int32_t nodes = bulk->dof_count / 2, *image = NEW_ARRAY(int32_t, nodes, err);
-    double *places = NEW_ARRAY(double, bulk->dof_count, err), least = INFINITY, most = -INFINITY;
+    double *places = NEW_ARRAY(double, bulk->dof_count, err);
     *likely = false;
     if (!places || !image) goto cleanup;
     memcpy(places, position, (size_t)bulk->dof_count * sizeof *places);
-    for (int32_t i = 0; i < nodes; i++) {
-        least = fmin(least, position[2 * i]);
-        most = fmax(most, position[2 * i]);
-    }
-    TRY(mirror_nodes_find(places, nodes, APART * (most - least), image, likely, err));
+    TRY(mirror_nodes_find(places, nodes, image, likely, err));
     if (*likely) TRY(look(image, interface_dofs, m, NEARLY_ALIKE, &find, err));
     *likely = find.found;
 cleanup:

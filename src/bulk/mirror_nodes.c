@@ -9,6 +9,9 @@
 
 static const double SLANT = 0.6180339887498949;   // of the direction: no ratio of small numbers
 
+// Between a node and its image, over the length.
+static const double APART = 3e-9;
+
 typedef struct Place {
     double along;
     int32_t node;
@@ -45,8 +48,7 @@ static int32_t node_at(const Place *places, int32_t count, const double *positio
     return -1;
 }
 
-bool mirror_nodes_find(double *position, int32_t nodes, double apart, int32_t *image, bool *found,
-                       Error *err)
+bool mirror_nodes_find(double *position, int32_t nodes, int32_t *image, bool *found, Error *err)
 {
     double least = INFINITY, most = -INFINITY;
     Place *places = NEW_ARRAY(Place, nodes, err);
@@ -57,7 +59,7 @@ bool mirror_nodes_find(double *position, int32_t nodes, double apart, int32_t *i
         least = fmin(least, at[0]);
         most = fmax(most, at[0]);
     }
-    double sum = least + most;
+    double sum = least + most, apart = APART * (most - least);
     qsort(places, (size_t)nodes, sizeof *places, by_place);
     *found = true;
     for (int32_t i = 0; *found && i < nodes; i++) {

@@ -11,7 +11,8 @@ static bool settle(Halves *halves, const ReducedBulk *half, Error *err)
     if (!schur) return false;
     for (int h = 0; h < 2; h++)
         fold_add_square(&halves->border[h], half[h].stiffness, (int32_t)size, schur);
-    bool done = halves_settle(halves, schur, err);
+    bool done = images_condense(schur, halves->interface_count, halves->images, &halves->at_rest,
+                                NULL, err);
     memory_free(schur);
     return done;
 }

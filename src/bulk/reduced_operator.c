@@ -2,7 +2,7 @@
 // Of two halves S on the border (bulk/halves) is the sum of theirs, and its images R are eliminated
 // like all that is inside:
 //
-//     F = S_RR^-1 S_Rb,   S = S_bb - S_bR F,   g = g_b - F' g_R,   u_R = S_RR^-1 g_R - F u_b.
+//     E = S_RR^-1 S_Rb,   S = S_bb - S_bR E,   g = g_b - E' g_R,   u_R = S_RR^-1 g_R - E u_b.
 #include "bulk/reduced_operator.h"
 
 #include "base/dense.h"
@@ -21,8 +21,7 @@ struct ReducedOperator {
 struct CondensedBulk {
     const ReducedOperator *system;   // not owned
     CondensedPart part[2];
-    double *follow;   // of halves: [images * interface] F; owned, like the rest
-    double *lower;   // [images^2] Cholesky factor of S_RR
+    FollowingImages images;   // of halves; owned, like the rest
     double *pushed;   // [interface + images] g on the border, of images S_RR^-1 g_R
 };
 
@@ -76,36 +75,9 @@ void condensed_bulk_destroy(CondensedBulk *condensed)
 {
     if (!condensed) return;
     for (int h = 0; h < 2; h++) condensed_part_destroy(&condensed->part[h]);
-    memory_free(condensed->follow);
-    memory_free(condensed->lower);
+    images_destroy(&condensed->images);
     memory_free(condensed->pushed);
     memory_free(condensed);
-}
-
-// Condenses the images out of the border's S [m + n].
-static bool condense_images(CondensedBulk *condensed, const double *border, double *schur,
-                            Error *err)
-{
-    const Halves *halves = condensed->system->reduced->halves;
-    int64_t m = halves->interface_count, n = halves->images, all = m + n;
-    condensed->follow = NEW_ARRAY(double, n *m, err);
-    condensed->lower = NEW_ARRAY(double, n *n, err);
-    condensed->pushed = NEW_ARRAY(double, all, err);
-    if (!error_is_clean(err)) goto cleanup;
-    for (int64_t j = 0; j < m; j++) {
-        memcpy(schur + j * m, border + j * all, (size_t)m * sizeof *schur);
-        memcpy(condensed->follow + j * n, border + j * all + m, (size_t)n * sizeof *schur);
-    }
-    for (int64_t j = 0; j < n; j++)
-        memcpy(condensed->lower + j * n, border + (m + j) * all + m, (size_t)n * sizeof *schur);
-    if (!dense_cholesky(condensed->lower, (int32_t)n))
-        FAIL(err, ERROR_COMPUTE, "images of the interface are not positive definite");
-    DenseView half = dense_view(condensed->follow, n, m);
-    dense_lower_divide(condensed->lower, (int32_t)n, (int32_t)m, condensed->follow);
-    if (n > 0) dense_multiply_transposed(half, half, -1, 1, schur);
-    dense_lower_divide_transposed(condensed->lower, (int32_t)n, (int32_t)m, condensed->follow);
-cleanup:
-    return error_is_clean(err);
 }
 
 static bool condense_halves(CondensedBulk *condensed, OperatorTerms terms, double *schur,
@@ -124,7 +96,9 @@ static bool condense_halves(CondensedBulk *condensed, OperatorTerms terms, doubl
         TRY(condensed_part_create(&reduced->half[h], terms, &condensed->part[h], half, taken, err));
         fold_add_square(&halves->border[h], half, (int32_t)size, border);
     }
-    TRY(condense_images(condensed, border, schur, err));
+    condensed->pushed = NEW_ARRAY(double, size, err);
+    TRY(images_condense(border, halves->interface_count, halves->images, &condensed->images, schur,
+                        err));
 cleanup:
     memory_free(border);
     memory_free(half);
@@ -165,9 +139,10 @@ void condensed_bulk_condense(CondensedBulk *condensed, const double *rhs, double
         fold_add(&halves->border[h], system->image[h], condensed->pushed);
     }
     memcpy(g, condensed->pushed, (size_t)m * sizeof *g);
-    dense_apply_transposed(dense_view(condensed->follow, n, m), condensed->pushed + m, -1, 1, g);
-    dense_lower_solve(condensed->lower, n, condensed->pushed + m);
-    dense_lower_solve_transposed(condensed->lower, n, condensed->pushed + m);
+    dense_apply_transposed(dense_view(condensed->images.follow, n, m), condensed->pushed + m, -1, 1,
+                           g);
+    dense_lower_solve(condensed->images.lower, n, condensed->pushed + m);
+    dense_lower_solve_transposed(condensed->images.lower, n, condensed->pushed + m);
 }
 
 void condensed_bulk_expand(CondensedBulk *condensed, const double *interface, double *v)
@@ -183,7 +158,7 @@ void condensed_bulk_expand(CondensedBulk *condensed, const double *interface, do
     double *border = system->border;
     memcpy(border, interface, (size_t)m * sizeof *border);
     memcpy(border + m, condensed->pushed + m, (size_t)n * sizeof *border);
-    dense_apply(dense_view(condensed->follow, n, m), interface, -1, 1, border + m);
+    dense_apply(dense_view(condensed->images.follow, n, m), interface, -1, 1, border + m);
     for (int h = 0; h < 2; h++) {
         fold_take(&halves->border[h], border, system->image[h]);
         condensed_part_expand(&reduced->half[h], &condensed->part[h], system->image[h],

@@ -11,9 +11,6 @@
 // rounding could push either way.
 static const double GRID = 0x1p30;
 
-// Between a node and its image on that grid.
-static const double MIRROR_STEPS = 3;
-
 // Scenes whose numbers differ by rounding get the same. Should this fail for a node (within 1e-16
 // of a half step) a basis is built twice, and both are right.
 static double put_on_grid(double value)
@@ -65,8 +62,7 @@ static bool find_images(ReductionBlock *block, int32_t nodes, Error *err)
 {
     bool found = false;
     block->image = NEW_ARRAY(int32_t, nodes, err);
-    if (!block->image ||
-        !mirror_nodes_find(block->position, nodes, MIRROR_STEPS / GRID, block->image, &found, err))
+    if (!block->image || !mirror_nodes_find(block->position, nodes, block->image, &found, err))
         return false;
     if (found) return true;
     memory_free(block->image);

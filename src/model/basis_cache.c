@@ -10,7 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
-const char BASIS_FORMAT[] = "basis 14 " AMONTONS_VERSION;
+const char BASIS_FORMAT[] = "basis 15 " AMONTONS_VERSION;
 
 // The whole's sizes, and 1 more than its images where it is put together of two halves, else 0;
 // those of a half have names of their own.
@@ -84,16 +84,12 @@ static bool take_fold(const CacheFile *file, int h, const FoldNames *names, int3
                       int32_t count, Fold *fold)
 {
     char name[CACHE_NAME_SIZE];
-    double limit = (double)whole - NO_IMAGE;
     const double *sign = borrow(file, h, names->sign, count);
     if (!sign || !cache_file_whole(file, name_of(h, names->one, name), count, whole, fold->one) ||
-        !cache_file_whole(file, name_of(h, names->other, name), count, limit, fold->other))
+        !cache_file_whole(file, name_of(h, names->other, name), count, whole, fold->other))
         return false;
-    for (int32_t k = 0; k < count; k++) {
-        fold->other[k] += NO_IMAGE;
-        fold->sign[k] = sign[k] < 0 ? -1 : 1;
-    }
-    fold->count = count;
+    for (int32_t k = 0; k < count; k++)
+        fold_append(fold, fold->one[k], fold->other[k], sign[k] < 0 ? -1 : 1);
     return true;
 }
 
@@ -136,11 +132,11 @@ static bool take_halves(const CacheFile *file, int32_t images, ReducedBulk *redu
     for (int h = 0; *found && h < 2; h++) TRY(take_half(file, h, reduced, found, err));
     *found = *found && is_split(reduced);
     if (!*found) goto cleanup;
-    halves->follow = NEW_ARRAY(double, n *m, err);
-    halves->lower = NEW_ARRAY(double, n *n, err);
+    halves->at_rest.follow = NEW_ARRAY(double, n *m, err);
+    halves->at_rest.lower = NEW_ARRAY(double, n *n, err);
     if (!error_is_clean(err)) goto cleanup;
-    memcpy(halves->follow, follow, (size_t)(n * m) * sizeof *follow);
-    memcpy(halves->lower, lower, (size_t)(n * n) * sizeof *lower);
+    memcpy(halves->at_rest.follow, follow, (size_t)(n * m) * sizeof *follow);
+    memcpy(halves->at_rest.lower, lower, (size_t)(n * n) * sizeof *lower);
 cleanup:
     return error_is_clean(err);
 }
@@ -246,7 +242,7 @@ static bool put_fold(Writing *file, int h, const FoldNames *names, const Fold *f
     double *other = file->copies[file->copy_count++] = NEW_ARRAY(double, fold->count, err);
     for (int32_t k = 0; one && other && k < fold->count; k++) {
         one[k] = fold->one[k];
-        other[k] = fold->other[k] - NO_IMAGE;
+        other[k] = fold->other[k];
     }
     put(file, h, names->one, fold->count, one);
     put(file, h, names->other, fold->count, other);
@@ -291,8 +287,8 @@ static bool write_basis(const char *path, const char *name, const ReducedBulk *r
     }
     if (halves) {
         int64_t m = halves->interface_count, n = halves->images;
-        put(&file, WHOLE, "follow", n * m, halves->follow);
-        put(&file, WHOLE, "lower", n * n, halves->lower);
+        put(&file, WHOLE, "follow", n * m, halves->at_rest.follow);
+        put(&file, WHOLE, "lower", n * n, halves->at_rest.lower);
     }
     TRY(cache_file_write(path, name, file.arrays, file.count, err));
 cleanup:

@@ -5,15 +5,11 @@
 #include "base/memory.h"
 #include "bulk/mirror_nodes.h"
 #include "bulk/mirrored_reduction.h"
-#include "random_numbers.h"
-#include "unit/bulk/reduced_block.h"
+#include "unit/bulk/reduced_checks.h"
 
 static const Material MATERIAL = {
     .young = 2.5, .poisson = 0.3, .density = 1.7, .eta1 = 0.4, .eta2 = 0.9};
 static const double LOAD = 0.3, TOLERANCE = 2e-2;
-
-// Of matrices that come from products of answers (test_reduction.c).
-static const double ROUNDING = 2e-9;
 
 // Columns even in number and odd, so that there is a node in the middle of the contact or none.
 static const BlockDef SHAPES[] = {
@@ -32,7 +28,7 @@ static void find_mirror(const ReducedBlock *block, Mirror *mirror)
     int32_t *image = calloc((size_t)nodes, sizeof *image);
     memcpy(position, block->mesh.position, 2 * (size_t)nodes * sizeof *position);
     *mirror = (Mirror){0};
-    assert_true(mirror_nodes_find(position, nodes, 1e-12, image, &paired, &err));
+    assert_true(mirror_nodes_find(position, nodes, image, &paired, &err));
     if (paired)
         assert_true(
             mirror_find(&block->bulk, image, block->dofs, block->interface_count, mirror, &err));
@@ -84,86 +80,24 @@ static void test_response(void **state)
     }
 }
 
-// K x, C x, M x are those of the full mesh, seen through the modes; a solve gives back what was put
-// in.
 static void test_operator(void **state)
 {
     (void)state;
-    Error err = {0};
-    Random random = {.state = 43};
     for (int32_t s = 0; s < SHAPE_COUNT; s++) {
         ReducedBlock block;
         build(&SHAPES[s], &block);
-        const ReducedBulk *reduced = &block.reduced;
-        int32_t n = reduced->full_dofs, m = reduced->interface_count, count = reduced->count;
-        double *turn = hand_matrix(m, 1), *x = hand_matrix(count, 1), *y = hand_matrix(count, 1);
-        double *full = hand_matrix(n, 1), *image = hand_matrix(n, 1), *g = hand_matrix(m, 1);
-        double *sum = hand_matrix(count, 1), *wanted = hand_matrix(count, 1);
-        double *modes = hand_matrix(n, count);
-        for (int32_t j = 0; j < count; j++) {
-            memset(y, 0, (size_t)count * sizeof *y);
-            y[j] = 1;
-            recover_state(reduced, y, modes + (int64_t)j * n);
-        }
-        BulkOperator system;
-        assert_true(bulk_operator_reduce(reduced, turn, 1, &system, &err));
-        double *dense[] = {[BULK_STIFFNESS] = dense_matrix(&block.bulk, block.bulk.stiffness),
-                           [BULK_DAMPING] = dense_matrix(&block.bulk, block.bulk.damping),
-                           [BULK_MASS] = dense_mass(&block.bulk)};
-        const double factor[] = {[BULK_STIFFNESS] = 0.05, [BULK_DAMPING] = 1, [BULK_MASS] = 20};
-        for (int32_t k = 0; k < count; k++) x[k] = random_between(&random, -1, 1);
-        recover_state(reduced, x, full);
-        for (int which = BULK_STIFFNESS; which <= BULK_MASS; which++) {
-            hand_apply(dense[which], n, n, full, image);
-            for (int32_t j = 0; j < count; j++) {
-                wanted[j] = 0;
-                for (int32_t k = 0; k < n; k++) wanted[j] += modes[(int64_t)j * n + k] * image[k];
-            }
-            bulk_operator_apply(&system, (BulkTerm)which, x, y);
-            assert_all_near("A x", y, wanted, count, 8 * ROUNDING);   // sums of some 60
-            for (int32_t j = 0; j < count; j++) sum[j] += factor[which] * y[j];
-            free(dense[which]);
-        }
-        for (int32_t j = 0; j < count; j++) {
-            double work = 0;
-            for (int32_t k = 0; k < n; k++) work += block.bulk.load[k] * modes[(int64_t)j * n + k];
-            assert_near("load", system.load[j], work, 1e-10 * LOAD);
-        }
-        OperatorTerms terms = {.mass = 20, .damping = 1, .stiffness = 0.05};
-        InterfaceOperator *rung = interface_operator_create(&system, terms, &err);
-        assert_true(interface_operator_condense(rung, sum, g, &err));
-        hand_apply(interface_operator_schur(rung), m, m, x, y);
-        assert_all_near("S x_b", y, g, m, 1e-10 * dense_max_abs(g, m));
-        assert_true(interface_operator_expand(rung, x, y, &err));
-        assert_all_near("x", y, x, count, 1e-10);
-        interface_operator_destroy(rung);
-        bulk_operator_destroy(&system);
-        free(turn), free(x), free(y), free(full), free(image), free(g), free(sum), free(wanted);
-        free(modes);
+        check_operator(&block, 43);
         reduced_block_destroy(&block);
     }
 }
 
-static void test_rigid_motions(void **state)
+static void test_rigid_motions_and_load(void **state)
 {
     (void)state;
     for (int32_t s = 0; s < SHAPE_COUNT; s++) {
         ReducedBlock block;
         build(&SHAPES[s], &block);
-        const double *position = block.mesh.position;
-        int32_t n = block.bulk.dof_count;
-        double *x = hand_matrix(block.reduced.count, 1), *full = hand_matrix(n, 1);
-        double *wanted = hand_matrix(n, 1);
-        for (int motion = 0; motion < 3; motion++) {
-            for (int32_t k = 0; k < n; k++) {
-                double rotated = k % 2 ? position[k - 1] : -position[k + 1];
-                wanted[k] = motion == 2 ? rotated : k % 2 == motion;
-            }
-            for (int32_t i = 0; i < block.interface_count; i++) x[i] = wanted[block.dofs[i]];
-            recover_state(&block.reduced, x, full);
-            assert_all_near("rigid", full, wanted, n, 1e-11);
-        }
-        free(x), free(full), free(wanted);
+        check_rigid_motions_and_load(&block, LOAD);
         reduced_block_destroy(&block);
     }
 }
@@ -282,9 +216,12 @@ static void test_memory_faults(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_response),      cmocka_unit_test(test_operator),
-        cmocka_unit_test(test_rigid_motions), cmocka_unit_test(test_what_is_none),
-        cmocka_unit_test(test_images),        cmocka_unit_test(test_memory_faults),
+        cmocka_unit_test(test_response),
+        cmocka_unit_test(test_operator),
+        cmocka_unit_test(test_rigid_motions_and_load),
+        cmocka_unit_test(test_what_is_none),
+        cmocka_unit_test(test_images),
+        cmocka_unit_test(test_memory_faults),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,16 +4,12 @@
 #include "bulk/reduction.h"
 
 #include "base/memory.h"
-#include "reduced_block.h"
+#include "reduced_checks.h"
 
 // A general material: nothing is 1, and C is not proportional to K.
 static const Material MATERIAL = {
     .young = 2.5, .poisson = 0.34, .density = 1.3, .eta1 = 0.8, .eta2 = 0.3};
 static const double LOAD = 0.7;
-
-// Of matrices that come from products of answers, whose energies agree in up to log10(5e4) digits
-// (LOSS_MAX of bulk/reduction): 4e-14 times that.
-static const double ROUNDING = 2e-9;
 
 static const BlockDef SHAPES[] = {
     {.kind = ELEMENT_Q4, .nx = 6, .nz = 5, .length = 1.4, .height = 0.5, .distortion = 0.2},
@@ -119,44 +115,13 @@ static void test_blocks(void **state)
     }
 }
 
-// A rigid motion of the interface moves the whole block rigidly, without interior coordinates; the
-// operator's rotation is that one, its load the work of the full load.
 static void test_rigid_motions_and_load(void **state)
 {
     (void)state;
-    Error err = {0};
     for (int32_t s = 0; s < SHAPE_COUNT; s++) {
         ReducedBlock block;
         reduced_block_build(&SHAPES[s], &MATERIAL, LOAD, 1e-2, &block);
-        const ReducedBulk *reduced = &block.reduced;
-        int32_t n = reduced->full_dofs, m = reduced->interface_count;
-        const double *position = block.mesh.position;
-        double *x = hand_matrix(reduced->count, 1), *full = hand_matrix(n, 1);
-        double *wanted = hand_matrix(n, 1), *turn = hand_matrix(m, 1);
-        for (int motion = 0; motion < 3; motion++) {
-            for (int32_t k = 0; k < n; k++) {
-                double rotated = k % 2 ? position[k - 1] : -position[k + 1];
-                wanted[k] = motion == 2 ? rotated : k % 2 == motion;
-            }
-            memset(x, 0, (size_t)reduced->count * sizeof *x);
-            for (int32_t i = 0; i < m; i++) x[i] = wanted[block.dofs[i]];
-            if (motion == 2) memcpy(turn, x, (size_t)m * sizeof *turn);
-            recover_state(reduced, x, full);
-            assert_all_near("rigid", full, wanted, n, 1e-11);
-        }
-        BulkOperator system;
-        assert_true(bulk_operator_reduce(reduced, turn, 12.5, &system, &err));
-        assert_near("mass", system.mass_total, 12.5, 0);
-        recover_state(reduced, system.rotation, full);
-        assert_all_near("rotation", full, wanted, n, 1e-11);
-        for (int32_t j = 0; j < reduced->count; j++) {
-            double work = 0;
-            for (int32_t k = 0; k < n; k++)
-                work += block.bulk.load[k] * reduced->modes[(int64_t)j * n + k];
-            assert_near("load", system.load[j], work, 1e-11 * LOAD);   // sqrt(5e4) digits lost
-        }
-        bulk_operator_destroy(&system);
-        free(x), free(full), free(wanted), free(turn);
+        check_rigid_motions_and_load(&block, LOAD);
         reduced_block_destroy(&block);
     }
 }
@@ -197,59 +162,26 @@ static void test_static_load_is_exact(void **state)
     }
 }
 
-// K x, C x, M x of the operator are those of the full mesh, seen through the modes; its solve gives
-// back what was put in; its size bounds what moves.
+// Its size, besides, bounds what moves: sqrt(2 elastic energy of the interior / E), or the
+// interface's largest.
 static void test_operator(void **state)
 {
     (void)state;
     Error err = {0};
-    Random random = {.state = 41};
     ReducedBlock block;
-    reduced_block_build(&SHAPES[0], &MATERIAL, LOAD, 1e-3, &block);
-    const ReducedBulk *reduced = &block.reduced;
-    int32_t n = reduced->full_dofs, m = reduced->interface_count, count = reduced->count;
-    double *turn = hand_matrix(m, 1), *x = hand_matrix(count, 1), *y = hand_matrix(count, 1);
-    double *full = hand_matrix(n, 1), *image = hand_matrix(n, 1), *wanted = hand_matrix(count, 1);
-    double *sum = hand_matrix(count, 1), *g = hand_matrix(m, 1);
     BulkOperator system;
-    assert_true(bulk_operator_reduce(reduced, turn, 1, &system, &err));
-    double *dense[] = {[BULK_STIFFNESS] = dense_matrix(&block.bulk, block.bulk.stiffness),
-                       [BULK_DAMPING] = dense_matrix(&block.bulk, block.bulk.damping),
-                       [BULK_MASS] = dense_mass(&block.bulk)};
-    const double factor[] = {[BULK_STIFFNESS] = 0.05, [BULK_DAMPING] = 1, [BULK_MASS] = 20};
-    for (int32_t k = 0; k < count; k++) x[k] = random_between(&random, -1, 1);
-    recover_state(reduced, x, full);
-    for (int which = BULK_STIFFNESS; which <= BULK_MASS; which++) {
-        hand_apply(dense[which], n, n, full, image);
-        for (int32_t j = 0; j < count; j++) {
-            wanted[j] = 0;
-            for (int32_t k = 0; k < n; k++)
-                wanted[j] += reduced->modes[(int64_t)j * n + k] * image[k];
-        }
-        bulk_operator_apply(&system, (BulkTerm)which, x, y);
-        assert_all_near("A x", y, wanted, count, 8 * ROUNDING);   // sums of some 60
-        for (int32_t j = 0; j < count; j++) sum[j] += factor[which] * y[j];
-        free(dense[which]);
-    }
-    OperatorTerms terms = {.mass = 20, .damping = 1, .stiffness = 0.05};
-    InterfaceOperator *rung = interface_operator_create(&system, terms, &err);
-    assert_true(interface_operator_condense(rung, sum, g, &err));
-    hand_apply(interface_operator_schur(rung), m, m, x, y);
-    assert_all_near("S x_b", y, g, m, 1e-11);
-    assert_true(interface_operator_expand(rung, x, y, &err));
-    assert_all_near("x", y, x, count, 1e-11);
-    assert_int_equal(system.solves, 1);
-    interface_operator_destroy(rung);
-
-    // sqrt(2 elastic energy of the interior / E), or the interface's largest.
-    memset(x, 0, (size_t)count * sizeof *x);
+    reduced_block_build(&SHAPES[0], &MATERIAL, LOAD, 1e-3, &block);
+    check_operator(&block, 41);
+    int32_t m = block.reduced.interface_count;
+    double *turn = hand_matrix(m, 1), *x = hand_matrix(block.reduced.count, 1);
+    assert_true(bulk_operator_reduce(&block.reduced, turn, 1, &system, &err));
     x[1] = -3;
     x[m] = 2;
     assert_near("size", bulk_operator_size(&system, x), 3, 0);
     x[m + 1] = 2.5;
     assert_near("size", bulk_operator_size(&system, x), sqrt(4 + 6.25), 1e-15);
     bulk_operator_destroy(&system);
-    free(turn), free(x), free(y), free(full), free(image), free(wanted), free(sum), free(g);
+    free(turn), free(x);
     reduced_block_destroy(&block);
 }
 
