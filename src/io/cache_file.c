@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The checksum covers head, names and values. Numbers stand at multiples of 8 bytes, so that they
-// can be used in place.
+// The checksum covers head, names and values. Each array begins at a multiple of LINE bytes, as
+// those of base/memory do, and can be used in place: some kernels of OpenBLAS (Prescott's) round by
+// where a vector lies in a line, and an answer must not depend on whether a basis was read or made.
 #include "io/cache_file.h"
 
 #include "base/hash.h"
@@ -17,16 +18,23 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static const char MAGIC[] = "amontons-cache 1\n";
-enum { MAGIC_SIZE = sizeof MAGIC - 1, KEY_SIZE = HASH_TEXT_SIZE - 1, HEAD_SIZE = 64 };
+static const char MAGIC[] = "amontons-cache 2\n";
+enum { MAGIC_SIZE = sizeof MAGIC - 1, KEY_SIZE = HASH_TEXT_SIZE - 1, LINE = 64, HEAD_SIZE = LINE };
 _Static_assert(MAGIC_SIZE + KEY_SIZE < HEAD_SIZE, "the head is too short");
 
 // What stands before each array's values; a count below 0 ends the file.
 typedef struct ArrayHead {
     char name[CACHE_NAME_SIZE];
     int64_t count;
-    int64_t spare;
+    char spare[LINE - CACHE_NAME_SIZE - sizeof(int64_t)];
 } ArrayHead;
+_Static_assert(sizeof(ArrayHead) == LINE, "arrays would not begin with a line");
+
+// Bytes behind an array of `count` numbers, up to the next line.
+static int64_t bytes_behind(int64_t count)
+{
+    return -(count * (int64_t)sizeof(double)) & (LINE - 1);
+}
 
 bool cache_file_path(const char *key, const char *ending, char path[CACHE_PATH_SIZE])
 {
@@ -82,6 +90,7 @@ bool cache_file_write(const char *path, const char *key, const CacheArray *array
         TRY(write_counted(&part, &hash, &before, sizeof before, err));
         TRY(write_counted(&part, &hash, arrays[k].values, arrays[k].count * (int64_t)sizeof(double),
                           err));
+        TRY(write_counted(&part, &hash, (char[LINE]){0}, bytes_behind(arrays[k].count), err));
     }
     ArrayHead end = {.name = "end", .count = -1};
     TRY(write_counted(&part, &hash, &end, sizeof end, err));
@@ -144,8 +153,11 @@ static const char *parse(const char *key, const char *bytes, int64_t size, Cache
         array->name[CACHE_NAME_SIZE - 1] = 0;
         array->count = before.count;
         array->values = (const double *)(const void *)(bytes + at);
-        hash_bytes(&hash, bytes + at, (size_t)before.count * sizeof(double));
-        at += before.count * (int64_t)sizeof(double);
+        int64_t length = before.count * (int64_t)sizeof(double), rest = bytes_behind(before.count);
+        if (length + rest > size - at) return "it is cut off";
+        hash_bytes(&hash, bytes + at, (size_t)length);
+        hash_bytes(&hash, bytes + at + length, (size_t)rest);
+        at += length + rest;
     }
     hash_write(&hash, digest);
     if (size - at != KEY_SIZE || memcmp(bytes + at, digest, KEY_SIZE) != 0)

@@ -3,7 +3,9 @@
 // header that says what it is and a checksum over all of it: what fails them is not used. Called by
 // io/mesh_cache, model/shape_cache and model/basis_cache.
 //
-//     "amontons-cache 1\n" key 0...  { name count 0 values }*  "end" -1 0  checksum
+//     "amontons-cache 2\n" key 0...  { name count 0... values 0... }*  "end" -1 0...  checksum
+//
+// Head, names and values each begin at a multiple of 64 bytes.
 //
 // Numbers are in the machine's own byte order.
 #ifndef AMONTONS_IO_CACHE_FILE_H
@@ -22,7 +24,7 @@ bool cache_file_path(const char *key, const char *ending, char path[CACHE_PATH_S
 typedef struct CacheArray {
     char name[CACHE_NAME_SIZE];
     int64_t count;
-    const double *values;   // [count]; when read: inside CacheFile.bytes
+    const double *values;   // [count]; when read: inside CacheFile.bytes, 64-byte aligned
 } CacheArray;
 
 typedef struct CacheFile {

@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 
 static const char KEY[] = "0123456789abcdef0123456789abcdef";
-enum { HEAD = 64, ARRAY_HEAD = 48, ROOM = 1 << 16 };
+enum { HEAD = 64, ARRAY_HEAD = 64, ROOM = 1 << 16 };
 static char folder[] = "/dev/shm/amontons_fuzz_XXXXXX";
 
 static void put(const char *ending, const char *bytes, size_t size)
@@ -23,7 +23,8 @@ static void put(const char *ending, const char *bytes, size_t size)
     if (!file || fwrite(bytes, 1, size, file) != size || fclose(file) != 0) abort();
 }
 
-// Adds to the checksum piece by piece as the reader does: each array's head, then its values.
+// Adds to the checksum piece by piece as the reader does: each array's head, its values,
+// and what follows them up to a multiple of 64 bytes.
 static size_t seal(char *bytes, size_t size)
 {
     Hash hash = hash_start();
@@ -34,9 +35,13 @@ static size_t seal(char *bytes, size_t size)
     while (at + ARRAY_HEAD <= size) {
         memcpy(&count, bytes + at + CACHE_NAME_SIZE, sizeof count);
         if (count < 0 || (size_t)count > (size - at - ARRAY_HEAD) / 8) break;
+        size_t length = (size_t)count * 8, rest = -length % 64;
+        if (length + rest > size - at - ARRAY_HEAD) break;
         hash_bytes(&hash, bytes + at, ARRAY_HEAD);
-        hash_bytes(&hash, bytes + at + ARRAY_HEAD, (size_t)count * 8);
-        at += ARRAY_HEAD + (size_t)count * 8;
+        at += ARRAY_HEAD;
+        hash_bytes(&hash, bytes + at, length);
+        hash_bytes(&hash, bytes + at + length, rest);
+        at += length + rest;
     }
     memset(bytes + at, 0, ARRAY_HEAD);
     count = -1;
@@ -57,7 +62,7 @@ static void remove_folder(void)
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static bool begun = false;
-    char bytes[ROOM] = "amontons-cache 1\n", note[CACHE_NOTE_SIZE];
+    char bytes[ROOM] = "amontons-cache 2\n", note[CACHE_NOTE_SIZE];
     Error err = {0};
     Shape shape = {0};
     ReducedBulk reduced = {0};
