@@ -108,8 +108,7 @@ typedef struct RunSummary {
     double mu_M_spread;   // largest less smallest of the peaks in mu_M; NaN: fewer than two
     int32_t peaks, peaks_counted;   // before bulk sliding: seen; those in mu_M
     int32_t period;   // peaks repeat after so many slidings; 0: they do not
-    int32_t drops,
-        drop_period;   // load drops in mu_hold; they repeat after so many, 0: they do not
+    int32_t drops, drop_period;   // load drops in mu_hold; they repeat after so many, or 0
     bool drops_enough;   // they repeat, or the mean of 30 and more is known to 2 %
     int32_t quasi_static, bounded, leading;   // events by kind
     double critical_length;   // l_c / L seen in the dynamics; NaN: none
@@ -123,8 +122,7 @@ typedef struct RunSummary {
     int32_t field_files, figures;   // VTU files written, pictures drawn
     RunWarnings warnings;   // also where the run failed
     int32_t phase_count;
-    // Rungs, contact, certificate and bulk are parts of relax and solve.
-    RunPhase phases[RUN_PHASES_MAX];
+    RunPhase phases[RUN_PHASES_MAX];   // rungs, contact, certificate, bulk: of relax and solve
     char folder[AMONTONS_PATH_SIZE];   // where everything lies
 } RunSummary;
 
@@ -155,8 +153,8 @@ typedef struct RunOptions {
     StageCallback on_stage;   // NULL: none
     ReportCallback on_report;   // what run.json holds, also where nothing is written; NULL: none
     void *context;   // handed to these
-    const volatile sig_atomic_t *stop;   // non-zero: finish the step, keep what is there, return
-        // ERROR_INTERRUPT; NULL: never
+    // Non-zero: finish the step, keep what is there, return ERROR_INTERRUPT; NULL: never.
+    const volatile sig_atomic_t *stop;
     bool whole_block;   // amontons_simulation_block will be called: the mesh is made, also where
         // the cache could do without
 } RunOptions;
@@ -166,6 +164,8 @@ const char *amontons_version(void);   // "0.2.0"; static storage, like the next 
 // Of git, "3c94c86f0d", with ", changed" behind it where that was not committed; "": of an archive.
 const char *amontons_revision(void);
 const char *amontons_libraries(void);   // what it was built with: "gmsh 4.8.0, HDF5 1.10.8, ..."
+// OpenBLAS's kernels in use, "Haswell"; *possible: those that the processor could run, NULL: these.
+const char *amontons_kernels(const char **possible);
 // For a signal handler that ends the process: no lock file stays in a result folder or the cache.
 void amontons_let_go(void);
 // The folder of the meshes and example scenes that come with the library; false: not found.

@@ -275,6 +275,11 @@ def data_folder() -> Path:
     return Path(folder.value.decode())
 
 
+def kernels() -> str:
+    """OpenBLAS's word for the kernels that compute, "Haswell"; numpy's are the same where it is the same library."""
+    return plain(lib.amontons_kernels(ctypes.byref(ctypes.c_char_p())))
+
+
 def version() -> str:
     """"0.2.0"."""
     return plain(lib.amontons_version())

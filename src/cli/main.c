@@ -87,6 +87,10 @@ static int print_version(void)
     printf("amontons %s%s%s%s\n", amontons_version(), *revision ? " (" : "", revision,
            *revision ? ")" : "");
     printf("built with %s\n", amontons_libraries());
+    const char *possible, *kernels = amontons_kernels(&possible);
+    printf("computes with OpenBLAS's %s kernels", kernels);
+    if (possible) printf(", as OPENBLAS_CORETYPE asks; this processor could run %s", possible);
+    printf("\n");
     if (amontons_data_folder(folder)) printf("meshes and example scenes: %s\n", folder);
     return 0;
 }

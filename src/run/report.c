@@ -5,6 +5,7 @@
 // is the block's: lengths are given over it where the key says over_L.
 #include "run/report.h"
 
+#include "base/kernels.h"
 #include "io/json_writer.h"
 #include "scene/keys.h"
 
@@ -28,6 +29,15 @@ static void write_steps(JsonWriter *json, const RunCounters *counters)
     json_integer(json, "contact_rescued", counters->contact_rescued);
     json_integer(json, "certificates", counters->certificates);
     json_integer(json, "loop_allocations", counters->loop_allocations);
+    json_end(json);
+}
+
+// What rounds: OpenBLAS's kernels, and those that this processor could run.
+static void write_kernels(JsonWriter *json)
+{
+    json_begin_object(json, "kernels");
+    json_text(json, "openblas", kernels_name());
+    json_text(json, "possible", kernels_possible());
     json_end(json);
 }
 
@@ -199,6 +209,7 @@ static void write_all(JsonWriter *json, const char *folder, const RunReport *rep
         json_text(json, "message", report->failure->message);
     }
     json_text(json, "version", AMONTONS_VERSION);
+    write_kernels(json);
     json_integer(json, "resumed", report->resumed);
     write_warnings(json, report->warnings);
     scene_write_json(report->scene, json, "scene", folder);

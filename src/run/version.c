@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What this library is, and where what comes with it lies.
 #include "amontons.h"
+#include "base/kernels.h"
 #include "base/place.h"
 #include "build_record.h"
 
@@ -8,6 +9,7 @@
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 const char *amontons_version(void)
 {
@@ -22,6 +24,13 @@ const char *amontons_revision(void)
 const char *amontons_libraries(void)
 {
     return BUILD_LIBRARIES;
+}
+
+const char *amontons_kernels(const char **possible)
+{
+    const char *name = kernels_name(), *best = kernels_possible();
+    *possible = strcmp(name, best) == 0 ? NULL : best;
+    return name;
 }
 
 // Installed, or the source folder above build/bin.

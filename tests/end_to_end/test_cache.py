@@ -16,6 +16,7 @@ import numpy as np
 SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
 BIN = Path(os.environ.get("AMONTONS_BIN", SOURCE / "build" / "bin"))
 MODULES = Path(os.environ.get("AMONTONS_MODULES", BIN))
+SHIFTED = BIN.parent / "tests" / "shifted_memory.so"
 SCENE = SOURCE / "validation" / "paper" / "fig1.yaml"
 # The same cells as a regular layout has, which is made without gmsh and not kept.
 SHORT = ["mesh.set.nx=8", "mesh.set.nz=8", "mesh.set.layout=alternate", "time.until.U=0.0034",
@@ -33,12 +34,12 @@ class Cached(unittest.TestCase):
         self.cache = self.folder / "cache"
         self.runs = 0
 
-    def run_scene(self, *more, scene=SCENE, cache=None, modules=MODULES, settings=SHORT):
+    def run_scene(self, *more, scene=SCENE, cache=None, modules=MODULES, settings=SHORT, **variables):
         """The folder of a run that went well, and its run.json."""
         self.runs += 1
         folder = self.folder / f"run-{self.runs}"
         environment = dict(os.environ, AMONTONS_CACHE=str(self.cache if cache is None else cache),
-                           AMONTONS_MODULES=str(modules))
+                           AMONTONS_MODULES=str(modules), **variables)
         done = subprocess.run([BIN / "amontons", "run", scene, "-o", folder, "--quiet", "--set",
                                *settings, *more], env=environment, capture_output=True, text=True,
                               timeout=60)
@@ -95,6 +96,21 @@ class SameBits(Cached):
         self.assertLess(0, outside[1])
         self.assertLess(2 * outside[1], outside[0])   # gmsh alone takes several times that
         self.assertTrue(all(run["model"]["cache_note"] is None for run in (uncached, made, read)))
+
+    def test_kernels_that_round_by_alignment(self):
+        """OpenBLAS's for Prescott do, and it takes them for processors that it does not know: the same bits wherever
+        memory lies, also what CHOLMOD asks for itself and what is on the stack, and from the cache."""
+        settings = [*PLAIN, "mesh.set.nx=13", "mesh.set.nz=9"]   # odd numbers of rows
+        kernels = {"OPENBLAS_CORETYPE": "Prescott"}
+        first, _ = self.run_scene(*settings, **kernels)
+        self.assertTrue(SHIFTED.exists())
+        for shift in ("16", "32", "48"):
+            for cache in ("", None):
+                folder, report = self.run_scene(*settings, cache=cache, LD_PRELOAD=str(SHIFTED), MEMORY_SHIFT=shift,
+                                                LONGER="x" * int(shift), **kernels)
+                self.assertEqual(report["model"]["from_cache"], cache is None)
+                self.assertEqual(report["kernels"]["openblas"], "Prescott")
+                self.assert_same_history(first, folder)
 
     def test_fields(self):
         """Modes of the whole mesh are kept when first asked for, with the basis they belong to."""

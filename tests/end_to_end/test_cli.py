@@ -47,7 +47,16 @@ class Help(unittest.TestCase):
         self.assertEqual(done.returncode, 0)
         self.assertRegex(done.stdout, r"^amontons \d+\.\d+\.\d+( \([0-9a-f]{7,}(, changed)?\))?\n"
                                       r"built with gmsh 4\.\S+, HDF5 1\.\S+, VTK 9\.\S+, .*xxHash \S+\n"
+                                      r"computes with OpenBLAS's \w+ kernels(, as OPENBLAS_CORETYPE asks; .*)?\n"
                                       rf"meshes and example scenes: {re.escape(str(SOURCE))}\n$")
+
+    def test_kernels(self):
+        """What this processor can run, whatever OpenBLAS is told by a name that does not exist; a choice stays."""
+        said = {name: amontons("--version", OPENBLAS_CORETYPE=name).stdout.splitlines()[2]
+                for name in ("", "none", "Prescott")}
+        self.assertEqual(said["none"], said[""])
+        self.assertNotIn("Prescott", said[""])
+        self.assertRegex(said["Prescott"], r"Prescott kernels, as OPENBLAS_CORETYPE asks; this processor could run \w+$")
 
     def test_main_help_names_every_command(self):
         for words in (["--help"], ["help"], ["-h"]):

@@ -321,6 +321,15 @@ class Commands(InFolder):
         self.assertEqual(amontons.data_folder(), SOURCE)
         self.assertIn(amontons.version(), self.program("--version"))
 
+    def test_kernels_beside_numpy(self):
+        """numpy came first, on a processor that OpenBLAS did not know: it is one library, which follows the processor now."""
+        script = (f"import os; import numpy; del os.environ['OPENBLAS_CORETYPE']; import sys; sys.path.insert(0, {str(MODULE)!r}); "
+                  "a = numpy.arange(4e4).reshape(200, 200) % 7; before = a @ a; import amontons; "
+                  "print(amontons.kernels(), (a @ a == before).all())")   # whole numbers are not rounded
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True, cwd=self.folder,
+                              env=os.environ | {"OPENBLAS_CORETYPE": "Prescott"})
+        self.assertRegex(done.stdout, r"^(?!Prescott)\w+ True\n$")
+
     def test_pictures(self):
         result = amontons.run(FIG1, SMALL, self.folder / "run")
         self.assertEqual([path.name for path in amontons.render(result, ["force"])], ["force.png"])

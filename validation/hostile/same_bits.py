@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The same scene gives the same bits, whatever surrounds it: cache, output, folder, locale, time
-zone, umask, threads, jobs of a sweep, a stop and --resume. Other kernels of OpenBLAS and other optimisation may round
+zone, umask, threads, where memory lies, jobs of a sweep, a stop and --resume, with the kernels that OpenBLAS takes here and
+with Prescott's, which round by alignment. Other kernels (kernels.py compares answers) and other optimisation may round
 otherwise: within TOLERANCE.
 
     validation/hostile/same_bits.py [-o FOLDER] [--build FOLDER ...]
@@ -31,7 +32,8 @@ TOLERANCE = 1e-6
 SCENE = cases.SCENE.replace("U: 0.0008", "U: 0.006")   # with slidings, which multiply a difference
 RUN = ["run", "scene.yaml", "-o", "out", "--quiet"]
 LOCALES = {"de_DE.UTF-8": "de_DE", "tr_TR.UTF-8": "tr_TR"}
-KERNELS = ["Nehalem", "Sandybridge", "Haswell", "Zen", "SkylakeX"]
+KERNELS = ["Prescott", "Nehalem", "Sandybridge", "Haswell", "Zen", "SkylakeX"]
+SHIFTED = ROOT / "build/tests/shifted_memory.so"   # built by ./amontons test
 
 
 def digest(folder):
@@ -54,9 +56,10 @@ def series(folder):
 
 class Place:
     """Folders with the scene, and runs in them."""
-    def __init__(self, scratch):
-        self.scratch, self.count = scratch, 0
+    def __init__(self, scratch, env=None):
+        self.scratch, self.count, self.env = scratch, 0, env or {}
         self.cache = scratch / "cache"
+        scratch.mkdir(exist_ok=True)
 
     def prepare(self):
         self.count += 1
@@ -69,11 +72,16 @@ class Place:
         line = [str(program), *words]
         if shell:
             line = ["sh", "-c", shell, "sh", *line]
-        ended = subprocess.run(line, cwd=folder, env=os.environ | {"AMONTONS_CACHE": ""} | (env or {}),
+        ended = subprocess.run(line, cwd=folder, env=os.environ | {"AMONTONS_CACHE": ""} | self.env | (env or {}),
                                capture_output=True, text=True)
         if ended.returncode != 0:
             raise RuntimeError(f"{words} {env} {shell}: {ended.stderr}")
         return folder
+
+    def run_python(self, env):
+        """The same by the library, in a process that is not the program."""
+        words = ["-c", "import amontons; amontons.run('scene.yaml', folder='out')"]
+        return self.run(words, env={"PYTHONPATH": str(PROGRAM.parents[1] / "python")} | env, program="/usr/bin/python3")
 
 
 def resumed(place):
@@ -112,8 +120,6 @@ def exact_cases(place):
     yield "once more", place.run()
     yield "no history, no pictures", place.run(RUN + ["--set", "output.history=false"])
     yield "pictures", place.run(RUN + ["--set", "output.figures=[force, slip-map]"])
-    yield "cold cache", place.run(env={"AMONTONS_CACHE": str(place.cache)})
-    yield "warm cache", place.run(env={"AMONTONS_CACHE": str(place.cache)})
     folder, stops = resumed(place)
     yield f"stopped {stops} times, --resume", folder
     yield "not quiet", place.run(["run", "scene.yaml", "-o", "out"])
@@ -129,6 +135,18 @@ def exact_cases(place):
     for threads in ("1", "2", "7"):
         yield f"OPENBLAS_NUM_THREADS {threads}", place.run(env={"OPENBLAS_NUM_THREADS": threads})
     yield "no environment", place.run(shell='exec env -i AMONTONS_CACHE= "$@"')
+
+
+def memory_cases(place):
+    """The same of where memory lies, under whatever kernels are asked for by `place`."""
+    for threads in ("1", "4"):
+        yield f"OMP_NUM_THREADS {threads}", place.run(env={"OMP_NUM_THREADS": threads})
+        yield f"library in Python, OMP_NUM_THREADS {threads}", place.run_python({"OMP_NUM_THREADS": threads})
+    for shift in ("16", "32", "48"):
+        yield f"malloc and stack {shift} bytes further", place.run(
+            env={"LD_PRELOAD": str(SHIFTED), "MEMORY_SHIFT": shift, "LONGER": "x" * int(shift)})
+    for what in ("cold", "warm"):
+        yield f"{what} cache", place.run(env={"AMONTONS_CACHE": str(place.cache)})
 
 
 def sweep_cases(place):
@@ -154,6 +172,13 @@ def main():
             differ = [name for name in found if found[name] != wanted.get(name)]
             rows.append((what, "same bits" if not differ else "DIFFERS: " + ", ".join(differ)))
             wrong += bool(differ)
+        for name in ("", "Prescott"):
+            under = Place(Path(scratch) / f"under{name}", {"OPENBLAS_CORETYPE": name} if name else {})
+            expected = digest(under.run() / "out")
+            for what, folder in memory_cases(under):
+                same = digest(folder / "out") == expected
+                rows.append((f"{what}{', kernels of ' + name if name else ''}", "same bits" if same else "DIFFERS"))
+                wrong += not same
         tables = dict(sweep_cases(place))
         for what, table in tables.items():
             same = table == tables["sweep -j 1"]

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A build of OpenBLAS for all processors (DYNAMIC_ARCH) chooses in gotoblas_dynamic_init, where a
+// variable goes before the processor; both functions are exported. Other builds have one kind of
+// kernels, and lack the functions.
+#include "base/kernels.h"
+
+#include <cblas.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <strings.h>
+
+void gotoblas_dynamic_init(void) __attribute__((weak));
+void gotoblas_dynamic_quit(void) __attribute__((weak));
+
+extern char **environ;
+
+static const char VARIABLE[] = "OPENBLAS_CORETYPE";
+
+// By the widest instructions that they use.
+typedef enum KernelLevel { LEVEL_SSE, LEVEL_AVX, LEVEL_AVX2, LEVEL_AVX512 } KernelLevel;
+static const char *const best_of[] = {
+    [LEVEL_AVX] = "Sandybridge", [LEVEL_AVX2] = "Haswell", [LEVEL_AVX512] = "SkylakeX"};
+
+// Those below the highest level; what is not here is of the highest, or of a later OpenBLAS.
+static const struct {
+    const char *name;
+    KernelLevel level;
+} known[] = {
+    {"Prescott", LEVEL_SSE},   {"Core2", LEVEL_SSE},      {"Penryn", LEVEL_SSE},
+    {"Dunnington", LEVEL_SSE}, {"Nehalem", LEVEL_SSE},    {"Atom", LEVEL_SSE},
+    {"Nano", LEVEL_SSE},       {"Opteron", LEVEL_SSE},    {"Opteron_SSE3", LEVEL_SSE},
+    {"Barcelona", LEVEL_SSE},  {"Bobcat", LEVEL_SSE},     {"Sandybridge", LEVEL_AVX},
+    {"Bulldozer", LEVEL_AVX},  {"Piledriver", LEVEL_AVX}, {"Steamroller", LEVEL_AVX},
+    {"Excavator", LEVEL_AVX2}, {"Haswell", LEVEL_AVX2},   {"Zen", LEVEL_AVX2},
+};
+
+static KernelLevel level_of(const char *name)
+{
+    for (size_t k = 0; k < sizeof known / sizeof known[0]; k++)
+        if (strcasecmp(name, known[k].name) == 0) return known[k].level;
+    return LEVEL_AVX512;
+}
+
+// What processor and system allow; on other processors OpenBLAS's choice stays.
+#ifdef __x86_64__
+static KernelLevel level_of_processor(void)
+{
+    __builtin_cpu_init();
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+        __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl"))
+        return LEVEL_AVX512;
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return LEVEL_AVX2;
+    return __builtin_cpu_supports("avx") ? LEVEL_AVX : LEVEL_SSE;
+}
+#else
+static KernelLevel level_of_processor(void)
+{
+    return LEVEL_SSE;
+}
+#endif
+
+const char *kernels_name(void)
+{
+    return openblas_get_corename();
+}
+
+const char *kernels_possible(void)
+{
+    KernelLevel level = level_of_processor();
+    return level_of(kernels_name()) < level ? best_of[level] : kernels_name();
+}
+
+// OpenBLAS looks into an environment of one variable meanwhile: the process's own is left alone.
+void kernels_follow_processor(void)
+{
+    const char *asked = getenv(VARIABLE), *possible = kernels_possible();
+    if (possible == kernels_name() || !gotoblas_dynamic_init || !gotoblas_dynamic_quit) return;
+    if (asked && strcasecmp(asked, kernels_name()) == 0)
+        return;   // else there are none of that name
+    char choice[64], **kept = environ, *alone[] = {choice, NULL};
+    snprintf(choice, sizeof choice, "%s=%s", VARIABLE, possible);
+    gotoblas_dynamic_quit();
+    environ = alone;
+    gotoblas_dynamic_init();
+    environ = kept;
+}
+
+// OpenBLAS, of which the library has need, is ready by then.
+__attribute__((constructor)) static void begin(void)
+{
+    kernels_follow_processor();
+}
