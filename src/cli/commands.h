@@ -15,7 +15,8 @@ int command_film(int argc, char **argv);
 int command_info(int argc, char **argv);
 int command_cache(int argc, char **argv);
 
-// Called by libraries with OpenMP in them (main.c).
+// Called by libraries (main.c): by OpenBLAS when it is loaded, by those with OpenMP in them.
+int openblas_num_threads_env(void);
 typedef void OpenRegion(void *data);
 void GOMP_parallel(OpenRegion *region, void *data, unsigned threads, unsigned flags);
 

@@ -5,26 +5,28 @@
 
 #include <fcntl.h>
 #include <malloc.h>
-#include <sched.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 // What a start takes, bytes: what the program and HDF5 are mapped into; paths and printf.
 static const rlim_t ROOM_LEAST = (rlim_t)190 << 20, STACK_LEAST = (rlim_t)256 << 10;
-// A user who may have this many processes is not near the limit.
-static const rlim_t PROCESSES_PLENTY = 1000;
 
-// In place of libgomp's, the program's own coming first where a library looks for a function:
-// regions of OpenMP run in the thread that meets them, where loops that are shared out are done
-// whole. CHOLMOD opens three or so in each step of a factor, of one thread each
+// The program's own functions come first where a library looks for one; a library of ours leaves
+// those of a host alone. In place of OpenBLAS's, which asks when it is loaded how many threads to
+// start: none beside this one (base/dense).
+int openblas_num_threads_env(void)
+{
+    return 1;
+}
+
+// In place of libgomp's: regions of OpenMP run in the thread that meets them, where loops that are
+// shared out are done whole. CHOLMOD opens three or so in each step of a factor, of one thread each
 // (base/sparse_factor), and for each libgomp calls the kernel twice: at 160 x 160 cells a third of
-// a factor's time. The library leaves a host's regions alone.
+// a factor's time.
 void GOMP_parallel(OpenRegion *region, void *data, unsigned threads, unsigned flags)
 {
     (void)threads, (void)flags;
@@ -167,44 +169,14 @@ static void meet_limit(int resource, rlim_t least, const char *what)
     refuse_to_start(words, length);
 }
 
-// Threads count as processes. OpenBLAS and OSMesa start one for each processor, and end or hang
-// where they cannot; fields have a writer. How many there is room for the system says only when
-// asked for them. (_Fork: no sanitizer listens yet.)
-static void meet_process_limit(void)
-{
-    struct rlimit limit;
-    cpu_set_t allowed;
-    if (getrlimit(RLIMIT_NPROC, &limit) != 0 || limit.rlim_cur >= PROCESSES_PLENTY) return;
-    if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) return;
-    pid_t waiting[2 * CPU_SETSIZE + 1];
-    int count = 0;
-    const int wanted = 2 * CPU_COUNT(&allowed) + 1;
-    for (pid_t child = 1; count < wanted && child > 0; count += child > 0) {
-        child = waiting[count] = _Fork();
-        if (child != 0) continue;
-        prctl(PR_SET_PDEATHSIG, SIGKILL);
-        for (;;) pause();
-    }
-    for (int k = 0; k < count; k++) kill(waiting[k], SIGKILL);
-    for (int k = 0; k < count; k++) waitpid(waiting[k], NULL, 0);
-    if (count == wanted) return;
-    char words[160];
-    int length = snprintf(words, sizeof words,
-                          "amontons: error: only %lu processes and threads are allowed a user "
-                          "(ulimit -u); to start takes %d more than there are\n",
-                          (unsigned long)limit.rlim_cur, wanted);
-    refuse_to_start(words, length);
-}
-
 // A file that reaches the limit of sizes (ulimit -f) is an error with a sentence, not a signal.
-// With less room than the libraries take (ulimit -v, -u) OpenBLAS ends the program with its own
-// words before main, or its threads never end, nor does exit(): this runs before they begin.
+// With less room than the libraries take (ulimit -v) OpenBLAS ends the program with its own words
+// before main: this runs before it begins.
 static void meet_limits(void)
 {
     signal(SIGXFSZ, SIG_IGN);
     meet_limit(RLIMIT_AS, ROOM_LEAST, "memory are allowed (ulimit -v");
     meet_limit(RLIMIT_STACK, STACK_LEAST, "stack are allowed (ulimit -s");
-    meet_process_limit();
 }
 
 __attribute__((section(".preinit_array"), used)) static void (*const first)(void) = meet_limits;
@@ -225,6 +197,7 @@ int main(int argc, char **argv)
     keep_memory();
     occupy_standard_streams();
     setenv("AMONTONS_APART", "yes", 0);   // base/apart; empty: in this process, for a debugger
+    setenv("LP_NUM_THREADS", "0", 0);   // of OSMesa, which hangs where it may start none
     int status = run_command(argc, argv);
     bool written = fflush(stdout) == 0 && !ferror(stdout);
     if (written || status != 0) return status;
