@@ -101,6 +101,20 @@ class Run(InFolder):
         with self.assertRaisesRegex(AttributeError, "series/mu"):
             module.history.no_such_array
 
+    def test_reduces_as_the_program_does(self):
+        """The program has OpenMP and the allocator its own way, a host's are the host's (docs/library.md)."""
+        keys = {**SMALL, "mesh.set.nx": 24, "mesh.set.nz": 24, "reduction.use": "always", "reduction.cache": False,
+                "time.until": {"U": 2e-4}}
+        words = [f"{key}={'none' if value is None else json.dumps(value)}" for key, value in keys.items()]
+        subprocess.run([BIN / "amontons", "run", FIG1, "-q", "-o", self.folder / "program", "--set", *words], check=True)
+        call = f"import amontons; amontons.run({str(FIG1)!r}, {keys!r}, {str(self.folder / 'module')!r})"
+        subprocess.run([sys.executable, "-c", call], check=True, env={**os.environ, "PYTHONPATH": str(MODULE), "OMP_NUM_THREADS": "4"})
+        program, module = (amontons.open_result(self.folder / name) for name in ("program", "module"))
+        self.assertFalse(module.report["model"]["from_cache"])
+        self.assertLess(module.report["model"]["reduced_dofs"], module.report["model"]["full_dofs"])
+        for name in program.history:
+            self.assertEqual(program.history[name].tobytes(), module.history[name].tobytes(), name)
+
     def test_without_a_folder(self):
         result = amontons.run(FIG1, {**SMALL, "output.fields": {"every_U": 2e-3}})
         folder = result.folder

@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Steps a second from C, from Python's loop and from the command line, in pairs: the same scene, the same steps.
 
-    validation/benchmark/callers.py [--cells 8 20 40 80] [--repeats 25] [-o callers.md]
+    validation/benchmark/callers.py [--cells 8 20 40 80] [--cold 80 160] [--repeats 25] [-o callers.md]
 
 Processor time. A repeat steps the paper's Figure 1 by each caller in turn, C's loop in the same process as Python's; what Python adds is the median of its
 differences to C in the same repeat, so that a machine that grows slower or faster does not decide. `a call` is
-amontons_scene_read and amontons_run against amontons.run, of a run of few steps into the same folder. Exit status 1:
+amontons_scene_read and amontons_run against amontons.run, of a run of few steps into the same folder. Last, whole processes that reduce
+a block anew and end after the first step: the program has OpenMP and the allocator its own way, a host's are the host's. Exit status 1:
 Python adds 2 us a step or more (on the first mesh), or 1 ms a call.
 """
 import argparse
@@ -30,6 +31,7 @@ STEP_MAX, CALL_MAX = 2.0, 1.0    # us, ms
 QUIET = {"output.figures": [], "output.fields": None, "output.history": False}
 HEAD = ["cells", "steps", "C", "Python, `for step in simulation`", "with `slip_rate.max()`", "command line",
         "Python adds, us a step", "with `slip_rate.max()`"]
+COLD_HEAD = ["cells", "command line", "of this in the system", "C", "of this in the system", "Python", "of this in the system"]
 
 C_CALLER = r"""
 #include "amontons_simulation.h"
@@ -59,6 +61,17 @@ long call(const char *path, const char *folder, const char *const *settings, int
     amontons_scene_destroy(scene);
     return done;
 }
+
+int main(int argc, char **argv)
+{
+    return !call(argv[1], argv[2], (const char *const *)argv + 3, argc - 3);
+}
+"""
+PYTHON_CALLER = """
+import sys
+sys.path.insert(0, sys.argv[1])
+import amontons
+amontons.run(sys.argv[2], dict(word.split("=", 1) for word in sys.argv[4:]), sys.argv[3], overwrite=True)
 """
 
 
@@ -71,10 +84,10 @@ def words(settings):
 
 def compiled(folder):
     """The loop and the call in C, in this process: two processes differ by more than what is measured."""
-    library = Path(folder, "caller.so")
-    subprocess.run(["cc", "-O2", "-shared", "-fPIC", f"-I{ROOT / 'src'}", "-x", "c", "-", "-o", library,
-                    f"-L{BUILD / 'bin'}", "-lamontons", f"-Wl,-rpath,{BUILD / 'bin'}"], input=C_CALLER, text=True, check=True)
-    caller = ctypes.CDLL(str(library))
+    for name, kind in (("caller.so", ["-shared", "-fPIC"]), ("caller", [])):
+        subprocess.run(["cc", "-O2", *kind, f"-I{ROOT / 'src'}", "-x", "c", "-", "-o", Path(folder, name),
+                        f"-L{BUILD / 'bin'}", "-lamontons", f"-Wl,-rpath,{BUILD / 'bin'}"], input=C_CALLER, text=True, check=True)
+    caller = ctypes.CDLL(str(Path(folder, "caller.so")))
     caller.loop.argtypes, caller.loop.restype = [ctypes.c_void_p], ctypes.c_long
     caller.call.restype = ctypes.c_long
     return caller
@@ -109,15 +122,35 @@ def timed(loop, settings, caller):
     return time.process_time() - begun, steps
 
 
+def process_cost(command):
+    """Seconds of processor time of a process: all, and of these in the system."""
+    before = os.times()
+    subprocess.run(list(map(str, command)), check=True)
+    after = os.times()
+    system = after.children_system - before.children_system
+    return after.children_user - before.children_user + system, system
+
+
 def command_line(settings, folder):
     """Processor time of a whole run, less that of one that ends after its first step."""
     def cost(more):
-        before = os.times()
-        subprocess.run([PROGRAM, "run", SCENE, "-q", "--overwrite", "-o", f"{folder}/result", "--set",
-                        *words({**settings, **more})], check=True)
-        after = os.times()
-        return after.children_user + after.children_system - before.children_user - before.children_system
+        return process_cost([PROGRAM, "run", SCENE, "-q", "--overwrite", "-o", f"{folder}/result", "--set",
+                             *words({**settings, **more})])[0]
     return cost({}) - cost({"time.until": {"t": 1e-6}})
+
+
+def cold_row(cells, repeats, folder):
+    given = words({**QUIET, "mesh.set.nx": cells, "mesh.set.nz": cells, "reduction.use": "always", "reduction.cache": False,
+                   "time.until": {"t": 1e-6}})
+    result = f"{folder}/result"
+    commands = {"command line": [PROGRAM, "run", SCENE, "-q", "--overwrite", "-o", result, "--set", *given],
+                "C": [f"{folder}/caller", SCENE, result, *given],
+                "Python": [sys.executable, "-c", PYTHON_CALLER, BUILD / "python", SCENE, result, *given]}
+    costs = {name: [] for name in commands}
+    for _ in range(repeats):
+        for name, command in commands.items():
+            costs[name].append(process_cost(command))
+    return [f"{cells}x{cells}", *(f"{statistics.median(part):.2f} s" for cost in costs.values() for part in zip(*cost))]
 
 
 def steps_row(caller, cells, repeats, folder):
@@ -158,6 +191,7 @@ def call_cost(caller, repeats, folder):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("--cells", type=int, nargs="+", default=[8, 20, 40, 80])
+    parser.add_argument("--cold", type=int, nargs="*", default=[80, 160])
     parser.add_argument("--repeats", type=int, default=25)
     parser.add_argument("-o", "--output", type=Path, help="a Markdown file for the tables")
     options = parser.parse_args()
@@ -166,10 +200,14 @@ def main():
         caller = compiled(folder)
         measured = [steps_row(caller, cells, options.repeats, folder) for cells in options.cells]
         from_c, added = call_cost(caller, options.repeats, folder)
+        cold = [cold_row(cells, options.repeats, folder) for cells in options.cold]
     text = "## Steps a second, by caller\n\n" + markdown_table(HEAD, [row for row, _ in measured])
     text += ("\n\nWhat Python adds does not depend on the mesh: read it off the first row. Where steps are long it is\n"
              "less than two of them differ by. A call that does next to nothing (8 x 8 cells, into a folder) takes\n"
-             f"{from_c:.2f} ms from C; Python adds {added:.2f} ms.\n")
+             f"{from_c:.2f} ms from C; Python adds {added:.2f} ms.\n\n"
+             f"A process that reduces a block anew, to its first step, processor time:\n\n{markdown_table(COLD_HEAD, cold)}\n\n"
+             "Of Python 0.1 s are its own start. From C and Python libgomp calls the kernel for each of CHOLMOD's regions, which\n"
+             "the program does without (`src/cli/main.c`), and the host's allocator gives memory back between points.\n")
     print(text)
     if options.output:
         options.output.write_text(text)
