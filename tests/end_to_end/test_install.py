@@ -104,13 +104,32 @@ class Installed(unittest.TestCase):
         self.assertGreater(float(found[0][1]), float(mu))   # mu falls with the load
 
     def test_program_by_pkg_config(self):
-        found = {"PKG_CONFIG_PATH": str(self.prefix / "lib/pkgconfig")}
-        flags = run("pkg-config", "--cflags", "--libs", "amontons", env=found).stdout.replace("\\ ", "\0").split()
-        program = self.folder / "by-pkg-config"
-        run("gcc", "-Wall", "-Wextra", "-Werror", EXAMPLES / "pressures.c", "-o", program,
-            *[flag.replace("\0", " ") for flag in flags], f"-Wl,-rpath,{self.prefix}/lib")
-        self.check_program(program)
+        """The page's own commands, of an installation in ~/.local."""
+        page = (self.prefix / "share/doc/amontons/docs/library.md").read_text()
+        lines = re.search(r"((?:    .*\n)+)    \./pressures ", page)[1]
+        self.assertIn("pkg-config", lines)
+        local = Path(self.home["HOME"], ".local")
+        local.parent.mkdir(exist_ok=True)
+        local.symlink_to(self.prefix)
+        folder = self.folder / "by pkg-config"
+        folder.mkdir()
+        shutil.copy(EXAMPLES / "pressures.c", folder)
+        run("bash", "-euc", lines.replace("cc ", "cc -Wall -Wextra -Werror "), cwd=folder, env=self.home)
+        self.check_program(folder / "pressures")
         self.assertLess(len((EXAMPLES / "pressures.c").read_text().splitlines()), 40)
+
+    def test_not_all_is_built(self):
+        """One sentence, and no half of a prefix."""
+        build, prefix = self.folder / "new build", self.folder / "new prefix"
+        run("cmake", "-S", SOURCE, "-B", build)
+        (build / "bin").mkdir(exist_ok=True)
+        for missing, component in (("bin/amontons", []), ("_structs.py", []), ("_structs.py", ["--component", "dev"])):
+            done = run("cmake", "--install", build, "--prefix", prefix, *component, check=False)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertRegex(re.sub(r"\s+", " ", done.stderr),
+                             rf"{missing} is not built, nothing is installed. First: cmake --build {build}")
+            (build / "bin/amontons").touch()   # as after the demo
+        self.assertFalse(prefix.exists())
 
     def test_program_by_find_package(self):
         build = self.folder / "by find_package"

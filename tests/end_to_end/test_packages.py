@@ -66,6 +66,9 @@ class Packages(unittest.TestCase):
         files = [path for path in root.rglob("*") if path.is_file()]
         self.assertGreater(len(files), 50)
         self.assertEqual([path.name for path in files if str(BUILD).encode() in path.read_bytes()], [])
+        advice = next(path for path in files if path.name == "amontons.pc").read_text()
+        self.assertIn("-lamontons", advice)
+        self.assertNotIn("rpath", advice)   # the loader looks there by itself
         environment = {"PATH": os.environ["PATH"], "LD_LIBRARY_PATH": str(root / "usr/lib"), "HOME": str(self.folder)}
         said = run(root / "usr/bin/amontons", "--version", env=environment)
         self.assertIn(f"scenes: {root}/usr/share/amontons\n", said)

@@ -27,6 +27,14 @@ class Stress(unittest.TestCase):
             table = Path(folder, "stress.csv").read_text().splitlines()
         self.assertEqual(len(table), 1 + len(stress_cases.listed(True)))
 
+    def test_without_a_build(self):
+        """The whole benchmark says so in one line."""
+        for words in (["run", "--quick"], ["stress.py"]):
+            ended = subprocess.run([sys.executable, FOLDER / words[0], *words[1:]], capture_output=True, text=True,
+                                   env={**os.environ, "AMONTONS_BIN": "/no/such"})
+            self.assertEqual((ended.returncode, ended.stderr),
+                             (1, "/no/such/amontons is not built: `./amontons run --help` builds it\n"))
+
     def judged(self, case, cpu_limit=CPU):
         word, faults, _ = stress.judge(case, run(stress.SCENE, case.settings, cpu_limit), cpu_limit)
         return word, faults

@@ -10,6 +10,7 @@ import resource
 import shutil
 import signal
 import subprocess
+import sys
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,6 +20,8 @@ import numpy
 
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = Path(os.environ.get("AMONTONS_BIN", ROOT / "build/bin"), "amontons")
+if not PROGRAM.exists():
+    sys.exit(f"{PROGRAM} is not built: `./amontons run --help` builds it")
 
 
 @dataclass
