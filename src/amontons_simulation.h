@@ -13,7 +13,8 @@ typedef struct Simulation Simulation;   // one computation on its way; opaque
 
 // `create` meshes, assembles and relaxes to t = 0; where it fails *simulation may hold what was
 // made, to be destroyed. `step` does one accepted step and says whether the scene's end is reached.
-// `finish` writes results and pictures.
+// `finish` writes results and pictures; after it there is nothing but to look and to destroy
+// (ERROR_INPUT).
 bool amontons_simulation_create(const Scene *scene, const RunOptions *options,
                                 Simulation **simulation, Error *err);
 bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *finished, Error *err);

@@ -219,7 +219,8 @@ cleanup:
 
 bool amontons_simulation_save(Simulation *simulation, SavedState *state, Error *err)
 {
-    return save(simulation, true, state, err);
+    *state = (SavedState){0};
+    return steering_is_open(simulation, err) && save(simulation, true, state, err);
 }
 
 bool saved_state_keep(Simulation *simulation, SavedState *state, Error *err)
@@ -280,7 +281,7 @@ cleanup:
 
 bool amontons_simulation_restore(Simulation *simulation, const SavedState *state, Error *err)
 {
-    return restore(simulation, true, state, err);
+    return steering_is_open(simulation, err) && restore(simulation, true, state, err);
 }
 
 // What it allocates is not the loop's.

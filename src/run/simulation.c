@@ -274,6 +274,7 @@ bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *fini
 {
     StepControl *control = &simulation->control;
     double started = clock_seconds();
+    TRY(steering_is_open(simulation, err));
     if (simulation->scene.time.scheme == SCHEME_EXPLICIT)
         TRY(explicit_loop_advance(simulation, err));
     else
@@ -322,6 +323,7 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
         fields_flush(&simulation->fields, &second);   // what was computed is written all the same
     else
         TRY(fields_flush(&simulation->fields, err) && checkpoint_at_end(simulation, err));
+    simulation->closed = true;
     if (!failure) output_warn_of_window(simulation);
     events_close(&simulation->events, &simulation->seen);
     simulation->errors.reduction = ladder_reduction_error(&simulation->control.ladder);
@@ -364,7 +366,7 @@ cleanup:
 
 bool amontons_simulation_finish(Simulation *simulation, RunSummary *summary, Error *err)
 {
-    return simulation_finish(simulation, NULL, summary, err);
+    return steering_is_open(simulation, err) && simulation_finish(simulation, NULL, summary, err);
 }
 
 void amontons_simulation_destroy(Simulation *simulation)

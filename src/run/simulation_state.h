@@ -49,6 +49,7 @@ struct Simulation {
     RunWarnings warnings;
     const Levels *levels;   // several meshes and runs, of which this is one; NULL: it is alone
     char identity[HASH_TEXT_SIZE];   // of scene, bulk and interface; empty: not asked for yet
+    bool closed;   // simulation_finish has been called
     bool goes_on;   // from a checkpoint
     bool end_moved;   // whose scene ended elsewhere
     int32_t resumed;   // so many times since t = 0
@@ -65,6 +66,7 @@ struct Simulation {
 bool simulation_run(const Scene *scene, const RunOptions *options, RunSummary *summary, Error *err);
 bool simulation_loop(Simulation *simulation, Error *err);   // steps to the end of the scene
 
+bool steering_is_open(const Simulation *simulation, Error *err);   // ERROR_INPUT: finished
 bool simulation_is_finished(const Simulation *simulation);   // the scene's end, or its period
 // When rod or load next come to a point of the scene's programs; INFINITY: never.
 double steering_next_point(const Simulation *simulation);

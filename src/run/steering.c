@@ -3,12 +3,25 @@
 // work is summed over the stages with the velocity and the load that act in them.
 #include "run/simulation_state.h"
 #include "run/warnings.h"
+#include "scene/keys.h"
 #include "scene/programs.h"
 
 #include <math.h>
 
+// Its history is closed, its events have ended.
+bool steering_is_open(const Simulation *simulation, Error *err)
+{
+    if (simulation->closed)
+        FAIL(err, ERROR_INPUT,
+             "%s: this simulation is finished, nothing can follow: save its state before",
+             simulation->scene.path);
+cleanup:
+    return error_is_clean(err);
+}
+
 static bool check_implicit(const Simulation *simulation, Error *err)
 {
+    TRY(steering_is_open(simulation, err));
     if (simulation->scene.time.scheme == SCHEME_EXPLICIT)
         FAIL(err, ERROR_INPUT, "%s: time.scheme explicit: nothing can be changed between steps",
              simulation->scene.path);
@@ -59,8 +72,10 @@ bool amontons_simulation_set_rod_velocity(Simulation *simulation, double velocit
 {
     TRY(check_implicit(simulation, err));
     TRY(check_free(simulation, &simulation->scene.rod.program, "rod.program", err));
-    if (!isfinite(velocity))
-        FAIL(err, ERROR_INPUT, "a rod velocity of %g is not possible", velocity);
+    if (!scene_size_holds(velocity))
+        FAIL(err, ERROR_INPUT,
+             "a rod velocity of %g is not possible: 0, and numbers of a size from %g to %g",
+             velocity, SCENE_SMALLEST, SCENE_LARGEST);
     if (simulation->rod.kind == ROD_AWAY)
         FAIL(err, ERROR_INPUT, "%s: rod.kind none: there is no rod to be moved",
              simulation->scene.path);
@@ -79,8 +94,9 @@ bool amontons_simulation_set_pressure(Simulation *simulation, double pressure, E
     BulkOperator *system = &simulation->model.system;
     TRY(check_implicit(simulation, err));
     TRY(check_free(simulation, &simulation->scene.load.program, "load.program", err));
-    if (!(pressure > 0 && isfinite(pressure)))
-        FAIL(err, ERROR_INPUT, "a pressure of %g is not possible: above 0", pressure);
+    if (!(pressure > 0 && scene_size_holds(pressure)))
+        FAIL(err, ERROR_INPUT, "a pressure of %g is not possible: above 0, of a size from %g to %g",
+             pressure, SCENE_SMALLEST, SCENE_LARGEST);
     if (!(scene->load.pressure > 0) || scene->load.traction_count > 0)
         FAIL(err, ERROR_INPUT,
              "%s: the pressure can be changed where load.pressure is the only load", scene->path);

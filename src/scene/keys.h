@@ -8,6 +8,7 @@
 #include "io/json_writer.h"
 #include "scene/scene.h"
 
+#include <math.h>
 #include <stddef.h>
 #include <stdio.h>
 
@@ -69,6 +70,15 @@ bool scene_key_is_group(const char *name);   // "material", "time.until"
 int32_t scene_key_above(const char *name, const char **part);
 // The known key or group (of keys) nearest to `name`; NULL when none is near.
 const char *scene_key_nearest(const char *name);
+
+// Of a number, where it is not 0. Beyond them a product of some numbers is 0 or infinite, and loops
+// that double a step do not end.
+static const double SCENE_SMALLEST = 1e-60, SCENE_LARGEST = 1e60;
+static inline bool scene_size_holds(double value)
+{
+    double size = fabs(value);
+    return size == 0 || (size >= SCENE_SMALLEST && size <= SCENE_LARGEST);
+}
 
 bool scene_range_holds(SceneRange range, double value);
 const char *scene_range_words(SceneRange range);

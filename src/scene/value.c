@@ -10,9 +10,6 @@
 #include <math.h>
 #include <string.h>
 
-// Beyond them a product of some numbers is 0 or infinite, and loops that double a step do not end.
-static const double SMALLEST = 1e-60, LARGEST = 1e60;
-
 // The key table holds offsets into Scene.
 static void *field_of(const SceneKey *key, Scene *scene)
 {
@@ -105,11 +102,10 @@ static bool read_number(const SceneKey *key, const SceneValue *value, SceneUnits
     }
     TRY(apply_unit(key, value, units, suffix, number, err));
     if (!isfinite(*number)) report_wrong(key, value, err);
-    double size = fabs(*number);
-    if (size > LARGEST || (size > 0 && size < SMALLEST))
+    if (!scene_size_holds(*number))
         yaml_error(value->document, value->node, err,
                    "%s: found `%.60s`; allowed: 0, and numbers of a size from %g to %g", key->name,
-                   yaml_text(value->document, value->node), SMALLEST, LARGEST);
+                   yaml_text(value->document, value->node), SCENE_SMALLEST, SCENE_LARGEST);
 cleanup:
     return error_is_clean(err);
 }

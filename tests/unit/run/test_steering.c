@@ -213,6 +213,9 @@ static void test_what_is_refused(void **state)
         double velocity, pressure;   // NAN: not tried
         const char *says;
     } cases[] = {{{NULL}, INFINITY, NAN, "inf"},
+                 {{NULL}, -1e308, NAN, "of a size from 1e-60 to 1e+60"},
+                 {{NULL}, 5e-324, NAN, "of a size"},
+                 {{"reduction.use=never", NULL}, NAN, 1e300, "of a size"},
                  {{NULL}, NAN, 0.006, "reduction.use to never"},
                  {{"reduction.use=never", NULL}, NAN, 0, "above 0"},
                  {{"rod.kind=none", "time.until={t: 5}", NULL}, 1e-5, NAN, "rod.kind none"},
@@ -245,6 +248,38 @@ static void test_what_is_refused(void **state)
     }
 }
 
+// Its history is closed, and its events have ended.
+static void test_nothing_follows_the_end(void **state)
+{
+    (void)state;
+    Error err = {0};
+    RunSummary summary;
+    SavedState saved = {0}, later = {0};
+    Steered steered = {.scene = small_scene((const char *const[]){NULL})};
+    RunOptions options = {.folder = "nothing_follows_the_end", .overwrite = true};
+    assert_true(amontons_simulation_create(steered.scene, &options, &steered.simulation, &err));
+    step(&steered);
+    Simulation *simulation = steered.simulation;
+    assert_true(amontons_simulation_save(simulation, &saved, &err));
+    assert_true(amontons_simulation_finish(simulation, &summary, &err));
+    for (int32_t k = 0; k < 6; k++) {
+        bool done = k == 0   ? amontons_simulation_step(simulation, NULL, &steered.finished, &err)
+                    : k == 1 ? amontons_simulation_finish(simulation, &summary, &err)
+                    : k == 2 ? amontons_simulation_save(simulation, &later, &err)
+                    : k == 3 ? amontons_simulation_restore(simulation, &saved, &err)
+                    : k == 4 ? amontons_simulation_set_rod_velocity(simulation, V, &err)
+                             : amontons_simulation_set_pressure(simulation, 0.006, &err);
+        assert_false(done);
+        assert_int_equal(err.code, ERROR_INPUT);
+        assert_non_null(strstr(err.message, "is finished"));
+        err = (Error){0};
+    }
+    assert_null(later.bytes);
+    amontons_state_free(&saved);
+    amontons_simulation_destroy(simulation);
+    amontons_scene_destroy(steered.scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -255,6 +290,7 @@ int main(void)
         cmocka_unit_test(test_ends),
         cmocka_unit_test(test_end_of_another_scene),
         cmocka_unit_test(test_what_is_refused),
+        cmocka_unit_test(test_nothing_follows_the_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
