@@ -116,15 +116,21 @@ def _call_in_thread(function: Callable[..., bool], stop: ctypes.c_int, *argument
             failures.append(failure)
         ended.set()
 
-    threading.Thread(target=work, name="amontons").start()
+    interrupts: list[BaseException] = []
+    thread = threading.Thread(target=work, name="amontons")   # `arguments` live as long as it, whatever comes
     try:
-        ended.wait()
+        thread.start()
     except BaseException:
         stop.value = 1
-        ended.wait()
         raise
-    if failures:
-        raise failures[0]
+    while not ended.is_set():   # however often it is interrupted
+        try:
+            ended.wait()
+        except BaseException as interrupt:
+            stop.value = 1
+            interrupts.append(interrupt)
+    for failure in interrupts + failures:
+        raise failure
 
 
 def yaml_text(value: Any) -> str:
@@ -136,10 +142,22 @@ def yaml_text(value: Any) -> str:
     return json.dumps(value, default=lambda other: other.tolist() if hasattr(other, "tolist") else str(other))
 
 
+def c_text(value: Any) -> bytes:
+    """A path or a word as C has it."""
+    encoded = str(value).encode(errors="surrogateescape")
+    if b"\0" in encoded:
+        raise InputError(f"{str(value)!r}: a zero byte can stand in no path and no word")
+    return encoded
+
+
+def c_text_or_none(value: Any) -> bytes | None:
+    return None if value is None else c_text(value)
+
+
 def words(texts: Any) -> Any:
     """char *const[] of strings."""
     texts = list(texts)
-    return (ctypes.c_char_p * max(len(texts), 1))(*(str(text).encode() for text in texts))
+    return (ctypes.c_char_p * max(len(texts), 1))(*map(c_text, texts))
 
 
 def setting_words(settings: Mapping[str, Any] | None) -> tuple[Any, int]:
@@ -148,20 +166,16 @@ def setting_words(settings: Mapping[str, Any] | None) -> tuple[Any, int]:
     return words(f"{key}={yaml_text(value)}" for key, value in settings.items()), len(settings)
 
 
-def path_or_none(path: Any) -> bytes | None:
-    return None if path is None else str(path).encode()
-
-
 class Scene:
-    """A scene that was read and checked. Destroyed with this object."""
+    """A scene that was read and checked, to be given to functions as it is. Destroyed with this object."""
 
     def __init__(self, path: Any, settings: Mapping[str, Any] | None) -> None:
-        self.handle = ctypes.c_void_p()
-        call(lib.amontons_scene_read, str(path).encode(), *setting_words(settings), ctypes.byref(self.handle))
+        self._as_parameter_ = ctypes.c_void_p()
+        call(lib.amontons_scene_read, c_text(path), *setting_words(settings), ctypes.byref(self._as_parameter_))
 
     def __del__(self) -> None:
-        if lib is not None and getattr(self, "handle", None):
-            lib.amontons_scene_destroy(self.handle)
+        if lib is not None and getattr(self, "_as_parameter_", None):
+            lib.amontons_scene_destroy(self)
 
 
 def printed(function: Callable[..., bool], *before: Any) -> str:

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from . import _structs as c
-from ._library import (Scene, call, call_stoppable, lib, path_or_none, printed, setting_words, words)
+from ._library import (Scene, c_text, c_text_or_none, call, call_stoppable, lib, printed, setting_words, words)
 from .results import Answer, Result, plain
 
 Settings = Mapping[str, Any]
@@ -76,9 +76,9 @@ def run(scene: Any, settings: Settings | None = None, folder: Any = None, *, ove
 def _run_in(read: Scene, folder: Any, overwrite: bool, resume: bool, progress: Progress | None) -> Result:
     stop = ctypes.c_int(0)
     summary = c.RunSummary()
-    options = c.RunOptions(folder=path_or_none(folder), overwrite=overwrite, resume=resume,
+    options = c.RunOptions(folder=c_text_or_none(folder), overwrite=overwrite, resume=resume,
                            on_step=_callback(c.StepCallback, progress, stop), stop=ctypes.pointer(stop))
-    call_stoppable(lib.amontons_run, stop, read.handle, ctypes.byref(options), ctypes.byref(summary))
+    call_stoppable(lib.amontons_run, stop, read, ctypes.byref(options), ctypes.byref(summary))
     result = Result(folder)
     result.summary = summary
     return result
@@ -89,7 +89,7 @@ def forecast(scene: Any, settings: Settings | None = None) -> Answer:
     (elements, contact_nodes, unknowns, reduced, stages; mesh, reduction, steps: processor seconds, ...)."""
     read = Scene(scene, settings)
     expected = c.RunForecast()
-    call(lib.amontons_forecast, read.handle, ctypes.byref(expected))
+    call(lib.amontons_forecast, read, ctypes.byref(expected))
     return Answer(expected)
 
 
@@ -103,7 +103,7 @@ def static(scene: Any, settings: Settings | None = None, folder: Any = None, *, 
     open, sticking, slipping, ...), forces per width. folder: for static.json, .h5 and .vtu; None: nothing is written."""
     read = Scene(scene, settings)
     summary = c.StaticSummary()
-    call(lib.amontons_static, read.handle, path_or_none(folder), overwrite, ctypes.byref(summary))
+    call(lib.amontons_static, read, c_text_or_none(folder), overwrite, ctypes.byref(summary))
     return Answer(summary)
 
 
@@ -119,10 +119,10 @@ def stability(scene: Any, settings: Settings | None = None, folder: Any = None, 
     stop = ctypes.c_int(0)
     summary = c.StabilitySummary()
     on_point, kept = _gather(c.StabilityCallback, c.StabilityPoint, stop)
-    options = c.StabilityOptions(slidings=slidings, whole=whole, at_end=at_end, folder=path_or_none(folder),
+    options = c.StabilityOptions(slidings=slidings, whole=whole, at_end=at_end, folder=c_text_or_none(folder),
                                  overwrite=overwrite, on_step=_callback(c.StepCallback, progress, stop), on_point=on_point,
                                  stop=ctypes.pointer(stop))
-    call_stoppable(lib.amontons_stability, stop, read.handle, ctypes.byref(options), ctypes.byref(summary))
+    call_stoppable(lib.amontons_stability, stop, read, ctypes.byref(options), ctypes.byref(summary))
     return Answer(summary, _table(c.StabilityPoint, kept))
 
 
@@ -137,10 +137,10 @@ def model1d(scene: Any, settings: Settings | None = None, folder: Any = None, *,
     on_point, kept = _gather(c.Model1dCallback, c.Model1dPoint, stop)
     options = lib.amontons_model1d_options()
     options.alpha, options.nodes, options.theory_only = alpha, nodes, theory_only
-    options.folder, options.overwrite = path_or_none(folder), overwrite
+    options.folder, options.overwrite = c_text_or_none(folder), overwrite
     options.on_step, options.on_point = _callback(c.StepCallback, progress, stop), on_point
     options.stop = ctypes.pointer(stop)
-    call_stoppable(lib.amontons_model1d, stop, read.handle, ctypes.byref(options), ctypes.byref(summary))
+    call_stoppable(lib.amontons_model1d, stop, read, ctypes.byref(options), ctypes.byref(summary))
     return Answer(summary, _table(c.Model1dPoint, kept))
 
 
@@ -178,15 +178,15 @@ def sweep(study: Any, settings: Settings | None = None, folder: Any = None, *, j
     stop = ctypes.c_int(0)
     summary = c.SweepSummary()
     overrides, count = setting_words(settings)
-    options = c.SweepOptions(folder=path_or_none(folder), overrides=overrides, override_count=count, jobs=jobs,
-                             slurm=None if slurm is None else slurm.encode(), retry=retry, fresh=fresh,
+    options = c.SweepOptions(folder=c_text_or_none(folder), overrides=overrides, override_count=count, jobs=jobs,
+                             slurm=c_text_or_none(slurm), retry=retry, fresh=fresh,
                              on_point=_callback(c.SweepCallback, progress, stop), stop=ctypes.pointer(stop))
-    call_stoppable(lib.amontons_sweep, stop, str(study).encode(), ctypes.byref(options), ctypes.byref(summary))
+    call_stoppable(lib.amontons_sweep, stop, c_text(study), ctypes.byref(options), ctypes.byref(summary))
     return read_table(Path(folder) / "sweep.csv")
 
 
 def _picture_style(style: dict[str, Any]) -> Any:
-    given = {**style, "format": style.get("format", "png").encode()}
+    given = {**style, "format": c_text(style.get("format", "png"))}
     return c.PictureStyle(**given)
 
 
@@ -197,8 +197,8 @@ def render(result: Any, figures: Sequence[str] = (), of: str | None = None, at: 
     (mm), dpi, dark. The files, in the folder figures/ of the result."""
     folder = result.folder if isinstance(result, Result) else Path(result)
     request = c.PictureRequest(figures=words(figures), figure_count=len(figures), style=_picture_style(style),
-                               field=c.FieldChoice(of=of and of.encode(), at=at and at.encode(), edges=edges))
-    call(lib.amontons_render_result, str(folder).encode(), ctypes.byref(request))
+                               field=c.FieldChoice(of=c_text_or_none(of), at=c_text_or_none(at), edges=edges))
+    call(lib.amontons_render_result, c_text(folder), ctypes.byref(request))
     return sorted((folder / "figures").glob(f"*.{style.get('format', 'png')}"))
 
 
@@ -206,14 +206,14 @@ def render_plot(plot: Any, picture: Any, **style: Any) -> None:
     """Draws the curves that the YAML file `plot` describes into `picture`, whose name ends in .png, .pdf or .svg:
     `amontons render PLOT.yaml`. style: as for render, but the format."""
     given = _picture_style(style)
-    call(lib.amontons_render_plot_file, str(plot).encode(), str(picture).encode(), ctypes.byref(given))
+    call(lib.amontons_render_plot_file, c_text(plot), c_text(picture), ctypes.byref(given))
 
 
 def render_sweep(folder: Any, plot: str | None = None, **style: Any) -> None:
     """Draws pictures of a stored sweep: what `plot` describes in the words of a study's `plot`, as in
     "{x: load.pressure, y: mu_M}", or without it those of its study again: `amontons render SWEEP`. style: as for render."""
     given = _picture_style(style)
-    call(lib.amontons_render_sweep, str(folder).encode(), None if plot is None else plot.encode(), ctypes.byref(given))
+    call(lib.amontons_render_sweep, c_text(folder), c_text_or_none(plot), ctypes.byref(given))
 
 
 def film(result: Any, path: Any, **options: Any) -> Path:
@@ -222,9 +222,9 @@ def film(result: Any, path: Any, **options: Any) -> Path:
     last_cycle, of (field), magnification, dark. Ctrl-C stops; there is then no film."""
     stop = ctypes.c_int(0)
     folder = result.folder if isinstance(result, Result) else Path(result)
-    words_of = {name: value.encode() if isinstance(value, str) else value for name, value in options.items()}
-    request = c.FilmRequest(path=str(path).encode(), stop=ctypes.pointer(stop), **words_of)
-    call_stoppable(lib.amontons_film, stop, str(folder).encode(), ctypes.byref(request))
+    words_of = {name: c_text(value) if isinstance(value, str) else value for name, value in options.items()}
+    request = c.FilmRequest(path=c_text(path), stop=ctypes.pointer(stop), **words_of)
+    call_stoppable(lib.amontons_film, stop, c_text(folder), ctypes.byref(request))
     return Path(path)
 
 
@@ -232,8 +232,8 @@ def info(path: Any, settings: Settings | None = None, picture: Any = None) -> st
     """What a mesh (.msh, .geo), a scene or a result folder holds, in words: `amontons info`. picture: a PNG of the mesh
     and the rod to be drawn."""
     overrides, count = setting_words(settings)
-    options = c.InfoOptions(overrides=overrides, override_count=count, picture=path_or_none(picture))
-    return printed(lib.amontons_info, str(path).encode(), ctypes.byref(options))
+    options = c.InfoOptions(overrides=overrides, override_count=count, picture=c_text_or_none(picture))
+    return printed(lib.amontons_info, c_text(path), ctypes.byref(options))
 
 
 def keys() -> str:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from . import _structs as c
-from ._library import Scene, call, lib, path_or_none, raise_error
+from ._library import Scene, c_text, c_text_or_none, call, lib, raise_error
 from .results import Answer
 
 
@@ -41,12 +41,12 @@ class Simulation:
                  overwrite: bool = False, whole_block: bool = False) -> None:
         self._handle = ctypes.c_void_p()
         self._scene = Scene(scene, settings)
-        self._options = c.RunOptions(folder=path_or_none(folder), overwrite=overwrite, whole_block=whole_block)
+        self._options = c.RunOptions(folder=c_text_or_none(folder), overwrite=overwrite, whole_block=whole_block)
         self._finished = ctypes.c_bool(False)
         self._block: c.BlockView | None = None
         self.step = c.StepView()
         try:
-            call(lib.amontons_simulation_create, self._scene.handle, ctypes.byref(self._options),
+            call(lib.amontons_simulation_create, self._scene, ctypes.byref(self._options),
                  ctypes.byref(self._handle))
         except BaseException:
             self._destroy()
@@ -106,7 +106,7 @@ class Simulation:
         call(lib.amontons_simulation_save, self._handle, ctypes.byref(state))
         try:
             if path is not None:
-                call(lib.amontons_state_write, ctypes.byref(state), str(path).encode())
+                call(lib.amontons_state_write, ctypes.byref(state), c_text(path))
             return ctypes.string_at(state.bytes, state.size)
         finally:
             lib.amontons_state_free(ctypes.byref(state))
@@ -120,7 +120,7 @@ class Simulation:
             call(lib.amontons_simulation_restore, self._handle, ctypes.byref(saved))
         else:
             saved = c.SavedState()
-            call(lib.amontons_state_read, str(state).encode(), ctypes.byref(saved))
+            call(lib.amontons_state_read, c_text(state), ctypes.byref(saved))
             try:
                 call(lib.amontons_simulation_restore, self._handle, ctypes.byref(saved))
             finally:
@@ -160,7 +160,7 @@ class Simulation:
         return np.split(nodes, first[1:-1])
 
     def finish(self) -> Answer:
-        """Writes results and pictures where there is a folder. Attributes: those of RunSummary (mu_M, ...)."""
+        """Writes results and pictures where there is a folder; no step can follow. Attributes: those of RunSummary (mu_M, ...)."""
         summary = c.RunSummary()
         call(lib.amontons_simulation_finish, self._handle, ctypes.byref(summary))
         return Answer(summary)

@@ -13,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 import textwrap
+import time
 import unittest
 from pathlib import Path
 
@@ -143,6 +144,22 @@ class Run(InFolder):
         with self.assertRaisesRegex(amontons.InputError, "there"):
             amontons.run(FIG1, SMALL, self.folder / "there")
 
+    def test_a_zero_byte(self):
+        """C would take the text before it, and write there."""
+        result = amontons.run(FIG1, SMALL, self.folder / "run")
+        simulation = amontons.Simulation(FIG1, SMALL)
+        cut = f"{self.folder}/cut\0off"
+        for call in (lambda: amontons.run(FIG1, SMALL, cut), lambda: amontons.run(cut), lambda: amontons.info(cut),
+                     lambda: amontons.run(FIG1, {**SMALL, "title": "a\0b"}), lambda: simulation.save(cut),
+                     lambda: simulation.restore(cut), lambda: amontons.static(FIG1, SMALL, cut),
+                     lambda: amontons.film(result, cut + ".gif"), lambda: amontons.film(result, "film.gif", end="U=1\0"),
+                     lambda: amontons.render(result, ["force\0"]), lambda: amontons.render(result, ["force"], format="png\0"),
+                     lambda: amontons.render_plot(cut, "a.png"), lambda: amontons.info(FIG1, picture=cut),
+                     lambda: amontons.sweep(cut, folder=self.folder / "sweep")):
+            with self.assertRaisesRegex(amontons.InputError, "zero byte"):
+                call()
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["run"])
+
     def test_what_a_callback_raises_comes_through(self):
         def give_up(step):
             if step.U > 1e-3:
@@ -176,6 +193,27 @@ class Run(InFolder):
         self.assertEqual(said, "stopped\n")
         self.assertEqual(amontons.open_result(self.folder / "long").report["failure"], "interrupted")
 
+    def test_ctrl_c_again_while_it_reduces(self):
+        """None leaves before the library's thread has ended: it would go on over a scene that is gone."""
+        large = {**SMALL, "mesh.set.nx": 200, "mesh.set.nz": 200, "reduction.use": "always", "reduction.cache": False}
+        script = textwrap.dedent(f"""
+            import sys; sys.path.insert(0, {str(MODULE)!r})
+            import amontons, threading, time
+            try:
+                threading.Timer(0.3, print, ("begun",), {{"flush": True}}).start()
+                amontons.run({str(FIG1)!r}, {large!r}, "large")
+            except KeyboardInterrupt:
+                print("stopped", [thread.name for thread in threading.enumerate()], flush=True)
+        """)
+        process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True, cwd=self.folder)
+        self.assertEqual(process.stdout.readline(), "begun\n")
+        for _ in range(5):
+            process.send_signal(signal.SIGINT)
+            time.sleep(0.02)
+        said = process.communicate(timeout=120)[0]
+        self.assertEqual((process.returncode, said), (0, "stopped ['MainThread']\n"))
+        self.assertEqual(amontons.open_result(self.folder / "large").report["failure"], "interrupted")
+
     def test_ctrl_c_between_steps(self):
         said = self.interrupt(f"[print('begun', flush=True) for k, step in enumerate(amontons.Simulation({str(FIG1)!r}, "
                               f"{ {**SMALL, 'time.until': {'U': 10}}!r})) if k == 0]")
@@ -202,6 +240,20 @@ class Stepped(InFolder):
         self.assertEqual(simulation.finish().mu_max, result.mu_max)
         with self.assertRaises(ValueError):
             simulation.slip[0] = 1
+
+    def test_nothing_follows_the_end(self):
+        """Its history is closed."""
+        simulation = amontons.Simulation(FIG1, SMALL, self.folder / "run")
+        simulation.advance()
+        state, mu = simulation.save(), simulation.step.mu
+        simulation.finish()
+        written = (self.folder / "run/run.json").read_bytes()
+        for more in (simulation.advance, lambda: next(iter(simulation)), simulation.finish, simulation.save,
+                     lambda: simulation.restore(state), lambda: simulation.set_rod_velocity(0),
+                     lambda: simulation.set_pressure(1)):
+            with self.assertRaisesRegex(amontons.InputError, "is finished"):
+                more()
+        self.assertEqual((simulation.step.mu, (self.folder / "run/run.json").read_bytes()), (mu, written))
 
     def test_arrays_outlive_the_name(self):
         pressure = amontons.Simulation(FIG1, SMALL).pressure
@@ -246,6 +298,8 @@ class Stepped(InFolder):
         self.assertAlmostEqual(np.trapz(simulation.pressure, simulation.x), 0.006, delta=3e-4)
         with self.assertRaisesRegex(amontons.InputError, "above 0"):
             simulation.set_pressure(-1)
+        with self.assertRaisesRegex(amontons.InputError, "rod velocity of -1e\\+308 is not possible"):
+            simulation.set_rod_velocity(-1e308)
 
     def test_whole_block(self):
         simulation = amontons.Simulation(FIG1, SMALL, whole_block=True)
