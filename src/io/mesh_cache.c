@@ -3,15 +3,13 @@
 // is: indices within their arrays, kinds that exist, counts that fit each other.
 #include "io/mesh_cache.h"
 
+#include "base/computation.h"
 #include "base/memory.h"
 #include "io/cache_file.h"
 #include "io/mesh_source.h"
 
 #include <stdio.h>
 #include <string.h>
-
-// Stands in every key: a new meaning of the arrays, or another way to mesh, needs a new number.
-static const char FORMAT[] = "mesh 2";
 
 // COUNTS: nodes, elements, nodes of all elements, groups, nodes of all edges of groups, nodes of
 // all groups, elements of all groups. HEADS: numbers of a group beside its name and lists.
@@ -21,10 +19,9 @@ static const double EXACT_LIMIT = 9007199254740992.0;   // 2^53
 bool mesh_cache_key(const char *path, const MeshParameter *parameters, int32_t parameter_count,
                     char key[HASH_TEXT_SIZE], Error *err)
 {
-    Hash hash = hash_start();
+    Hash hash = computation_hash();
     bool whole = false;
     key[0] = 0;
-    hash_text(&hash, FORMAT);
     TRY(mesh_source_hash(path, parameters, parameter_count, &hash, &whole, err));
     if (whole) hash_write(&hash, key);
 cleanup:

@@ -10,8 +10,6 @@
 #include <string.h>
 #include <unistd.h>
 
-const char BASIS_FORMAT[] = "basis 15 " AMONTONS_VERSION;
-
 // The whole's sizes, and 1 more than its images where it is put together of two halves, else 0;
 // those of a half have names of their own.
 enum { COUNTS = 5, HALF_COUNTS = 4 };

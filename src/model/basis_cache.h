@@ -14,10 +14,6 @@
 #include "io/cache_file.h"
 #include "io/file_lock.h"
 
-// Stands in every key. A basis that comes out otherwise than before, or arrays with a new meaning,
-// need a new number: tests/unit/model/test_basis_cache.c notices.
-extern const char BASIS_FORMAT[];
-
 // Fills `reduced`, scales left at 0. *found: false when there is nothing, or nothing that is valid:
 // `note` then says why. with_modes: the modes must be there too. name: empty for none.
 bool basis_cache_load(const char *name, bool with_modes, ReducedBulk *reduced, bool *found,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "model/far_cache.h"
 
+#include "base/computation.h"
 #include "base/memory.h"
 #include "bulk/far_field.h"
 #include "model/basis_cache.h"
@@ -9,20 +10,14 @@
 #include <string.h>
 #include <unistd.h>
 
-// Stands in every key, beside the basis's: a new meaning of the arrays below needs a new number,
-// motions that come out otherwise than before are a new basis.
-static const char FORMAT[] = "upper 2";
-
 enum { COUNTS = 3 };   // unknowns, patches, couplings
 
 static void find_name(const FarCacheDef *def, char name[HASH_TEXT_SIZE])
 {
     const UpperBlock *upper = def->upper;
-    Hash hash = hash_start();
+    Hash hash = computation_hash();
     name[0] = 0;
     if (!def->keep) return;
-    hash_text(&hash, BASIS_FORMAT);
-    hash_text(&hash, FORMAT);
     hash_number(&hash, def->far.tolerance);
     reduction_block_hash(&upper->block, &upper->mesh, upper->interface_dofs, upper->interface_count,
                          &hash);

@@ -5,6 +5,7 @@
 #include "model/obtain.h"
 
 #include "base/clock.h"
+#include "base/computation.h"
 #include "base/memory.h"
 #include "bulk/mirrored_reduction.h"
 #include "bulk/reduction_block.h"
@@ -173,8 +174,7 @@ static bool obtain_basis(Model *model, const ReductionBlock *block, Shape *shape
                         .scales = {.stiffness = 1, .damping = 1, .mass = 1, .load = 1}};
     FileLock lock = {0};
     if (scene->reduction.cache) {
-        Hash hash = hash_start();
-        hash_text(&hash, BASIS_FORMAT);
+        Hash hash = computation_hash();
         hash_number(&hash, def.tolerance);
         reduction_block_hash(block, &model->mesh, interface->dofs, interface->count, &hash);
         hash_write(&hash, shape->basis);

@@ -7,6 +7,7 @@
 // that the file is whole), and anything that does not fit means that the shape is made anew.
 #include "model/shape_cache.h"
 
+#include "base/computation.h"
 #include "base/memory.h"
 #include "io/cache_file.h"
 #include "io/mesh_source.h"
@@ -18,9 +19,6 @@
 #include <string.h>
 
 enum { COUNTS = 4 };   // contact and rod nodes, pads, gaps
-
-// Stands in every key, beside the basis's: a new meaning of the arrays below needs a new number.
-static const char FORMAT[] = "shape 10";
 
 // Names travel as the bytes of doubles, filled up with zeros.
 enum {
@@ -87,11 +85,9 @@ bool shape_key(const Scene *scene, double tolerance, char key[HASH_TEXT_SIZE], E
 {
     key[0] = 0;
     if (!scene->reduction.cache) return true;
-    Hash hash = hash_start();
+    Hash hash = computation_hash();
     bool whole = false;
     double eta = scene->material.eta1 + scene->material.eta2;
-    hash_text(&hash, BASIS_FORMAT);
-    hash_text(&hash, FORMAT);
     TRY(mesh_source_hash(scene->mesh.file, scene->mesh.parameters, scene->mesh.parameter_count,
                          &hash, &whole, err));
     hash_boundary(scene, &hash);

@@ -38,6 +38,7 @@ bool history_create(const char *folder, ResultHead *head, const Interface *inter
     head->nodes[NODES_PAD] = history->pad;
     history->file = head->goes_on ? result_file_reopen(folder, err)
                                   : result_file_create(folder, head, err);
+    history->end.kept = history->file != NULL;
     return history->file != NULL;
 }
 
@@ -134,7 +135,7 @@ static bool append(History *history, const Observation *seen, ResultSeries serie
     const double *row = history->row;
     switch (result_series_columns(series)) {
     case COLUMNS_ONE:
-        history->row[0] = series_value(seen, series);
+        history->row[0] = history->end.last[series] = series_value(seen, series);
         break;
     case COLUMNS_NODES:
         row = node_values(history, series);
@@ -158,7 +159,7 @@ bool history_record(void *self, const Observation *seen, Error *err)
         if (series == SERIES_ROD_WAY && !history->rod_on_spring) continue;
         TRY(append(history, seen, series, err));
     }
-    history->rows++;
+    history->end.rows++;
     double now = clock_seconds();
     history->seconds += now - started;
     if (now - history->flushed_at > FLUSH_EVERY) {
@@ -169,22 +170,53 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool history_archive(History *history, Archive *archive, Error *err)
+void history_end_archive(HistoryEnd *end, Archive *archive)
 {
-    int64_t rows = history->rows;
-    bool kept = history->file != NULL;
-    archive_section(archive, "history");
-    archive_flag(archive, &kept);
-    archive_count(archive, &rows);
-    TRY(archive_check(archive, false, err));
-    if (!archive_reads(archive) || !history->file) goto cleanup;
-    if (!kept || !result_file_cut(history->file, rows, err)) {
-        error_clear(err);
+    archive_flag(archive, &end->kept);
+    archive_count(archive, &end->rows);
+    archive_numbers(archive, end->last, RESULT_SERIES_COUNT);
+}
+
+// One series; its bits, as NaN stands in some.
+static bool has_last(ArrayFile *file, const HistoryEnd *end, ResultSeries series, Error *err)
+{
+    double *values = NULL;
+    int64_t rows = 0;
+    int32_t width = 0;
+    TRY(result_file_read_series(file, series, &values, &rows, &width, err));
+    if (rows < end->rows || width != 1)
         FAIL(err, ERROR_INPUT,
              "the history does not go as far as the saved state: it is that of another run, or was "
              "cut off while it was written");
+    const double *found = &values[end->rows - 1];
+    if (memcmp(found, &end->last[series], sizeof *found) != 0)
+        FAIL(err, ERROR_INPUT,
+             "the history is that of another run than the saved state: in row %lld of %s it has "
+             "%.17g, not %.17g",
+             (long long)end->rows - 1, result_series_name(series), *found, end->last[series]);
+cleanup:
+    memory_free(values);
+    return error_is_clean(err);
+}
+
+bool history_has_end(ArrayFile *file, const HistoryEnd *end, Error *err)
+{
+    for (ResultSeries series = 0; end->rows > 0 && series < RESULT_SERIES_COUNT; series++) {
+        bool one = result_series_columns(series) == COLUMNS_ONE;
+        if (one && array_file_has(file, result_series_name(series)))
+            TRY(has_last(file, end, series, err));
     }
-    history->rows = rows;
+cleanup:
+    return error_is_clean(err);
+}
+
+bool history_take_back(History *history, const HistoryEnd *end, Error *err)
+{
+    if (!history->file) return true;
+    if (!end->kept) FAIL(err, ERROR_INPUT, "the saved state is that of a run without a history");
+    TRY(history_has_end(history->file, end, err));
+    TRY(result_file_cut(history->file, end->rows, err));
+    history->end = *end;
 cleanup:
     return error_is_clean(err);
 }

@@ -8,9 +8,16 @@
 #include "record/answers.h"
 #include "record/contact_arrays.h"
 
+// By which a saved state knows its history again.
+typedef struct HistoryEnd {
+    bool kept;   // there is a history
+    int64_t rows;   // steps recorded
+    double last[RESULT_SERIES_COUNT];   // the last one's value of each series that is one column
+} HistoryEnd;
+
 typedef struct History {
     ArrayFile *file;   // NULL: no history is kept; owned
-    int64_t rows;   // steps recorded
+    HistoryEnd end;
     bool rod_on_spring;   // its own way is recorded
     double seconds;   // wall time spent
     double flushed_at;   // wall time of the last flush, s
@@ -30,9 +37,12 @@ bool history_create(const char *folder, ResultHead *head, const Interface *inter
 void history_destroy(History *history);
 bool history_record(void *self, const Observation *seen, Error *err);   // a Recorder
 
-// How many steps it has. Reading cuts it back to as many; ERROR_INPUT: it has fewer. A state saved
-// without a history is no state of one.
-bool history_archive(History *history, Archive *archive, Error *err);
+void history_end_archive(HistoryEnd *end, Archive *archive);
+// The history of RESULT, or `file`, has as many steps or more, and that one among them; else
+// ERROR_INPUT. Nothing is changed.
+bool history_has_end(ArrayFile *file, const HistoryEnd *end, Error *err);
+// Cuts it back to `end`. A state saved without a history is no state of one.
+bool history_take_back(History *history, const HistoryEnd *end, Error *err);
 bool history_sync(History *history, Error *err);   // all steps onto the disk; fine without a file
 
 // Tables of peaks and events, and what is known only now; then the file gets its final name.

@@ -82,36 +82,38 @@ cleanup:
     return error_is_clean(err);
 }
 
-// In a process of its own, which ends without writing: its chunks are looked up by cutting it. Of a
-// window that the run has not come to it has no row.
-static bool try_history(void *folder, FILE *reply, Error *err)
+typedef struct HistoryTry {
+    const char *folder;
+    const HistoryEnd *end;
+} HistoryTry;
+
+// In a process of its own, which ends without writing, its chunks are looked up too, by cutting it.
+// Of a window that the run has not come to it has no row.
+static bool try_history(void *context, FILE *reply, Error *err)
 {
-    (void)reply;
-    ArrayFile *file = result_file_reopen(folder, err);
-    if (!file || result_file_cut(file, 1, err)) return file != NULL;
-    error_clear(err);
-    return result_file_cut(file, 0, err);
+    const HistoryTry *try = context;
+    ArrayFile *file = result_file_open(try->folder, err);
+    bool fits = file && history_has_end(file, try->end, err);
+    array_file_abandon(file);
+    if (!fits || !reply) return fits;
+    file = result_file_reopen(try->folder, err);
+    return file && result_file_cut(file, try->end->rows > 0, err);
 }
 
 // HDF5 crashes on some files whose writer was killed in the middle of a flush.
-bool checkpoint_try_history(const char *folder, Error *err)
+bool checkpoint_try_history(const char *folder, const HistoryEnd *end, Error *err)
 {
-    char path[PATH_SIZE], name[AMONTONS_PATH_SIZE];
-    ApartReply reply = {0};
-    snprintf(name, sizeof name, "%s", folder);
+    char path[PATH_SIZE];
+    HistoryTry try = {folder, end};
     snprintf(path, sizeof path, "%s/history.h5", folder);
     ApartWork work = {.path = path,
                       .reader = "HDF5",
                       .seconds = 600,
                       .advice = "say --overwrite to begin anew",
                       .read = try_history,
-                      .context = name};
-    if (!apart_is_wanted()) return true;
-    bool whole = apart_read(&work, &reply, err);
-    apart_destroy(&reply);
-    if (whole) return true;
+                      .context = &try};
+    if (apart_do(&work, err)) return true;
     err->code = ERROR_INPUT;
-    error_context(err, "the history was cut off while it was written, and cannot be gone on with "
-                       "(--overwrite begins anew)");
+    error_context(err, "the history cannot be gone on with (--overwrite begins anew)");
     return false;
 }

@@ -140,7 +140,7 @@ static bool has_data(const Simulation *simulation, const char *figure)
     const Window *window = &simulation->window;
     if (!window->def.given) return true;
     bool fields = strcmp(figure, "field") == 0;
-    return simulation->history.rows > 1 && (!fields || simulation->fields.written > 0);
+    return simulation->history.end.rows > 1 && (!fields || simulation->fields.written > 0);
 }
 
 // By the module `render`, loaded here and only here.

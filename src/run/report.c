@@ -5,6 +5,7 @@
 // is the block's: lengths are given over it where the key says over_L.
 #include "run/report.h"
 
+#include "base/computation.h"
 #include "base/kernels.h"
 #include "io/json_writer.h"
 #include "scene/keys.h"
@@ -202,6 +203,9 @@ static void write_errors(JsonWriter *json, const RunErrors *errors)
 // report->failure NULL: the run ended as it should.
 static void write_all(JsonWriter *json, const char *folder, const RunReport *report)
 {
+    char sources[HASH_TEXT_SIZE];
+    Hash computation = computation_hash();
+    hash_write(&computation, sources);
     json_begin_object(json, NULL);
     json_text(json, "status", report->failure ? "failed" : "done");
     if (report->failure) {
@@ -210,6 +214,7 @@ static void write_all(JsonWriter *json, const char *folder, const RunReport *rep
     }
     json_text(json, "version", AMONTONS_VERSION);
     write_kernels(json);
+    json_text(json, "sources", sources);
     json_integer(json, "resumed", report->resumed);
     write_warnings(json, report->warnings);
     scene_write_json(report->scene, json, "scene", folder);

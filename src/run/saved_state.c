@@ -2,7 +2,8 @@
 // The list is gone through three times: to measure, to write, and later to read (base/archive). In
 // front of it stands what it is and of what, behind it a checksum:
 //
-//     "amontons-state 5, reduced"  version  identity  time  { parts of the state }  checksum
+//     "amontons-state, reduced"  computation  identity  time, end of the history
+//     { parts of the state }  checksum
 //
 // What can be made again from the scene is not saved: mesh, matrices, the rungs' factors. What
 // depends on rounding in the past is: factors that the next step may use again, the order of sweeps
@@ -10,6 +11,7 @@
 #include "run/saved_state.h"
 
 #include "base/clock.h"
+#include "base/computation.h"
 #include "base/memory.h"
 #include "io/part_file.h"
 #include "scene/keys.h"
@@ -21,8 +23,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-// A new number where the list changes its order or meaning.
-static const char *const FORMATS[] = {"amontons-state 5, full mesh", "amontons-state 5, reduced"};
+static const char *const FORMATS[] = {"amontons-state, full mesh", "amontons-state, reduced"};
 enum { WORD_SIZE = 32, CHECKSUM_SIZE = HASH_TEXT_SIZE - 1 };
 
 // --- of what ------------------------------------------------------------------------------------
@@ -63,24 +64,31 @@ static void pass_word(Archive *archive, const char *word, char found[WORD_SIZE +
     archive_text(archive, found, WORD_SIZE + 1);
 }
 
-// *time: of the state.
-static bool archive_head(Simulation *simulation, Archive *archive, double *time, Error *err)
+// By the sources that compute, too: what a state means is theirs.
+static bool archive_head(Simulation *simulation, Archive *archive, SavedHead *head, Error *err)
 {
-    char format[WORD_SIZE + 1], version[WORD_SIZE + 1], identity[WORD_SIZE + 1];
+    char format[WORD_SIZE + 1], sources[WORD_SIZE + 1], identity[WORD_SIZE + 1];
+    char ours[HASH_TEXT_SIZE];
+    Hash computation = computation_hash();
+    hash_write(&computation, ours);
     TRY(find_identity(simulation, err));
     pass_word(archive, FORMATS[simulation->model.reduced.count > 0], format);
-    pass_word(archive, AMONTONS_VERSION, version);
+    pass_word(archive, ours, sources);
     pass_word(archive, simulation->identity, identity);
     if (archive->failed || (strcmp(format, FORMATS[0]) != 0 && strcmp(format, FORMATS[1]) != 0))
         FAIL(err, ERROR_INPUT, "it is not a saved state as this version writes it");
-    if (strcmp(version, AMONTONS_VERSION) != 0)
-        FAIL(err, ERROR_INPUT, "it was saved by version %s, this is %s", version, AMONTONS_VERSION);
+    if (strcmp(sources, ours) != 0)
+        FAIL(err, ERROR_INPUT,
+             "it was saved by a build of other sources, which may compute otherwise (%.8s, this is "
+             "%.8s): begin anew with --overwrite, or go on with that build",
+             sources, ours);
     if (strcmp(identity, simulation->identity) != 0)
         FAIL(err, ERROR_INPUT,
              "it is the state of another scene or mesh; only time.until, title and output.figures "
              "may differ (and the reduction must be the one that was made then)");
-    *time = simulation->control.now.time;
-    archive_number(archive, time);
+    *head = (SavedHead){simulation->control.now.time, simulation->history.end};
+    archive_number(archive, &head->time);
+    history_end_archive(&head->history, archive);
 cleanup:
     return error_is_clean(err);
 }
@@ -177,7 +185,6 @@ cleanup:
 static bool archive_output(Simulation *simulation, Archive *archive, Error *err)
 {
     TRY(fields_archive(&simulation->fields, archive, err));
-    TRY(history_archive(&simulation->history, archive, err));
     if (!simulation->window.def.given) goto cleanup;
     window_archive(&simulation->window, archive);
     TRY(kept_states_archive(&simulation->kept, archive, err));
@@ -193,12 +200,12 @@ static bool save(Simulation *simulation, bool output, SavedState *state, Error *
     Archive archive = archive_measure();
     Hash hash = hash_start();
     char checksum[HASH_TEXT_SIZE];
-    double time;
+    SavedHead head;
     int64_t before = memory_counters().allocations;
     int64_t in_loop = before - simulation->allocations_before;
     *state = (SavedState){0};
     for (int pass = 0; pass < 2; pass++) {
-        TRY(archive_head(simulation, &archive, &time, err));
+        TRY(archive_head(simulation, &archive, &head, err));
         TRY(archive_parts(simulation, &archive, err));
         if (output) TRY(archive_output(simulation, &archive, err));
         if (output) archive_report(simulation, in_loop, &archive);
@@ -255,21 +262,22 @@ SceneReduce saved_state_reduction(const SavedState *state)
                                              : REDUCE_AUTO;
 }
 
-bool saved_state_fits(Simulation *simulation, const SavedState *state, double *time, Error *err)
+bool saved_state_fits(Simulation *simulation, const SavedState *state, SavedHead *head, Error *err)
 {
     Archive archive;
-    return open_archive(state, &archive, err) && archive_head(simulation, &archive, time, err);
+    return open_archive(state, &archive, err) && archive_head(simulation, &archive, head, err);
 }
 
 // The arrays that a caller sees are those of the step that was saved.
 static bool restore(Simulation *simulation, bool output, const SavedState *state, Error *err)
 {
     Archive archive;
-    double time;
+    SavedHead head;
     TRY(open_archive(state, &archive, err));
-    TRY(archive_head(simulation, &archive, &time, err));
+    TRY(archive_head(simulation, &archive, &head, err));
     TRY(archive_parts(simulation, &archive, err));
     if (output) TRY(archive_output(simulation, &archive, err));
+    if (output) TRY(history_take_back(&simulation->history, &head.history, err));
     simulation->seen = observe(&simulation->control, &simulation->model.scales);
     TRY(contact_arrays_record(&simulation->contact, &simulation->seen, err));
     if (output) archive_report(simulation, 0, &archive);

@@ -6,10 +6,15 @@
 
 #include "run/simulation_state.h"
 
-// The simulation may be restored from `state`: its checksum holds, and it was saved by this version
-// from this scene, mesh and basis. ERROR_INPUT, nothing is changed: which of these is not so.
-// *time: the state's.
-bool saved_state_fits(Simulation *simulation, const SavedState *state, double *time, Error *err);
+typedef struct SavedHead {
+    double time;   // the state's
+    HistoryEnd history;   // the one written so far
+} SavedHead;
+
+// The simulation may be restored from `state`: its checksum holds, and it was saved by a build of
+// these sources from this scene, mesh and basis. ERROR_INPUT, nothing is changed: which of these is
+// not so.
+bool saved_state_fits(Simulation *simulation, const SavedState *state, SavedHead *head, Error *err);
 
 // Whether the state is one of a reduced block (REDUCE_ALWAYS) or of the full mesh (REDUCE_NEVER),
 // so that `auto` goes on with what it chose; REDUCE_AUTO: it is no state. Nothing else is checked.

@@ -147,14 +147,15 @@ cleanup:
 // From a checkpoint, which is known to be this scene's before the result is touched.
 static bool go_on(Simulation *simulation, const SavedState *state, Error *err)
 {
-    double time;
-    TRY(saved_state_fits(simulation, state, &time, err));
-    if (time > simulation->t_end * (1 + 1e-9))
+    SavedHead head;
+    TRY(saved_state_fits(simulation, state, &head, err));
+    if (head.time > simulation->t_end * (1 + 1e-9))
         FAIL(err, ERROR_INPUT,
              "time.until is at t = %g, and this result goes to t = %g already: give a later end "
              "(--extend U=...)",
-             simulation->t_end, time);
-    if (simulation->scene.output.history) TRY(checkpoint_try_history(simulation->folder.path, err));
+             simulation->t_end, head.time);
+    if (simulation->scene.output.history)
+        TRY(checkpoint_try_history(simulation->folder.path, &head.history, err));
     TRY(result_folder_take_up(&simulation->folder, err));
     simulation->goes_on = true;
     start_programs(simulation);

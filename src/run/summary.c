@@ -89,8 +89,8 @@ static void list_phases(const Simulation *simulation, RunSummary *summary)
                                                  : "skipped: switched off");
     add_phase(summary, "bulk", fmax(timing->solve + timing->relax - inside, 0),
               simulation->model.system.solves, "stages: products and substitutions");
-    add_phase(summary, "history", simulation->history.seconds, simulation->history.rows,
-              simulation->history.rows > 0 ? "rows" : "skipped: output.history is false");
+    add_phase(summary, "history", simulation->history.seconds, simulation->history.end.rows,
+              simulation->history.end.rows > 0 ? "rows" : "skipped: output.history is false");
     snprintf(written, sizeof written, "times, recovered and written by VTK beside it in %.4f s",
              simulation->fields.seconds_beside);
     add_phase(summary, "fields", simulation->fields.seconds, simulation->fields.written,

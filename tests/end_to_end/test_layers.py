@@ -32,8 +32,8 @@ def allowed(folder, include):
         return folder in ("render", "")   # what render/render.h is asked
     if include == "amontons_friction.h":
         return folder in ("contact", "")   # what a plug-in and contact/friction_plugin share
-    if include in ("build_record.h", "page_resources.h"):
-        return layer == {"b": "run", "p": "page"}[include[0]]   # generated
+    if include in ("build_record.h", "computing_sources.h", "page_resources.h"):
+        return layer == {"b": "run", "c": "base", "p": "page"}[include[0]]   # generated
     if include in (*PUBLIC, "render/render.h") and layer in BELOW_SCENE:
         return False
     if folder == "":

@@ -2,6 +2,7 @@
 // The files of a sweep's point, and their names.
 #include "study/sweep/point.h"
 
+#include "base/computation.h"
 #include "base/memory.h"
 #include "io/json_reader.h"
 #include "io/json_writer.h"
@@ -45,12 +46,11 @@ static bool key_counts(const char *key)
     return strcmp(key, "title") != 0 && strcmp(key, "mesh.file") != 0;
 }
 
-// The mesh by its content; the title and the path of the mesh do not count.
+// What computes it, the mesh by its content; the title and the path of the mesh do not count.
 bool point_hash(const Scene *scene, PointMesh *mesh, char text[HASH_TEXT_SIZE], Error *err)
 {
-    Hash hash = hash_start();
+    Hash hash = computation_hash();
     TRY(hash_mesh(scene, mesh, err));
-    hash_text(&hash, AMONTONS_VERSION);
     hash_bytes(&hash, &mesh->hash, sizeof mesh->hash);
     TRY(scene_hash(scene, key_counts, &hash, err));
     hash_write(&hash, text);
@@ -232,7 +232,7 @@ bool point_run(const Sweep *sweep, int32_t point, char **report, Error *err)
     options.resume = access(checkpoint, F_OK) == 0 && !(scene->accuracy.mu > 0);
     if (amontons_run(scene, &options, &summary, err) || !options.resume) goto cleanup;
     if (err->code != ERROR_INPUT) goto cleanup;
-    *err = (Error){0};   // a checkpoint of another version or basis: from the start
+    *err = (Error){0};   // a checkpoint of another basis, or damaged: from the start
     options.resume = false;
     TRY(amontons_run(scene, &options, &summary, err));
 cleanup:

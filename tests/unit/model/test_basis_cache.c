@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A basis comes back from the cache as it went in, or not at all, with a reason; and one that comes
-// out otherwise than the recorded one needs a new BASIS_FORMAT, or old files would be taken for it.
+// A basis comes back from the cache as it went in, or not at all, with a reason; one that comes out
+// otherwise than the recorded one is noticed.
 #include "model/basis_cache.h"
 
 #include "base/memory.h"
@@ -274,15 +274,13 @@ static void test_memory_faults(void **state)
     reduced_bulk_destroy(&made);
 }
 
-// The recorded basis: of this block, in the format named. Trace of S at dt = 1, 0.1, 0.01, 1e-4,
-// and how many modes. When this fails and the new basis is meant to be so: give BASIS_FORMAT a new
-// number, and write it here with the numbers that the message shows.
-static const char RECORDED_FORMAT[] = "basis 15 ";   // and the version
+// The recorded basis: of this block. Trace of S at dt = 1, 0.1, 0.01, 1e-4, and how many modes.
+// When this fails and the new basis is meant to be so: write here the numbers of the message.
 static const int32_t RECORDED_MODES = 39;
 static const double RECORDED_TRACES[4] = {29.6363560258, 19.9828148797, 28.2719551359,
                                           699.509537686};
 
-static void test_format_follows_the_basis(void **state)
+static void test_recorded_basis(void **state)
 {
     (void)state;
     const Material material = {.young = 1, .poisson = 0.3, .density = 1, .eta1 = 1, .eta2 = 0.5};
@@ -301,12 +299,9 @@ static void test_format_follows_the_basis(void **state)
     bool same = block.reduced.interior_count == RECORDED_MODES;
     for (int k = 0; k < 4; k++)
         same = same && fabs(trace[k] - RECORDED_TRACES[k]) <= 1e-7 * fabs(trace[k]);
-    bool format = strncmp(BASIS_FORMAT, RECORDED_FORMAT, strlen(RECORDED_FORMAT)) == 0;
-    if (!same || !format)
-        fail_msg("%s; the basis has %d modes, traces {%.12g, %.12g, %.12g, %.12g}, format %s",
-                 same ? "the recorded format is another" : "the basis came out otherwise",
-                 block.reduced.interior_count, trace[0], trace[1], trace[2], trace[3],
-                 BASIS_FORMAT);
+    if (!same)
+        fail_msg("the basis came out otherwise: %d modes, traces {%.12g, %.12g, %.12g, %.12g}",
+                 block.reduced.interior_count, trace[0], trace[1], trace[2], trace[3]);
     reduced_block_destroy(&block);
 }
 
@@ -315,7 +310,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_round_trip),    cmocka_unit_test(test_halves),
         cmocka_unit_test(test_not_trusted),   cmocka_unit_test(test_missing_arrays),
-        cmocka_unit_test(test_memory_faults), cmocka_unit_test(test_format_follows_the_basis),
+        cmocka_unit_test(test_memory_faults), cmocka_unit_test(test_recorded_basis),
     };
     return cmocka_run_group_tests(tests, cache_begin, cache_end);
 }

@@ -171,7 +171,7 @@ static void test_written_and_read_back(void **state)
     assert_true(contact_arrays_create(&hand.interface, &LAW, &contact, &err));
     assert_true(history_create(place, &head, &hand.interface, &contact, &history, &err));
     record_steps(&contact, &history);
-    assert_int_equal(history.rows, STEPS);
+    assert_int_equal(history.end.rows, STEPS);
     assert_false(place_has(place, "history.h5"));   // not before it is whole
     Event event_list[] = {{.kind = EVENT_LEADING,
                            .U_start = 1,

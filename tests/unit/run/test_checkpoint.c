@@ -3,6 +3,7 @@
 // can be put back; and what does not belong to a simulation is refused before anything is touched.
 #include "run/checkpoint.h"
 
+#include "base/computation.h"
 #include "base/hash.h"
 #include "base/memory.h"
 #include "io/result_file.h"
@@ -293,13 +294,15 @@ static void test_of_other_versions(void **state)
     step(one, 5);
     step(twin, 5);
     assert_true(amontons_simulation_save(one, &saved, &err));
-    char *version =
-        memmem(saved.bytes, (size_t)saved.size, AMONTONS_VERSION "\0", sizeof AMONTONS_VERSION);
-    assert_non_null(version);
-    *version ^= 8;
+    char word[HASH_TEXT_SIZE];
+    Hash computation = computation_hash();
+    hash_write(&computation, word);
+    char *sources = memmem(saved.bytes, (size_t)saved.size, word, sizeof word);
+    assert_non_null(sources);
+    *sources ^= 1;
     seal(&saved);
-    expect_refused(one, &saved, "it was saved by version ");
-    *version ^= 8;
+    expect_refused(one, &saved, "it was saved by a build of other sources");
+    *sources ^= 1;
     char *format = (char *)saved.bytes + 8;   // behind its length
     *format ^= 8;
     seal(&saved);
@@ -358,13 +361,50 @@ static void test_history_is_cut(void **state)
     place_remove(place);
 }
 
+// A checkpoint beside the history of another scene's run, which has steps enough.
+static void test_history_of_another_run(void **state)
+{
+    (void)state;
+    char place[PLACE_SIZE], folder[2][2 * PLACE_SIZE], command[8 * PLACE_SIZE];
+    Error err = {0};
+    RunSummary summary;
+    place_make(place);
+    for (int k = 0; k < 2; k++) {
+        Scene *scene = small_scene((const char *const[]){
+            "reduction.cache=true", k ? "load.pressure=0.004" : "load.pressure=0.003", NULL});
+        snprintf(folder[k], sizeof folder[k], "%s/%d", place, k);
+        Simulation *run = begin(scene, folder[k], false);
+        step(run, 40 + 10 * k);
+        assert_true(amontons_simulation_finish(run, &summary, &err));
+        amontons_simulation_destroy(run);
+        amontons_scene_destroy(scene);
+    }
+    snprintf(command, sizeof command, "cp '%s/history.h5' '%s/history.h5'", folder[1], folder[0]);
+    assert_int_equal(system(command), 0);
+    Scene *scene =
+        small_scene((const char *const[]){"reduction.cache=true", "load.pressure=0.003", NULL});
+    Simulation *run = NULL;
+    RunOptions options = {.folder = folder[0], .resume = true};
+    assert_false(amontons_simulation_create(scene, &options, &run, &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+    if (!strstr(err.message, "the history is that of another run than the saved state: in row "))
+        fail_msg("%s", err.message);
+    amontons_simulation_destroy(run);
+    snprintf(command, sizeof command,
+             "cmp '%s/history.h5' '%s/history.h5' && test -e '%s/run.json'", folder[1], folder[0],
+             folder[0]);
+    assert_int_equal(system(command), 0);   // untouched
+    amontons_scene_destroy(scene);
+    place_remove(place);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_reduced),       cmocka_unit_test(test_open_nodes),
-        cmocka_unit_test(test_put_back),      cmocka_unit_test(test_put_back_explicit),
-        cmocka_unit_test(test_refused),       cmocka_unit_test(test_of_other_versions),
-        cmocka_unit_test(test_history_is_cut)};
+        cmocka_unit_test(test_reduced),        cmocka_unit_test(test_open_nodes),
+        cmocka_unit_test(test_put_back),       cmocka_unit_test(test_put_back_explicit),
+        cmocka_unit_test(test_refused),        cmocka_unit_test(test_of_other_versions),
+        cmocka_unit_test(test_history_is_cut), cmocka_unit_test(test_history_of_another_run)};
     // One cache: bulks are made once.
     return cmocka_run_group_tests(tests, cache_begin, cache_end);
 }
