@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Lines are only ever added, each by one write; so whoever is killed leaves at most one that has no
-// end.
+// end. A line is "hash checksum json": one whose checksum does not hold is none, and its point is
+// computed again.
 #include "study/sweep/reports.h"
 
 #include "base/hash.h"
@@ -14,7 +15,7 @@
 #include <sys/uio.h>
 #include <unistd.h>
 
-enum { HASH_LENGTH = HASH_TEXT_SIZE - 1 };
+enum { HASH_LENGTH = HASH_TEXT_SIZE - 1, HEAD_LENGTH = 2 * (HASH_LENGTH + 1) };
 
 bool reports_open(Reports *reports, const char *path, bool anew, Error *err)
 {
@@ -24,6 +25,26 @@ bool reports_open(Reports *reports, const char *path, bool anew, Error *err)
     *reports = (Reports){.open = true, .file = file};
 cleanup:
     return error_is_clean(err);
+}
+
+// "hash checksum ", without a zero at its end.
+static void write_head(const char *hash, const char *json, size_t size, char head[HEAD_LENGTH + 1])
+{
+    char checksum[HASH_TEXT_SIZE];
+    Hash sum = hash_start();
+    hash_bytes(&sum, hash, HASH_LENGTH);
+    hash_bytes(&sum, json, size);
+    hash_write(&sum, checksum);
+    snprintf(head, HEAD_LENGTH + 1, "%.32s %s ", hash, checksum);
+}
+
+// length: without the end of the line.
+static bool is_report(const char *line, int64_t length)
+{
+    char head[HEAD_LENGTH + 1];
+    if (length <= HEAD_LENGTH) return false;
+    write_head(line, line + HEAD_LENGTH, (size_t)(length - HEAD_LENGTH), head);
+    return memcmp(line, head, HEAD_LENGTH) == 0;
 }
 
 bool reports_list(Reports *reports, ReportFound found, void *context, Error *err)
@@ -36,10 +57,10 @@ bool reports_list(Reports *reports, ReportFound found, void *context, Error *err
     rewind(file);
     for (ssize_t length; (length = getline(&line, &room, file)) > 0; reports->end += length) {
         if (line[length - 1] != '\n') break;
-        bool is_one = length > HASH_LENGTH + 2 && line[HASH_LENGTH] == ' ';
-        ReportPlace place = {reports->end + HASH_LENGTH + 1, (int32_t)length - HASH_LENGTH - 2};
+        ReportPlace place = {reports->end + HEAD_LENGTH, (int32_t)length - HEAD_LENGTH - 1};
+        if (!is_report(line, length - 1)) continue;
         line[HASH_LENGTH] = 0;
-        if (is_one) found(context, line, place);
+        found(context, line, place);
     }
     if (ftruncate(reports->file, reports->end) != 0)
         FAIL(err, ERROR_FILE, "cannot cut off the reports: %s", strerror(errno));
@@ -56,16 +77,18 @@ bool reports_add(Reports *reports, const char *hash, const char *json, ReportPla
                  Error *err)
 {
     size_t size = strlen(json);
-    struct iovec parts[] = {{(void *)hash, HASH_LENGTH}, {" ", 1}, {(void *)json, size}, {"\n", 1}};
-    ssize_t length = (ssize_t)(HASH_LENGTH + size + 2), written;
-    while ((written = writev(reports->file, parts, 4)) < 0 && errno == EINTR) continue;
+    char head[HEAD_LENGTH + 1];
+    struct iovec parts[] = {{head, HEAD_LENGTH}, {(void *)json, size}, {"\n", 1}};
+    ssize_t length = (ssize_t)(HEAD_LENGTH + size + 1), written;
+    write_head(hash, json, size, head);
+    while ((written = writev(reports->file, parts, 3)) < 0 && errno == EINTR) continue;
     if (written != length) {
         int cause = written < 0 ? errno : ENOSPC;
         bool cut = written <= 0 || ftruncate(reports->file, reports->end) == 0;
         FAIL(err, ERROR_FILE, "cannot write the reports of points: %s%s", strerror(cause),
              cut ? "" : ", and half a line stays");
     }
-    *place = (ReportPlace){reports->end + HASH_LENGTH + 1, (int32_t)size};
+    *place = (ReportPlace){reports->end + HEAD_LENGTH, (int32_t)size};
     reports->end += length;
 cleanup:
     return error_is_clean(err);

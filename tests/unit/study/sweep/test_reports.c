@@ -48,6 +48,17 @@ static void assert_report(const Reports *reports, ReportPlace place, const char 
     memory_free(json);
 }
 
+// Its lowest bit.
+static void change_byte(const char *path, int64_t at)
+{
+    FILE *file = fopen(path, "r+");
+    assert_int_equal(fseek(file, at, SEEK_SET), 0);
+    int byte = fgetc(file);
+    assert_int_equal(fseek(file, at, SEEK_SET), 0);
+    fputc(byte ^ 1, file);
+    fclose(file);
+}
+
 static void test_lines(void **state)
 {
     (void)state;
@@ -82,6 +93,12 @@ static void test_lines(void **state)
     open_here(place, false, &reports, &found);
     assert_int_equal(found.count, 3);
     assert_int_equal(found.place[2].at, first.at);
+
+    change_byte(place_path(place, "reports"), found.place[0].at + 6);   // {"x": 1} becomes {"x": 0}
+    reports_close(&reports);
+    open_here(place, false, &reports, &found);
+    assert_int_equal(found.count, 2);
+    assert_string_equal(found.hash[0], b);
 
     assert_null(reports_read(&reports, (ReportPlace){first.at + 4, first.size}, &err));
     assert_int_equal(err.code, ERROR_FILE);
