@@ -14,8 +14,9 @@ typedef struct SceneProfile {
 } SceneProfile;
 
 // Two numbers a line, with a comma, a semicolon, a tab or blanks between them; empty lines and
-// those that begin with # are passed over. The first line may name the columns, in an SI scene with
-// units: `x [mm], gap [um]`. ERROR_INPUT with file and line.
+// those that begin with # are passed over. Before the first point a line, also one behind #, may
+// name the columns, in an SI scene with units: `x [mm], gap [um]`, `x/mm, gap/um`, `x_mm, gap_um`,
+// `mm, um`. ERROR_INPUT with file, line and column: also for names that are none of these.
 bool scene_profile_read(const Scene *scene, SceneProfile *profile, Error *err);
 void scene_profile_destroy(SceneProfile *profile);   // zeroed is fine
 
