@@ -20,12 +20,12 @@ static const double ZOOM_LEADER = 0.5;   // points: width of the line from its n
 static const char ZOOM_NAME[] = "enlarged in contact-density";
 
 // The critical length of the quasi-static precursor, as the paper's figure has it: a dashed line.
-static void critical_length_draw(const Page *page, const MapPage *map, double length)
+static void critical_length_draw(const Page *page, const MapPage *map, double x)
 {
     const Axes *axes = &map->axes;
     Stroke stroke = {.color = INK, .width = 0.6 * page->point, .dash = 3 * page->point};
     stroke.space = 2 * page->point;
-    Point from = axes_place(axes, axes->x.low, length), to = axes_place(axes, axes->x.high, length);
+    Point from = axes_place(axes, axes->x.low, x), to = axes_place(axes, axes->x.high, x);
     TextStyle style = {.size = NUMBER_SIZE * page->point, .color = INK, .up = 0.5};
     shape_segment(page->canvas, &stroke, from, to);
     text_draw(page->text, &style, (Point){to.x + 1.6 * page->point, to.y}, "~{l}_{c}");
@@ -71,7 +71,7 @@ bool figure_slip_map(const Page *page, ResultView *view, Error *err)
     slip_scale_levels(&map.bar, V, &map.grid);
     map_page_draw_field(page, view, &map);
     if (zoom.found) zoom_draw(page, &zoom, &map.axes);
-    if (isfinite(length)) critical_length_draw(page, &map, length);
+    if (isfinite(length)) critical_length_draw(page, &map, figure_trailing_end(view) + length);
     map_page_draw_frame(page, view, &map);
 cleanup:
     map_page_destroy(&map);

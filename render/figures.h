@@ -38,4 +38,8 @@ bool figure_draw(const char *name, ResultView *view, const PictureStyle *style, 
 // An axis of lengths from low to high: "~{U} / ~{L}_{0}", or in SI "~{U} (mm)".
 Axis figure_length_axis(const ResultView *view, const char *symbol, double low, double high);
 
+double figure_trailing_end(const ResultView *view);   // x, length
+// The block where its length is known, all contact nodes in any case.
+void figure_x_extent(const ResultView *view, double *low, double *high);
+
 #endif

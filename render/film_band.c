@@ -2,6 +2,7 @@
 #include "render/film_band.h"
 
 #include "base/memory.h"
+#include "render/figures.h"
 #include "render/slip_scale.h"
 
 #include <math.h>
@@ -58,10 +59,8 @@ static void lay_out(const Page *page, const Box *cell, FilmBand *band)
     const ResultView *view = band->view;
     MapPage *map = &band->map;
     Axes *axes = &map->axes;
-    double low = fmin(0, view->x[0]), high = view->x[view->nodes - 1];
-    double length = view->number[NUMBER_LENGTH];
-    if (isfinite(length) && length > high) high = length;
-    if (!(high > low)) high = low + 1;
+    double low = 0, high = 0;
+    figure_x_extent(view, &low, &high);
     axes->x = (Axis){.low = 0, .factor = 1};
     axes->x.high = (double)(band->clock->frames - 1) / band->clock->rate;
     axes->y = figure_length_axis(view, "x", low, high);

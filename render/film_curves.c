@@ -122,10 +122,8 @@ void film_profile_place(const Page *page, const Box *cell, FilmProfile *profile)
 {
     const ResultView *view = profile->view;
     Axes *axes = &profile->axes;
-    double low = fmin(0, view->x[0]), high = view->x[view->nodes - 1];
-    double length = view->number[NUMBER_LENGTH];
-    if (isfinite(length) && length > high) high = length;
-    if (!(high > low)) high = low + 1;
+    double low = 0, high = 0;
+    figure_x_extent(view, &low, &high);
     axes->x = figure_length_axis(view, "x", low, high);
     axes->y = (Axis){.low = pow(10, profile->bar.low),
                      .high = pow(10, profile->bar.high),

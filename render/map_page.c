@@ -27,13 +27,19 @@ Axis figure_length_axis(const ResultView *view, const char *symbol, double low, 
     return axis;
 }
 
-// The block where its length is known, all contact nodes in any case.
-static void extent_of_x(const ResultView *view, double *low, double *high)
+// 0 in results that do not say it, which are older.
+double figure_trailing_end(const ResultView *view)
 {
-    double first = view->x[0], last = view->x[view->nodes - 1];
-    double length = view->number[NUMBER_LENGTH];
-    *low = fmin(0, first);
-    *high = isfinite(length) && length > 0 ? fmax(length, last) : last;
+    double x = view->number[NUMBER_TRAILING];
+    return isfinite(x) ? x : 0;
+}
+
+void figure_x_extent(const ResultView *view, double *low, double *high)
+{
+    double begin = figure_trailing_end(view), length = view->number[NUMBER_LENGTH];
+    double end = isfinite(length) && length > 0 ? begin + length : begin;
+    *low = fmin(begin, view->x[0]);
+    *high = fmax(end, view->x[view->nodes - 1]);
     if (!(*high > *low)) *high = *low + 1;   // one node at 0
 }
 
@@ -43,7 +49,7 @@ void map_page_layout(const Page *page, const ResultView *view, double U_low, dou
     double x_low = 0, x_high = 0, point = page->point;
     uint8_t colors[3 * MAP_SIZE];
     Axes *axes = &map->axes;
-    extent_of_x(view, &x_low, &x_high);
+    figure_x_extent(view, &x_low, &x_high);
     axes->x = figure_length_axis(view, "U", U_low, U_high);
     axes->y = figure_length_axis(view, "x", x_low, x_high);
     axes->number_size = NUMBER_SIZE;

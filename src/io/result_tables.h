@@ -75,6 +75,7 @@ typedef enum ResultColumns {
 // X(symbol, name, unit, description)
 #define RESULT_NUMBERS(X)                                                                          \
     X(NUMBER_LENGTH, "length", "length", "L, extent of the block along x")                         \
+    X(NUMBER_TRAILING, "trailing_end", "length", "x at which the block begins")                    \
     X(NUMBER_PRESSURE, "pressure", "stress", "P_ext on the top")                                   \
     X(NUMBER_LOAD, "normal_force", "force/width", "F_N, the applied load")                         \
     X(NUMBER_ROD_VELOCITY, "rod_velocity", "velocity", "V")                                        \

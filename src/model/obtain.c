@@ -380,6 +380,7 @@ static void set_scales(Model *model)
     const Material *material = &model->materials.mean;
     double length = model->length;
     model->scales.length = length;
+    model->scales.trailing = model->middle - 0.5 * length;
     model->scales.time = length / material_speeds(material).longitudinal +
                          materials_viscous_time(&model->materials);
     model->scales.slip_velocity = scene->rod.velocity > 0 ? scene->rod.velocity

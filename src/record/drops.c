@@ -73,7 +73,7 @@ static void rise(Drop *rising, const Observation *seen)
 // Across gaps the place of the front is no length of slip.
 static double front_of_slip(const Observation *seen)
 {
-    return seen->interface->pad_count == 1 ? seen->front : NAN;
+    return seen->interface->pad_count == 1 ? seen->front - seen->trailing : NAN;
 }
 
 // The largest mu is that before the force falls: what it does after that, while the event goes on,
@@ -118,7 +118,7 @@ static bool add_drop(Drops *drops, const Observation *seen, bool bulk, Error *er
     rising->event = drops->events->count - 1;
     const Event *event = &drops->events->list[rising->event];
     bool divided = seen->interface->pad_count > 1;
-    rising->critical_length = divided ? event->slip_length : event->front_start;
+    rising->critical_length = divided ? event->slip_length : event->front_start - seen->trailing;
     rising->pads = count_slid(drops->events, seen->interface);
     rising->bulk = bulk;
     rising->load = bulk || has_fallen(drops);

@@ -63,6 +63,7 @@ Observation observe(const StepControl *control, const ObservationScales *scales)
                         .step_size = control->counters.accepted > 0 ? control->last_step : 0,
                         .rod_force = rod_force(interface, state->reaction),
                         .front = slip_front(interface, state),
+                        .trailing = scales->trailing,
                         .certified = control->certified,
                         .grows = control->grows};
     if (scheme->rod->stiffness == 0) seen.rod_way = seen.U;

@@ -19,6 +19,7 @@ typedef struct Observation {
     double normal_force;   // resultant of the contact pressure, force/width
     double mu;   // F_T / F_N, F_N the applied load
     double front;   // x to which slip reaches without a gap from the trailing edge
+    double trailing;   // x of the block's trailing end: l is front - trailing
     double max_slip_rate;   // velocity
     bool certified;
     bool grows;   // slip runs away, as step_control saw it
@@ -37,6 +38,7 @@ typedef struct Observation {
 typedef struct ObservationScales {
     double load;   // F_N, force/width
     double length;   // L, length
+    double trailing;   // x of the block's trailing end, length
     double time;   // wave crossing plus viscous time, time
     double slip_velocity;   // velocity
 } ObservationScales;

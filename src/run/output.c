@@ -36,6 +36,7 @@ static bool open_history(Simulation *simulation, Error *err)
         .goes_on = simulation->goes_on,
         .rod_on_spring = scene->rod.stiffness > 0 && scene->rod.kind != ROD_NONE,
         .numbers = {[NUMBER_LENGTH] = simulation->model.length,
+                    [NUMBER_TRAILING] = simulation->model.scales.trailing,
                     [NUMBER_PRESSURE] = scene->load.pressure,
                     [NUMBER_LOAD] = simulation->model.scales.load,
                     [NUMBER_ROD_VELOCITY] = scene->rod.velocity,

@@ -30,7 +30,7 @@ StepView step_view(const Observation *seen, const Events *events, const ContactA
                       .rod_way = seen->rod_way,
                       .mu = seen->mu,
                       .step_size = seen->step_size,
-                      .front = seen->front,
+                      .front = seen->front - seen->trailing,
                       .max_slip_rate = seen->max_slip_rate,
                       .fraction = fmin(seen->t / t_end, 1),
                       .certified = seen->certified,

@@ -127,7 +127,8 @@ static bool fill_arrays(ArrayFile *file, const StabilityPath *path, Error *err)
     ArraySeries modes = {"modes/slip", ARRAY_FLOAT32, 2 * nodes, "1",
                          "slip of the rightmost mode at each point: real part at the contact "
                          "nodes, then imaginary part; largest modulus 1"};
-    ArraySeries front = {"points/front", ARRAY_FLOAT64, 1, "length", "l, position of the front"};
+    ArraySeries front = {"points/front", ARRAY_FLOAT64, 1, "length",
+                         "l, how far the front is from the trailing end"};
     ArraySeries rate = {"points/rate", ARRAY_FLOAT64, 2, "1/time",
                         "rightmost lambda of exp(lambda t), real and imaginary part"};
     TRY(add_series(file, &x, interface->x, nodes, err));

@@ -27,8 +27,10 @@ static bool is_next(const StabilityPath *path, int32_t k)
     const StabilityPoint *point = &path->points[k];
     const Interface *interface = &path->model->interface;
     int32_t passed = 0;
-    for (int32_t i = 0; i < interface->contact_count; i++)
-        passed += interface->x[i] > point[-1].front && interface->x[i] <= point->front;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        double l = interface->x[i] - path->model->scales.trailing;
+        passed += l > point[-1].front && l <= point->front;
+    }
     return point->slipping == point[-1].slipping + 1 && passed == 1;
 }
 

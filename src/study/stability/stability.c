@@ -188,7 +188,7 @@ static bool add_point(StabilityPath *path, const Observation *seen, Error *err)
     double started = clock_seconds();
     TRY(growth_rates(path->growth, &path->last, &rates, err));
     *point =
-        (StabilityPoint){.front = seen->front,
+        (StabilityPoint){.front = seen->front - seen->trailing,
                          .slipping = count_slipping(&path->last),
                          .U = path->U_start + seen->U,
                          .mu = seen->mu,
