@@ -95,3 +95,18 @@ bool text_ends_with(const char *text, const char *ending)
     size_t length = strlen(text), size = strlen(ending);
     return length >= size && strcmp(text + length - size, ending) == 0;
 }
+
+int32_t text_find_unshown(const char *text, uint32_t *code)
+{
+    for (int32_t at = 0, length; text[at]; at += length) {
+        const unsigned char *byte = (const unsigned char *)text + at;
+        length = text_utf8_length(text + at);
+        *code = length < 2 ? *byte : *byte & (0xFFU >> (length + 1));
+        for (int32_t k = 1; k < length; k++) *code = *code << 6 | (byte[k] & 0x3FU);
+        bool control = (*code < 0x20 && !strchr("\t\n\r", (int)*code)) ||
+                       (*code >= 0x7F && *code < 0xA0);
+        bool none = (*code >= 0xFDD0 && *code <= 0xFDEF) || (*code & 0xFFFE) == 0xFFFE;
+        if (length == 0 || control || none) return at;
+    }
+    return -1;
+}

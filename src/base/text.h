@@ -25,4 +25,9 @@ int32_t text_number(const char *text, double *value);
 // no overlong forms, no surrogates, nothing past U+10FFFF). The zero byte itself is a character.
 int32_t text_utf8_length(const char *text);
 
+// The place of the first character that no page (XML), picture or terminal can show: a control
+// character but a tab and the ends of lines, or one of Unicode's that are none (U+FFFE); -1: there
+// is none. *code: its number; of bytes that are no UTF-8 the first.
+int32_t text_find_unshown(const char *text, uint32_t *code);
+
 #endif

@@ -2,6 +2,8 @@
 // The three answers first, with what bounds each. Only files that exist are named.
 #include "cli/closing.h"
 
+#include "cli/say.h"
+
 #include <dirent.h>
 #include <math.h>
 #include <stdio.h>
@@ -12,8 +14,8 @@
 // "0.3280 +- 0.0002", without an error where none is known.
 static void print_estimate(const char *name, double value, double error)
 {
-    printf("  %-15s %.4f", name, value);
-    if (!isnan(error)) printf(" +- %.2g", error);
+    say("  %-15s %.4f", name, value);
+    if (!isnan(error)) say(" +- %.2g", error);
 }
 
 // Of a bar: mesh, branches, drops.
@@ -22,42 +24,41 @@ static void print_parts(double error, const double parts[3])
     static const char *const names[] = {"mesh", "branches", "drops"};
     const char *separator = " (";
     if (isnan(error)) {
-        printf(" (its error is not known)");
+        say(" (its error is not known)");
         return;
     }
     for (int32_t k = 0; k < 3; k++) {
         if (isnan(parts[k])) continue;
-        printf("%s%s %.2g", separator, names[k], parts[k]);
+        say("%s%s %.2g", separator, names[k], parts[k]);
         separator = ", ";
     }
-    if (*separator == ',') printf(")");
+    if (*separator == ',') say(")");
 }
 
 // The macroscopic static friction coefficient, from how many peaks, and whether they repeat.
 static void print_mu_M(const RunSummary *summary)
 {
     if (isnan(summary->mu_M)) {
-        printf("  mu_M            none: %s\n",
-               summary->peaks > 0 ? "after the start only parts of the block slid"
-                                  : "the block as a whole did not slide in this run");
+        say("  mu_M            none: %s\n", summary->peaks > 0
+                                                ? "after the start only parts of the block slid"
+                                                : "the block as a whole did not slide in this run");
         return;
     }
     print_estimate("mu_M", summary->mu_M, summary->mu_M_error);
     if (summary->bar_runs > 0) {
         print_parts(summary->mu_M_error, summary->mu_M_parts);
-        printf(": static friction\n");
+        say(": static friction\n");
         return;
     }
-    printf(": static friction, mean of the last %d of %d peaks, each before the whole block "
-           "slid\n",
-           summary->peaks_counted, summary->peaks);
+    say(": static friction, mean of the last %d of %d peaks, each before the whole block "
+        "slid\n",
+        summary->peaks_counted, summary->peaks);
     if (isnan(summary->mu_M_spread)) return;
-    printf("                  they differ by at most %.4f", summary->mu_M_spread);
-    if (summary->period > 1) printf(" and repeat after %d slidings", summary->period);
-    printf("%s\n", summary->period > 0 ? "" : "; not periodic yet");
+    say("                  they differ by at most %.4f", summary->mu_M_spread);
+    if (summary->period > 1) say(" and repeat after %d slidings", summary->period);
+    say("%s\n", summary->period > 0 ? "" : "; not periodic yet");
     if (!isnan(summary->mu_M_error))
-        printf(
-            "                  +- is that of %d peaks alone; the mesh's error is not known, often "
+        say("                  +- is that of %d peaks alone; the mesh's error is not known, often "
             "0.5 to 3 %%\n"
             "                  (--to 1%% finds it)\n",
             summary->peaks_counted);
@@ -67,32 +68,32 @@ static void print_mu_M(const RunSummary *summary)
 static void print_mu_hold(const RunSummary *summary)
 {
     if (isnan(summary->mu_hold)) {
-        printf("  mu_hold         none: the load did not drop in this run\n");
+        say("  mu_hold         none: the load did not drop in this run\n");
         return;
     }
     print_estimate("mu_hold", summary->mu_hold, summary->mu_hold_error);
     if (summary->bar_runs > 0) print_parts(summary->mu_hold_error, summary->mu_hold_parts);
-    printf("%s: what the contact holds, the %s of %d load ratios at which the load dropped\n",
-           summary->drops_enough ? "" : " so far",
-           summary->drop_period > 0 ? "lowest" : "lowest tenth", summary->drops);
+    say("%s: what the contact holds, the %s of %d load ratios at which the load dropped\n",
+        summary->drops_enough ? "" : " so far",
+        summary->drop_period > 0 ? "lowest" : "lowest tenth", summary->drops);
     if (summary->drop_period > 1)
-        printf("                  which repeat after %d\n", summary->drop_period);
+        say("                  which repeat after %d\n", summary->drop_period);
     else if (summary->drop_period == 0 && summary->drops_enough)
-        printf("                  which do not repeat\n");
+        say("                  which do not repeat\n");
     else if (!summary->drops_enough)
-        printf("                  too few to say: give a later time.until, until they repeat, or "
-               "until 30 have\n"
-               "                  a mean known to 2 %%\n");
+        say("                  too few to say: give a later time.until, until they repeat, or "
+            "until 30 have\n"
+            "                  a mean known to 2 %%\n");
 }
 
 // Cells over which slow slip turned fast; on pads also where, and over which length.
 static void print_resolution(const RunSummary *summary)
 {
     if (isnan(summary->slip_cells)) return;
-    printf("  resolution      %.3g cell%s of the contact slipped where slow slip turned fast",
-           summary->slip_cells, summary->slip_cells == 1 ? "" : "s");
-    if (*summary->slip_pad) printf(", on %s over %.3g", summary->slip_pad, summary->slip_length);
-    printf("\n");
+    say("  resolution      %.3g cell%s of the contact slipped where slow slip turned fast",
+        summary->slip_cells, summary->slip_cells == 1 ? "" : "s");
+    if (*summary->slip_pad) say(", on %s over %.3g", summary->slip_pad, summary->slip_length);
+    say("\n");
 }
 
 // What stands behind a bar that was asked for.
@@ -102,15 +103,15 @@ static void print_bar(const RunSummary *summary)
     double part = slides ? summary->mu_M_error / summary->mu_M
                          : summary->mu_hold_error / summary->mu_hold;
     if (isnan(part))
-        printf("  error bar       not known, %.1f %% asked for: %s\n", 100 * summary->bar_wanted,
-               summary->bar_ended);
+        say("  error bar       not known, %.1f %% asked for: %s\n", 100 * summary->bar_wanted,
+            summary->bar_ended);
     else
-        printf("  error bar       %.1f %% of %s, %.1f %% asked for: %s\n", 100 * part,
-               slides ? "mu_M" : "mu_hold", 100 * summary->bar_wanted, summary->bar_ended);
-    printf("                  from %d runs on %d mesh%s of up to %d contact nodes, at pressures "
-           "within %g %%\n",
-           summary->bar_runs, summary->bar_meshes, summary->bar_meshes == 1 ? "" : "es",
-           summary->bar_nodes, 100 * summary->bar_window);
+        say("  error bar       %.1f %% of %s, %.1f %% asked for: %s\n", 100 * part,
+            slides ? "mu_M" : "mu_hold", 100 * summary->bar_wanted, summary->bar_ended);
+    say("                  from %d runs on %d mesh%s of up to %d contact nodes, at pressures "
+        "within %g %%\n",
+        summary->bar_runs, summary->bar_meshes, summary->bar_meshes == 1 ? "" : "es",
+        summary->bar_nodes, 100 * summary->bar_window);
 }
 
 static void print_answers(const RunSummary *summary)
@@ -118,25 +119,25 @@ static void print_answers(const RunSummary *summary)
     print_mu_M(summary);
     print_mu_hold(summary);
     if (summary->bar_runs > 0) print_bar(summary);
-    printf("  mu_max          %.4f, the largest load ratio of the run\n", summary->mu_max);
-    printf("  precursors      %d quasi-static, %d bounded rapid, %d leading rapid\n",
-           summary->quasi_static, summary->bounded, summary->leading);
+    say("  mu_max          %.4f, the largest load ratio of the run\n", summary->mu_max);
+    say("  precursors      %d quasi-static, %d bounded rapid, %d leading rapid\n",
+        summary->quasi_static, summary->bounded, summary->leading);
     if (isnan(summary->critical_length))
-        printf("  critical length not reached: the block as a whole did not slide\n");
+        say("  critical length not reached: the block as a whole did not slide\n");
     else
-        printf("  critical length %.3f of the block's length\n", summary->critical_length);
+        say("  critical length %.3f of the block's length\n", summary->critical_length);
     print_resolution(summary);
-    printf("  largest errors  energy %.1e, moment %.1e, contact %.1e (relative)\n",
-           summary->energy_error, summary->moment_error, summary->complementarity_error);
+    say("  largest errors  energy %.1e, moment %.1e, contact %.1e (relative)\n",
+        summary->energy_error, summary->moment_error, summary->complementarity_error);
     const RunCounters *counters = &summary->counters;
-    printf("  steps           %lld accepted, %lld repeated (%lld: error too large, %lld: slip "
-           "could have grown, %lld: no solution)\n",
-           (long long)counters->accepted,
-           (long long)counters->rejected + (long long)counters->unsolved_retries,
-           (long long)counters->rejected - (long long)counters->rejected_uncertified,
-           (long long)counters->rejected_uncertified, (long long)counters->unsolved_retries);
-    printf("  time taken      %.1f s (solving %.1f, output %.1f)\n", summary->seconds_total,
-           summary->seconds_solve, summary->seconds_output);
+    say("  steps           %lld accepted, %lld repeated (%lld: error too large, %lld: slip "
+        "could have grown, %lld: no solution)\n",
+        (long long)counters->accepted,
+        (long long)counters->rejected + (long long)counters->unsolved_retries,
+        (long long)counters->rejected - (long long)counters->rejected_uncertified,
+        (long long)counters->rejected_uncertified, (long long)counters->unsolved_retries);
+    say("  time taken      %.1f s (solving %.1f, output %.1f)\n", summary->seconds_total,
+        summary->seconds_solve, summary->seconds_output);
 }
 
 // A filter for scandir.
@@ -154,7 +155,7 @@ static void print_pictures(const char *folder)
     snprintf(figures, sizeof figures, "%s/figures", folder);
     int count = scandir(figures, &entries, is_picture, alphasort);
     for (int i = 0; i < count; i++) {
-        printf("  figures/%s\n", entries[i]->d_name);
+        say("  figures/%s\n", entries[i]->d_name);
         free(entries[i]);
     }
     if (count >= 0) free(entries);
@@ -165,19 +166,19 @@ static void print_file(const char *folder, const char *name, const char *sentenc
 {
     char path[AMONTONS_PATH_SIZE + 32];
     snprintf(path, sizeof path, "%s/%s", folder, name);
-    if (access(path, F_OK) == 0) printf("  %-15s %s\n", name, sentence);
+    if (access(path, F_OK) == 0) say("  %-15s %s\n", name, sentence);
 }
 
 // title may be empty. Nothing about files where the run wrote none.
 void closing_print(const char *title, const RunSummary *summary)
 {
-    printf("%s%sdone\n", title, *title ? ": " : "");
+    say("%s%sdone\n", title, *title ? ": " : "");
     print_answers(summary);
     if (!*summary->folder) return;
     char fields[80];
     snprintf(fields, sizeof fields, "%d times of the whole block; open it in ParaView",
              summary->field_files);
-    printf("Results in %s:\n", summary->folder);
+    say("Results in %s:\n", summary->folder);
     print_file(summary->folder, "run.json", "scene, answers, errors and timing in numbers");
     print_file(summary->folder, "history.h5", "time series, and the interface at every step");
     if (summary->field_files > 0) print_file(summary->folder, "fields.pvd", fields);
@@ -188,11 +189,11 @@ void closing_print(const char *title, const RunSummary *summary)
 // 100.
 void closing_print_profile(const RunSummary *summary)
 {
-    printf("%-18s %10s %6s %10s\n", "Where time went", "seconds", "%", "count");
+    say("%-18s %10s %6s %10s\n", "Where time went", "seconds", "%", "count");
     double total = summary->seconds_total > 0 ? summary->seconds_total : 1;
     for (int32_t k = 0; k < summary->phase_count; k++) {
         const RunPhase *phase = &summary->phases[k];
-        printf("  %-16s %10.4f %6.1f %10lld  %s\n", phase->name, phase->seconds,
-               100 * phase->seconds / total, (long long)phase->count, phase->note);
+        say("  %-16s %10.4f %6.1f %10lld  %s\n", phase->name, phase->seconds,
+            100 * phase->seconds / total, (long long)phase->count, phase->note);
     }
 }

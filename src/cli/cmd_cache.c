@@ -3,6 +3,7 @@
 #include "amontons_cache.h"
 #include "cli/commands.h"
 #include "cli/options.h"
+#include "cli/say.h"
 
 #include <stdio.h>
 #include <time.h>
@@ -40,17 +41,17 @@ static void keep_entry(const CacheEntry *entry, void *context)
 static void print_entries(const Shown *shown)
 {
     int64_t count = shown->count < SHOWN_MAX ? shown->count : SHOWN_MAX;
-    if (count > 0) printf("\n  last used              MB  file\n");
+    if (count > 0) say("\n  last used              MB  file\n");
     for (int64_t back = 1; back <= count; back++) {
         int k = (int)((shown->count - back) % SHOWN_MAX);
         time_t used = (time_t)shown->list[k].used;
         char when[32] = "";
         struct tm local;
         if (localtime_r(&used, &local)) strftime(when, sizeof when, "%Y-%m-%d %H:%M", &local);
-        printf("  %s %8.2f  %s\n", when, 1e-6 * (double)shown->list[k].bytes, shown->names[k]);
+        say("  %s %8.2f  %s\n", when, 1e-6 * (double)shown->list[k].bytes, shown->names[k]);
     }
     if (shown->count > count)
-        printf("  ... and %lld more, unused for longer\n", (long long)(shown->count - count));
+        say("  ... and %lld more, unused for longer\n", (long long)(shown->count - count));
 }
 
 static int measure(void)
@@ -58,9 +59,9 @@ static int measure(void)
     CacheSpeed speed;
     Error err = {0};
     if (!amontons_cache_measure(&speed, &err)) return report_error(&err);
-    printf("kept for reduction.use: auto: factors of a mesh take %.2f of the usual time, passes "
-           "through them %.2f\n",
-           speed.factor, speed.pass);
+    say("kept for reduction.use: auto: factors of a mesh take %.2f of the usual time, passes "
+        "through them %.2f\n",
+        speed.factor, speed.pass);
     return 0;
 }
 
@@ -85,12 +86,12 @@ int command_cache(int argc, char **argv)
                       : amontons_cache_list(keep_entry, &shown, &summary, &err);
     if (!done) return report_error(&err);
     if (!*summary.folder) {
-        printf("there is no cache: AMONTONS_CACHE is empty\n");
+        say("there is no cache: AMONTONS_CACHE is empty\n");
         return 0;
     }
-    printf("%s: %s%lld files, %.1f MB", summary.folder, clean ? "removed " : "",
-           (long long)summary.files, 1e-6 * (double)summary.bytes);
-    printf(clean ? "\n" : "; at most %.1f MB are kept\n", 1e-6 * (double)summary.limit);
+    say("%s: %s%lld files, %.1f MB", summary.folder, clean ? "removed " : "",
+        (long long)summary.files, 1e-6 * (double)summary.bytes);
+    say(clean ? "\n" : "; at most %.1f MB are kept\n", 1e-6 * (double)summary.limit);
     print_entries(&shown);
     return 0;
 }

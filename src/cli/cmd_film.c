@@ -3,6 +3,7 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/progress.h"
+#include "cli/say.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -80,7 +81,7 @@ static int make_film(const char *result, FilmRequest *film, bool quiet)
     bool done = amontons_film(result, film, &err);
     progress_end(&progress);
     if (!done) return report_error(&err);
-    if (!quiet) printf("film: %s\n", film->path);
+    if (!quiet) say("film: %s\n", film->path);
     return 0;
 }
 

@@ -3,8 +3,10 @@
 // what kind of file it is and writes the text.
 #include "cli/commands.h"
 #include "cli/options.h"
+#include "cli/say.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const CommandText text = {
@@ -41,8 +43,15 @@ int command_info(int argc, char **argv)
     if (trusted) trust_meshes();
     InfoOptions wanted = {
         .overrides = settings.list, .override_count = settings.count, .picture = picture};
-    bool done = strcmp(file, "keys") == 0 ? amontons_scene_reference(stdout, &err)
-                                          : amontons_info(file, &wanted, stdout, &err);
-    if (done && picture) printf("picture: %s\n", picture);
+    char *said = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&said, &size);
+    if (!out) return report_misuse("no memory to say anything");
+    bool done = strcmp(file, "keys") == 0 ? amontons_scene_reference(out, &err)
+                                          : amontons_info(file, &wanted, out, &err);
+    fclose(out);
+    say("%s", said);
+    free(said);
+    if (done && picture) say("picture: %s\n", picture);
     return done ? 0 : report_error(&err);
 }

@@ -4,6 +4,7 @@
 #include "amontons_model1d.h"
 #include "cli/commands.h"
 #include "cli/point_table.h"
+#include "cli/say.h"
 #include "cli/scene_words.h"
 
 #include <stdio.h>
@@ -62,18 +63,18 @@ static void show_point(const Model1dPoint *point, void *table)
     if (!point_table_line(table, "         l            U        mu   mu line  Re omega_0  "
                                  "Im omega_0   Re lambda   Im lambda  growing    l seen   mu seen"))
         return;
-    printf("%10.5g %12.6g %9.5f %9.5f %11.4g %11.4g %11.4g %11.4g %8d", point->front, point->U,
-           point->mu, point->mu_line, point->omega_re, point->omega_im, point->rate_re,
-           point->rate_im, point->growing);
+    say("%10.5g %12.6g %9.5f %9.5f %11.4g %11.4g %11.4g %11.4g %8d", point->front, point->U,
+        point->mu, point->mu_line, point->omega_re, point->omega_im, point->rate_re, point->rate_im,
+        point->growing);
     point_table_cell(point->front_seen, 9, 5);
     point_table_cell(point->mu_seen, 9, 5);
-    printf("\n");
+    say("\n");
 }
 
 // As in the paper, and with the terms that it neglects.
 static void print_theory(const Model1dSummary *summary)
 {
-    printf("\nTheory, as in the paper (off-diagonal terms neglected)\n");
+    say("\nTheory, as in the paper (off-diagonal terms neglected)\n");
     point_table_answer("l_sc/L", summary->l_sc, "Re omega_0 > 0: oscillations grow");
     point_table_answer("l_c/L", summary->l_c,
                        summary->l_c > 1
@@ -81,7 +82,7 @@ static void print_theory(const Model1dSummary *summary)
                            : "omega_0 real and > 0: slow slip turns into sliding");
     point_table_answer("l_c/L, l << L", summary->l_c_small, "the law (L P)^(-1/3)");
     point_table_answer("mu_M", summary->mu_c, "mu_K + (mu_S - mu_K) l_c/L");
-    printf("Theory, all terms kept\n");
+    say("Theory, all terms kept\n");
     point_table_answer("l_sc/L", summary->l_sc_full, "oscillations grow");
     point_table_answer("l_c/L", summary->l_c_full,
                        "a disturbance grows without oscillating, however slow the rod");
@@ -95,7 +96,7 @@ static void print_theory(const Model1dSummary *summary)
 // sliding left, and differ by that.
 static void print_steps(const Model1dSummary *summary)
 {
-    printf("Simulation\n");
+    say("Simulation\n");
     point_table_answer("first l_sc/L", summary->first_l_sc, "the certificate is lost");
     point_table_answer("first l_c/L", summary->first_l_c,
                        "sliding begins; start from tau = mu_K p, as in theory");
@@ -105,24 +106,24 @@ static void print_steps(const Model1dSummary *summary)
     point_table_answer("periodic mu_M", summary->mu_M, "");
     point_table_answer("spread of mu_M", summary->mu_M_spread,
                        "largest less smallest of the peaks that count");
-    printf("  %-22s %d, of which %d count, period %d; %d bounded rapid events\n", "peaks",
-           summary->peaks, summary->peaks_counted, summary->period, summary->bounded);
-    printf("  %-22s %-8.1e before the first rapid event\n", "mu against theory",
-           summary->quasi_static_error);
-    printf("  %-22s %-8.1e complementarity %.1e\n", "energy ledger", summary->energy_error,
-           summary->contact_error);
-    printf("  %-22s %lld accepted, %lld rejected\n", "steps", (long long)summary->accepted,
-           (long long)summary->rejected);
+    say("  %-22s %d, of which %d count, period %d; %d bounded rapid events\n", "peaks",
+        summary->peaks, summary->peaks_counted, summary->period, summary->bounded);
+    say("  %-22s %-8.1e before the first rapid event\n", "mu against theory",
+        summary->quasi_static_error);
+    say("  %-22s %-8.1e complementarity %.1e\n", "energy ledger", summary->energy_error,
+        summary->contact_error);
+    say("  %-22s %lld accepted, %lld rejected\n", "steps", (long long)summary->accepted,
+        (long long)summary->rejected);
 }
 
 static void print_answers(const Model1dSummary *summary)
 {
     print_theory(summary);
     if (summary->simulated) print_steps(summary);
-    printf("  %-22s %.1f s\n", "time taken", summary->seconds);
+    say("  %-22s %.1f s\n", "time taken", summary->seconds);
     if (*summary->folder)
-        printf("Results in %s: model1d.json, model1d.h5%s\n", summary->folder,
-               summary->simulated ? " and the steps in history.h5" : "");
+        say("Results in %s: model1d.json, model1d.h5%s\n", summary->folder,
+            summary->simulated ? " and the steps in history.h5" : "");
 }
 
 // The table is printed while it is made, answers when all is known.

@@ -3,6 +3,7 @@
 // the name tells which.
 #include "cli/commands.h"
 #include "cli/options.h"
+#include "cli/say.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -47,7 +48,7 @@ static int draw_plot(const char *plot, const PictureStyle *style)
     if (stem + 5 > (int)sizeof picture) return report_misuse("the path of the plot is too long");
     snprintf(picture, sizeof picture, "%.*s.%.3s", stem, plot, style->format);
     if (!amontons_render_plot_file(plot, picture, style, &err)) return report_error(&err);
-    printf("picture drawn: %s\n", picture);
+    say("picture drawn: %s\n", picture);
     return 0;
 }
 
@@ -62,7 +63,7 @@ static int draw_sweep(const char *folder, const char *plot, const PictureStyle *
 {
     Error err = {0};
     if (!amontons_render_sweep(folder, plot, style, &err)) return report_error(&err);
-    printf("pictures drawn: %s/figures\n", folder);
+    say("pictures drawn: %s/figures\n", folder);
     return 0;
 }
 
@@ -119,6 +120,6 @@ int command_render(int argc, char **argv)
     request.figures = figures.list;
     request.figure_count = figures.count;
     if (!amontons_render_result(from, &request, &err)) return report_error(&err);
-    printf("pictures drawn: %s/figures\n", from);
+    say("pictures drawn: %s/figures\n", from);
     return 0;
 }

@@ -2,6 +2,7 @@
 // `amontons report`: one page about results, to be opened in a browser or sent to somebody.
 #include "cli/commands.h"
 #include "cli/options.h"
+#include "cli/say.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -55,6 +56,6 @@ int command_report(int argc, char **argv)
     if (!file) default_file(&results, path, sizeof path);
     if (!amontons_report(results.list, results.count, file ? file : path, &err))
         return report_error(&err);
-    printf("report written: %s\n", file ? file : path);
+    say("report written: %s\n", file ? file : path);
     return 0;
 }

@@ -4,6 +4,7 @@
 #include "cli/closing.h"
 #include "cli/commands.h"
 #include "cli/progress.h"
+#include "cli/say.h"
 #include "cli/scene_words.h"
 
 #include <math.h>
@@ -48,9 +49,9 @@ static void show_level(const LevelView *view, void *context)
     progress_format_left(view->seconds_next, left, sizeof left);
     if (!isnan(view->seconds_next))
         snprintf(next, sizeof next, "; a finer one would take about %s", left);
-    fprintf(stderr, "mesh %d: %d contact nodes, %d run%s in %.1f s; so far %s = %.4f%s%s\n",
-            view->level, view->contact_nodes, view->runs, view->runs == 1 ? "" : "s", view->seconds,
-            view->answer, view->value, bar, next);
+    tell("mesh %d: %d contact nodes, %d run%s in %.1f s; so far %s = %.4f%s%s\n", view->level,
+         view->contact_nodes, view->runs, view->runs == 1 ? "" : "s", view->seconds, view->answer,
+         view->value, bar, next);
 }
 
 // "5min", "300s" or "300" as seconds; NaN: it is neither.
@@ -158,18 +159,18 @@ static int show_forecast(const Scene *scene)
     RunForecast cost;
     if (!amontons_forecast(scene, &cost, &err)) return report_error(&err);
     double total = cost.mesh + cost.reduction + cost.steps;
-    printf("%d elements, %d contact nodes, %d unknowns\n", cost.elements, cost.contact_nodes,
-           cost.unknowns);
-    printf("about %.2g s of processor time, without pictures and fields:\n", total);
-    printf("  %-10s %9.2f s\n", "mesh", cost.mesh);
-    printf("  %-10s %9.2f s%s\n", "reduction", cost.reduction,
-           cost.held      ? "   in the cache"
-           : cost.reduced ? ""
-                          : "   none: stepped on the full mesh");
-    printf("  %-10s %9.2f s   some %.0f stages, if nothing ends it before time.until\n", "steps",
-           cost.steps, cost.stages);
-    printf("%s it would be about %.2g s\n", cost.reduced ? "On the full mesh" : "Reduced",
-           cost.mesh + cost.otherwise);
+    say("%d elements, %d contact nodes, %d unknowns\n", cost.elements, cost.contact_nodes,
+        cost.unknowns);
+    say("about %.2g s of processor time, without pictures and fields:\n", total);
+    say("  %-10s %9.2f s\n", "mesh", cost.mesh);
+    say("  %-10s %9.2f s%s\n", "reduction", cost.reduction,
+        cost.held      ? "   in the cache"
+        : cost.reduced ? ""
+                       : "   none: stepped on the full mesh");
+    say("  %-10s %9.2f s   some %.0f stages, if nothing ends it before time.until\n", "steps",
+        cost.steps, cost.stages);
+    say("%s it would be about %.2g s\n", cost.reduced ? "On the full mesh" : "Reduced",
+        cost.mesh + cost.otherwise);
     return 0;
 }
 

@@ -4,6 +4,7 @@
 #include "amontons_stability.h"
 #include "cli/commands.h"
 #include "cli/point_table.h"
+#include "cli/say.h"
 #include "cli/scene_words.h"
 
 #include <math.h>
@@ -74,10 +75,10 @@ static void show_point(const StabilityPoint *point, void *table)
     if (!point_table_line(table, "         l  slipping            U        mu    Re lambda    "
                                  "Im lambda    real rate      load  certified"))
         return;
-    printf("%10.5g %9d %12.6g %9.5f %12.4g %12.4g", point->front, point->slipping, point->U,
-           point->mu, point->rate_re, point->rate_im);
+    say("%10.5g %9d %12.6g %9.5f %12.4g %12.4g", point->front, point->slipping, point->U, point->mu,
+        point->rate_re, point->rate_im);
     point_table_cell(point->real_rate > 0 ? point->real_rate : NAN, 12, 4);
-    printf(" %9.4f  %s\n", point->load, point->certified ? "yes" : "no");
+    say(" %9.4f  %s\n", point->load, point->certified ? "yes" : "no");
     fflush(stdout);
 }
 
@@ -85,17 +86,16 @@ static void show_point(const StabilityPoint *point, void *table)
 static void print_pads(const StabilitySummary *summary)
 {
     if (summary->pad_count < 2) return;
-    printf("\n%-16s %10s %9s %9s %9s %9s %10s %10s\n", "pad, at l_c at V", "pressure", "slips",
-           "in mode", "load", "l_c alone", "drag", "stiffness");
+    say("\n%-16s %10s %9s %9s %9s %9s %10s %10s\n", "pad, at l_c at V", "pressure", "slips",
+        "in mode", "load", "l_c alone", "drag", "stiffness");
     for (int32_t p = 0; p < summary->pad_count; p++) {
         const StabilityPad *pad = &summary->pads[p];
-        printf("%-16s %10.4g %9.3f %9.3f %9.3f ", pad->name, pad->pressure,
-               pad->slipping / pad->length, pad->mode, pad->load);
+        say("%-16s %10.4g %9.3f %9.3f %9.3f ", pad->name, pad->pressure,
+            pad->slipping / pad->length, pad->mode, pad->load);
         point_table_cell(pad->l_c / pad->length, 8, 3);
-        printf(" %10.4g %10.4g\n", pad->drag, pad->stiffness);
+        say(" %10.4g %10.4g\n", pad->drag, pad->stiffness);
     }
-    printf(
-        "  slips, l_c alone: over the pad's length. load: weakening over the resistance of the pad "
+    say("  slips, l_c alone: over the pad's length. load: weakening over the resistance of the pad "
         "when all\n"
         "  of it slips and the others hold; from 1 on it is unstable alone, below 1 only with "
         "others.\n");
@@ -107,19 +107,19 @@ static void print_wrapped(const char *sentence)
     size_t column = 0;
     for (const char *word = sentence; *word;) {
         size_t length = strcspn(word, " ");
-        if (column + 1 + length > 80) column = (size_t)printf("\n   ") - 1;
-        column += (size_t)printf(" %.*s", (int)length, word);
+        if (column + 1 + length > 80) column = (size_t)say("\n   ") - 1;
+        column += (size_t)say(" %.*s", (int)length, word);
         word += length + strspn(word + length, " ");
     }
-    printf("\n");
+    say("\n");
 }
 
 // The sentences, then the numbers. `none`: the path ended before.
 static void print_answers(const StabilitySummary *summary)
 {
-    printf("\n");
+    say("\n");
     for (int32_t k = 0; k < summary->why_count; k++) print_wrapped(summary->why[k]);
-    printf("\n");
+    say("\n");
     point_table_answer("l_sc/L", summary->l_sc, "an oscillation grows");
     point_table_answer("l_sc/L (certificate)", summary->l_sc_certificate,
                        "viscosity alone no longer outweighs the weakening");
@@ -133,14 +133,14 @@ static void print_answers(const StabilitySummary *summary)
     point_table_answer("mu_M, V -> 0", summary->mu_c, "mu at l_c");
     point_table_answer("mu_M at V", summary->mu_rod,
                        "mu at l_c at V, less what slow slip at V weakens friction");
-    printf("  (the front moves from node to node, %.4f L apart)\n", summary->element);
+    say("  (the front moves from node to node, %.4f L apart)\n", summary->element);
     print_pads(summary);
-    printf("  time taken             %.1f s (before the path %.1f, path %.1f, growth rates %.1f)\n",
-           summary->seconds_before + summary->seconds_path + summary->seconds_growth,
-           summary->seconds_before, summary->seconds_path, summary->seconds_growth);
+    say("  time taken             %.1f s (before the path %.1f, path %.1f, growth rates %.1f)\n",
+        summary->seconds_before + summary->seconds_path + summary->seconds_growth,
+        summary->seconds_before, summary->seconds_path, summary->seconds_growth);
     if (*summary->folder)
-        printf("Results in %s: stability.json, and the growing modes in stability.h5\n",
-               summary->folder);
+        say("Results in %s: stability.json, and the growing modes in stability.h5\n",
+            summary->folder);
 }
 
 // With --from end one state's line is the whole answer: there is no path to sum up.

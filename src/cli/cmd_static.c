@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // `amontons static`: one equilibrium, with the sums by which a user can judge it.
 #include "cli/commands.h"
+#include "cli/say.h"
 #include "cli/scene_words.h"
 
 #include <stdio.h>
@@ -21,19 +22,19 @@ static const CommandText text = {
 // Sums, and last the balances by which to judge them. Forces are per width, in the scene's units.
 static void print_summary(const char *title, const StaticSummary *summary)
 {
-    printf("%s\n\n", *title ? title : "equilibrium");
-    printf("  contact        %d nodes: %d stick, %d slip, %d open\n", summary->contact_nodes,
-           summary->sticking, summary->slipping, summary->open);
-    printf("  on the block   F_z %.6g, F_x %.6g from the floor, moment of the pressure %.6g\n",
-           summary->normal_force, summary->shear_force, summary->pressure_moment);
+    say("%s\n\n", *title ? title : "equilibrium");
+    say("  contact        %d nodes: %d stick, %d slip, %d open\n", summary->contact_nodes,
+        summary->sticking, summary->slipping, summary->open);
+    say("  on the block   F_z %.6g, F_x %.6g from the floor, moment of the pressure %.6g\n",
+        summary->normal_force, summary->shear_force, summary->pressure_moment);
     if (summary->rod_nodes > 0)
-        printf("  rod            %.6g on %d nodes, resultant at z = %.6g\n", summary->rod_force,
-               summary->rod_nodes, summary->rod_height);
-    printf("  energy         elastic %.6g, work of the loads %.6g\n", summary->elastic_energy,
-           summary->load_work);
-    printf("  errors         equations %.1e, forces %.1e, moments %.1e, contact %.1e\n",
-           summary->residual, summary->force_balance, summary->moment_balance,
-           summary->complementarity);
+        say("  rod            %.6g on %d nodes, resultant at z = %.6g\n", summary->rod_force,
+            summary->rod_nodes, summary->rod_height);
+    say("  energy         elastic %.6g, work of the loads %.6g\n", summary->elastic_energy,
+        summary->load_work);
+    say("  errors         equations %.1e, forces %.1e, moments %.1e, contact %.1e\n",
+        summary->residual, summary->force_balance, summary->moment_balance,
+        summary->complementarity);
 }
 
 // Without -o nothing is written: the lines printed are all.
@@ -51,7 +52,7 @@ int command_static(int argc, char **argv)
     bool done = amontons_static(scene, words.folder, words.overwrite, &summary, &err);
     if (done && !words.quiet) {
         print_summary(amontons_scene_title(scene), &summary);
-        if (words.folder) printf("  results        %s\n", words.folder);
+        if (words.folder) say("  results        %s\n", words.folder);
     }
     amontons_scene_destroy(scene);
     return done ? 0 : report_error(&err);

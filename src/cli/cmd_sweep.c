@@ -4,6 +4,7 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/progress.h"
+#include "cli/say.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -137,7 +138,7 @@ static void show_point(const SweepView *view, void *context)
                  view->words, view->message);
     if (display->quiet) return;
     progress_format_left(view->seconds_left, left, sizeof left);
-    if (display->bar) fprintf(stderr, "\r\033[K");
+    if (display->bar) tell_over("", 0);
     if (isfinite(view->mu_M_error)) snprintf(error, sizeof error, " +- %.4f", view->mu_M_error);
     if (view->message)
         snprintf(what, sizeof what, "FAILED");
@@ -145,11 +146,11 @@ static void show_point(const SweepView *view, void *context)
         snprintf(what, sizeof what, "mu_M %.4f%s%s", view->mu_M, error,
                  view->warned ? "  warned" : "");
     if (!view->reused)
-        fprintf(stderr, "%*d/%d  %s  %s  %.1f s  (%s left)\n", view->points < 100 ? 2 : 4,
-                view->finished, view->points, view->words, what, view->seconds, left);
+        tell("%*d/%d  %s  %s  %.1f s  (%s left)\n", view->points < 100 ? 2 : 4, view->finished,
+             view->points, view->words, what, view->seconds, left);
     if (display->bar) {
-        fprintf(stderr, "%d of %d points, %d failed, %s left", view->finished, view->points,
-                view->failed, left);
+        tell("%d of %d points, %d failed, %s left", view->finished, view->points, view->failed,
+             left);
         fflush(stderr);
     }
 }
@@ -160,23 +161,22 @@ static int close_sweep(const SweepDisplay *display, const char *folder, const ch
 {
     char points[AMONTONS_PATH_SIZE + 8];
     if (!display->quiet) {
-        printf("%d points: %d computed in %.1f s", summary->points, summary->computed,
-               summary->seconds);
-        if (summary->refined) printf(" (%d again, to decide ranks)", summary->refined);
-        if (summary->reused) printf(", %d computed before", summary->reused);
-        if (summary->failed) printf(", %d failed", summary->failed);
+        say("%d points: %d computed in %.1f s", summary->points, summary->computed,
+            summary->seconds);
+        if (summary->refined) say(" (%d again, to decide ranks)", summary->refined);
+        if (summary->reused) say(", %d computed before", summary->reused);
+        if (summary->failed) say(", %d failed", summary->failed);
         snprintf(points, sizeof points, "%s/points", folder);
-        printf("\nTable in %s: sweep.csv and sweep.h5%s\n", folder,
-               access(points, F_OK) == 0 ? "; each point's run.json in points/" : "");
-        if (ranked) fputs(ranked, stdout);
+        say("\nTable in %s: sweep.csv and sweep.h5%s\n", folder,
+            access(points, F_OK) == 0 ? "; each point's run.json in points/" : "");
+        if (ranked) say("%s", ranked);
     }
     if (summary->failed == 0) return 0;
     fflush(stdout);
-    fprintf(stderr, "amontons: %d of %d points failed (--retry computes them again):\n",
-            summary->failed, summary->points);
-    for (int32_t k = 0; k < display->failures; k++) fprintf(stderr, "  %s\n", display->failed[k]);
-    if (summary->failed > display->failures)
-        fprintf(stderr, "  ... and more, in %s/sweep.csv\n", folder);
+    tell("amontons: %d of %d points failed (--retry computes them again):\n", summary->failed,
+         summary->points);
+    for (int32_t k = 0; k < display->failures; k++) tell("  %s\n", display->failed[k]);
+    if (summary->failed > display->failures) tell("  ... and more, in %s/sweep.csv\n", folder);
     return amontons_error_exit_status(ERROR_COMPUTE);
 }
 
@@ -209,7 +209,7 @@ int command_sweep(int argc, char **argv)
     if (!words.quiet) options.out = open_memstream(&ranked, &size);
     bool done = amontons_sweep(words.study, &options, &summary, &err);
     if (options.out) fclose(options.out);
-    if (display.bar && !display.quiet) fprintf(stderr, "\r\033[K");
+    if (display.bar && !display.quiet) tell_over("", 0);
     status = done ? close_sweep(&display, options.folder, ranked, &summary) : report_error(&err);
     free(ranked);
     return status;

@@ -2,6 +2,7 @@
 // Finds the command that the first word asks for.
 #include "cli/commands.h"
 #include "cli/options.h"
+#include "cli/say.h"
 
 #include <fcntl.h>
 #include <malloc.h>
@@ -60,24 +61,24 @@ enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
 // The exit status: 0, as help was asked for.
 static int print_help(void)
 {
-    printf("usage: amontons COMMAND [OPTION ...] [ARGUMENT ...]\n"
-           "\n"
-           "When and how an elastic block pushed by a rod starts to slide.\n"
-           "\n");
+    say("usage: amontons COMMAND [OPTION ...] [ARGUMENT ...]\n"
+        "\n"
+        "When and how an elastic block pushed by a rod starts to slide.\n"
+        "\n");
     for (int32_t k = 0; k < COMMAND_COUNT; k++)
-        printf("  %-10s %-8s %s\n", commands[k].name, commands[k].arguments, commands[k].sentence);
-    printf("\n"
-           "  amontons help COMMAND     more about a command (also: amontons COMMAND --help)\n"
-           "  amontons info keys        every key that a scene may have\n"
-           "  amontons --version        the version, and where meshes and example scenes lie\n"
-           "\n"
-           "A first simulation, in the folder that --version names, with a coarse mesh so that it "
-           "ends soon:\n"
-           "\n"
-           "  amontons run validation/paper/fig1.yaml --set mesh.set.nx=20 --set mesh.set.nz=20 "
-           "-o ~/first\n"
-           "\n"
-           "Exit status: 0 done, 1 the computation failed, 2 the input is wrong.\n");
+        say("  %-10s %-8s %s\n", commands[k].name, commands[k].arguments, commands[k].sentence);
+    say("\n"
+        "  amontons help COMMAND     more about a command (also: amontons COMMAND --help)\n"
+        "  amontons info keys        every key that a scene may have\n"
+        "  amontons --version        the version, and where meshes and example scenes lie\n"
+        "\n"
+        "A first simulation, in the folder that --version names, with a coarse mesh so that it "
+        "ends soon:\n"
+        "\n"
+        "  amontons run validation/paper/fig1.yaml --set mesh.set.nx=20 --set mesh.set.nz=20 "
+        "-o ~/first\n"
+        "\n"
+        "Exit status: 0 done, 1 the computation failed, 2 the input is wrong.\n");
     return 0;
 }
 
@@ -86,14 +87,14 @@ static int print_version(void)
 {
     const char *revision = amontons_revision();
     char folder[AMONTONS_PATH_SIZE];
-    printf("amontons %s%s%s%s\n", amontons_version(), *revision ? " (" : "", revision,
-           *revision ? ")" : "");
-    printf("built with %s\n", amontons_libraries());
+    say("amontons %s%s%s%s\n", amontons_version(), *revision ? " (" : "", revision,
+        *revision ? ")" : "");
+    say("built with %s\n", amontons_libraries());
     const char *possible, *kernels = amontons_kernels(&possible);
-    printf("computes with OpenBLAS's %s kernels", kernels);
-    if (possible) printf(", as OPENBLAS_CORETYPE asks; this processor could run %s", possible);
-    printf("\n");
-    if (amontons_data_folder(folder)) printf("meshes and example scenes: %s\n", folder);
+    say("computes with OpenBLAS's %s kernels", kernels);
+    if (possible) say(", as OPENBLAS_CORETYPE asks; this processor could run %s", possible);
+    say("\n");
+    if (amontons_data_folder(folder)) say("meshes and example scenes: %s\n", folder);
     return 0;
 }
 
@@ -201,6 +202,6 @@ int main(int argc, char **argv)
     int status = run_command(argc, argv);
     bool written = fflush(stdout) == 0 && !ferror(stdout);
     if (written || status != 0) return status;
-    fprintf(stderr, "amontons: error: cannot write to standard output\n");
+    tell("amontons: error: cannot write to standard output\n");
     return 1;
 }

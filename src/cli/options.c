@@ -2,6 +2,8 @@
 // Words are only gathered while argp reads them, and judged afterwards.
 #include "cli/options.h"
 
+#include "cli/say.h"
+
 #include <argp.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -157,7 +159,7 @@ void trust_meshes(void)
 int report_error(const Error *err)
 {
     fflush(stdout);
-    fprintf(stderr, "amontons: error: %s\n", err->message);
+    tell("amontons: error: %s\n", err->message);
     return amontons_error_exit_status(err->code);
 }
 
@@ -165,7 +167,7 @@ void report_warnings(const RunWarnings *warnings)
 {
     fflush(stdout);
     for (int32_t k = 0; k < warnings->count; k++)
-        fprintf(stderr, "amontons: warning: %s\n", warnings->text[k]);
+        tell("amontons: warning: %s\n", warnings->text[k]);
 }
 
 // For the command line alone; what is wrong in a file is an Error of the library.
@@ -174,9 +176,9 @@ int report_misuse(const char *format, ...)
     va_list arguments;
     va_start(arguments, format);
     fflush(stdout);
-    fprintf(stderr, "amontons: error: ");
-    vfprintf(stderr, format, arguments);
-    fprintf(stderr, "\n");
+    tell("amontons: error: ");
+    tell_list(format, arguments);
+    tell("\n");
     va_end(arguments);
     return amontons_error_exit_status(ERROR_INPUT);
 }

@@ -3,6 +3,8 @@
 // to one terminal.
 #include "cli/point_table.h"
 
+#include "cli/say.h"
+
 #include <math.h>
 #include <stdio.h>
 
@@ -21,7 +23,7 @@ bool point_table_line(PointTable *table, const char *head)
     if (table->quiet) return false;
     if (!table->begun) {
         progress_end(&table->progress);
-        printf("%s\n", head);
+        say("%s\n", head);
     }
     table->begun = true;
     return true;
@@ -30,15 +32,15 @@ bool point_table_line(PointTable *table, const char *head)
 void point_table_cell(double value, int width, int digits)
 {
     if (isnan(value))
-        printf(" %*s", width, "-");
+        say(" %*s", width, "-");
     else
-        printf(" %*.*g", width, digits, value);
+        say(" %*.*g", width, digits, value);
 }
 
 void point_table_answer(const char *name, double value, const char *sentence)
 {
     if (isnan(value))
-        printf("  %-22s %-8s %s\n", name, "none", sentence);
+        say("  %-22s %-8s %s\n", name, "none", sentence);
     else
-        printf("  %-22s %-8.4f %s\n", name, value, sentence);
+        say("  %-22s %-8.4f %s\n", name, value, sentence);
 }

@@ -4,6 +4,7 @@
 #include "cli/progress.h"
 
 #include "cli/options.h"
+#include "cli/say.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -81,8 +82,7 @@ static double seconds_left(const Progress *progress, double fraction, double ela
 // In place of the one that stands there; its end is cut off in a narrow window.
 static void draw_line(const char *line)
 {
-    fprintf(stderr, "\r%.*s\033[K", terminal_width() - 1, line);
-    fflush(stderr);
+    tell_over(line, terminal_width() - 1);
 }
 
 // "mesh 2, run 1  U 0.00123  mu 0.2034  3 events": a run behind an error bar ends once its answer
@@ -136,7 +136,7 @@ Progress progress_begin(bool quiet)
     if (quiet) progress.style = PROGRESS_QUIET;
     if (!quiet && isatty(STDERR_FILENO)) progress.style = PROGRESS_BAR;
     if (progress.style == PROGRESS_BAR) {
-        fprintf(stderr, "preparing ...");
+        tell("preparing ...");
         fflush(stderr);
         progress.bar_stands = true;
     }
@@ -148,8 +148,9 @@ void progress_stage(const char *stage, void *context)
 {
     Progress *progress = context;
     if (progress->style != PROGRESS_BAR || progress->running) return;
-    fprintf(stderr, "\r%s ...\033[K", stage);
-    fflush(stderr);
+    char line[WIDTH_MAX];
+    snprintf(line, sizeof line, "%s ...", stage);
+    draw_line(line);
     progress->bar_stands = true;
 }
 
@@ -184,7 +185,7 @@ void progress_step(const StepView *view, void *context)
     } else if ((int32_t)(10 * view->fraction) > progress->tenths) {
         progress->tenths = (int32_t)(10 * view->fraction);
         format_state(progress, view, elapsed, state, sizeof state);
-        fprintf(stderr, "%3d %%  %s\n", 10 * progress->tenths, state);
+        tell("%3d %%  %s\n", 10 * progress->tenths, state);
     }
     progress->running = true;
 }
@@ -209,7 +210,7 @@ void progress_part(Progress *progress, double part, const char *what)
         progress->bar_stands = true;
     } else if (progress->style == PROGRESS_LINES && (int32_t)(10 * part) > progress->tenths) {
         progress->tenths = (int32_t)(10 * part);
-        fprintf(stderr, "%3d %%  %s\n", 10 * progress->tenths, state);
+        tell("%3d %%  %s\n", 10 * progress->tenths, state);
     }
 }
 
@@ -218,8 +219,7 @@ void progress_part(Progress *progress, double part, const char *what)
 void progress_end(Progress *progress)
 {
     if (progress->bar_stands) {
-        fprintf(stderr, "\r\033[K");
-        fflush(stderr);
+        tell_over("", 0);
     }
     progress->bar_stands = false;
 }

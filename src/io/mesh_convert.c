@@ -9,6 +9,7 @@
 #include "io/mesh_raw.h"
 
 #include "base/memory.h"
+#include "base/text.h"
 #include "io/raw_elements.h"
 
 #include <math.h>
@@ -331,11 +332,17 @@ static bool convert_group(const MeshRaw *raw, const char *path, const NodeTable 
                           const RawGroup *from, MeshGroup *group, Error *err)
 {
     RawElements elements = {0};
+    uint32_t code = 0;
     *group = (MeshGroup){.dimension = from->dimension, .number = from->number};
     if (from->name[0])
         snprintf(group->name, sizeof group->name, "%s", from->name);
     else
         snprintf(group->name, sizeof group->name, "%d", from->number);
+    if (text_find_unshown(group->name, &code) >= 0)
+        FAIL(err, ERROR_INPUT,
+             "%s: the name of group %d of dimension %d has the character U+%04X, which no page or "
+             "picture can show",
+             path, from->number, from->dimension, code);
     if (from->dimension >= 2) goto cleanup;
     TRY(raw_pick_group(raw, path, from, group->name, &elements, err));
     if (raw->version > 0 && raw->version < 4)

@@ -75,8 +75,27 @@ static bool is_null(const char *text)
     return !*text || strcmp(text, "~") == 0 || strcmp(text, "null") == 0;
 }
 
+// Escapes ("\uFFFE") bring characters that check_is_text does not see, and that no title or name
+// may have: pictures and pages are written at the end of a run.
+static bool check_shown(const YamlDocument *document, YamlNode node, YamlNode beside, Error *err)
+{
+    char message[160];
+    uint32_t code = 0;
+    const YamlItem *item = &document->nodes[node];
+    const char *key = beside == YAML_NO_NODE                        ? ""
+                      : document->nodes[beside].kind == YAML_SCALAR ? yaml_text(document, beside)
+                                                                    : yaml_key(document, beside);
+    if (text_find_unshown(item->text, &code) < 0) return true;
+    snprintf(message, sizeof message,
+             "%.60s%sthe character U+%04X, which no page or picture can show", key,
+             *key ? ": " : "", code);
+    yaml_error_at(document, item->position, err, message);
+    return false;
+}
+
 // Block scalars (| and >) count as quoted: `null` in one of them is a word.
-static bool add_scalar(Reader *reader, int32_t position, YamlNode *node, Error *err)
+static bool add_scalar(Reader *reader, int32_t position, YamlNode beside, YamlNode *node,
+                       Error *err)
 {
     YamlDocument *document = reader->document;
     struct fy_token *token = fy_event_get_token(reader->event);
@@ -90,6 +109,7 @@ static bool add_scalar(Reader *reader, int32_t position, YamlNode *node, Error *
     TRY(add_node(document, kind, position, node, err));
     document->nodes[*node].quoted = quoted;
     TRY((document->nodes[*node].text = memory_text(text, err)));
+    TRY(check_shown(document, *node, beside, err));
 cleanup:
     return error_is_clean(err);
 }
@@ -140,7 +160,7 @@ static bool begin_node(Reader *reader, YamlNode beside, YamlNode *node, Error *e
     }
     position = token_position(fy_event_get_token(reader->event), position);
     if (type == FYET_SCALAR)
-        TRY(add_scalar(reader, position, node, err));
+        TRY(add_scalar(reader, position, beside, node, err));
     else
         TRY(add_node(document, type == FYET_MAPPING_START ? YAML_MAP : YAML_LIST, position, node,
                      err));

@@ -234,6 +234,40 @@ class Info(unittest.TestCase):
             self.assertRegex(done.stdout, rf"\n +{name} ")
 
 
+class OthersWords(InFolder):
+    def test_nothing_that_a_terminal_obeys(self):
+        """ESC and BEL in names of folders and files; by every command that says them."""
+        folder = self.folder / "a\033[31m\007b"
+        folder.mkdir()
+        shutil.copyfile(FIG1, folder / "s.yaml")
+        few = ["--set", f"mesh.file={SOURCE}/meshes/block.geo", "mesh.set.nx=6", "mesh.set.nz=6", "time.until.U=1e-4",
+               "output.fields=none", "output.figures=[]"]
+        (folder / "study.yaml").write_text(f"scene: s.yaml\nset: {{{', '.join(w.replace('=', ': ', 1) for w in few[1:])}}}\n"
+                                           "vary: {load.pressure: [0.003]}\n")
+        for words, status in ((["run", folder / "s.yaml", *few, "-o", folder / "r"], 0), (["info", folder / "r"], 0),
+                              (["info", folder / "s.yaml", *few[:2]], 0), (["run", folder / "none"], 2), (["report", folder / "r"], 0),
+                              (["run", folder / "s.yaml", *few, "-o", folder / "r"], 2), ([f"{folder}"], 2), (["render", folder], 2),
+                              (["sweep", folder / "study.yaml", "-o", folder / "sweep"], 0)):
+            done = amontons(*words, cwd=self.folder)
+            self.assertEqual(done.returncode, status, done.stderr)
+            self.assertIn(r"a\x1b[31m\x07b", done.stdout + done.stderr, words[0])
+            self.assertNotRegex(done.stdout + done.stderr, "[\0-\x08\x0b-\x1f\x7f-\x9f]", words[0])
+
+    def test_characters_that_cannot_be_shown(self):
+        """Refused where they are read, not when a picture is drawn; also by a study and in the names of a mesh."""
+        for text, place in (('title: "a\\uFFFEb"', "1:8: title: the character U+FFFE"), ("title: '\uffff'", "1:8: title: the character U+FFFF"),
+                            ('groups:\n  contact: [a, "\\u0085"]', "2:16: contact: the character U+0085"),
+                            ('title: "\\e[31m"', "1:8: title: the character U+001B"), ("title: \x9b31m", "1:8: title: the character U+009B")):
+            done = amontons("run", self.scene(text), "-o", self.folder / "out")
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(f"scene.yaml:{place}, which no page or picture can show", done.stderr)
+        self.assertIn("--set title:1:7: the character U+FFFE", amontons("run", FIG1, "--set", "title=\ufffe").stderr)
+        self.assertIn(":1:8: title: the character U+FDD0", amontons("sweep", self.scene("title: \ufdd0")).stderr)
+        mesh = self.folder / "named.geo"
+        mesh.write_text((SOURCE / "meshes/block.geo").read_text().replace('Physical Curve("contact")', 'Physical Curve("contact\a")'))
+        self.assertIn("has the character U+0007", amontons("info", mesh).stderr)
+
+
 class Run(InFolder):
     def test_result_and_closing_lines(self):
         done = amontons("run", FIG1, *COARSE, "output.fields=none", cwd=self.folder)

@@ -192,6 +192,15 @@ class Layers(unittest.TestCase):
                     self.assertRegex(name, owner, f"{name} includes {header}")
 
 
+    def test_commands_say_all_in_one_place(self):
+        """What is printed goes through cli/say.c, which shows what a terminal would obey."""
+        prints = re.compile(r"\b(?:f|v|vf|d)?printf\(|\bf?put[sc]\w*\(|\bfwrite\(|\bperror\(")
+        self.assertTrue(prints.search((SOURCE / "src/cli/say.c").read_text()))
+        for path in (SOURCE / "src/cli").glob("*.c"):
+            if path.name != "say.c":
+                self.assertEqual(prints.findall(path.read_text()), [], path.name)
+
+
 class Circles(unittest.TestCase):
     def test_includes(self):
         self.assertEqual(circles(include_graph(SOURCE)), [])

@@ -129,6 +129,43 @@ static void test_utf8(void **state)
     assert_int_equal(text_utf8_length(""), 1);
 }
 
+// Each character in turn behind a word, against the ranges as XML 1.0 and Cairo have them.
+static void test_unshown(void **state)
+{
+    (void)state;
+    for (uint32_t code = 1; code <= 0x10FFFF; code++) {
+        char text[8] = "ab";
+        uint32_t found = 0;
+        unsigned char *byte = (unsigned char *)text + 2;
+        if (code >= 0xD800 && code <= 0xDFFF) continue;
+        if (code < 0x80) {
+            byte[0] = (unsigned char)code;
+        } else if (code < 0x800) {
+            byte[0] = (unsigned char)(0xC0 | code >> 6);
+            byte[1] = (unsigned char)(0x80 | (code & 63));
+        } else if (code < 0x10000) {
+            byte[0] = (unsigned char)(0xE0 | code >> 12);
+            byte[1] = (unsigned char)(0x80 | (code >> 6 & 63));
+            byte[2] = (unsigned char)(0x80 | (code & 63));
+        } else {
+            byte[0] = (unsigned char)(0xF0 | code >> 18);
+            byte[1] = (unsigned char)(0x80 | (code >> 12 & 63));
+            byte[2] = (unsigned char)(0x80 | (code >> 6 & 63));
+            byte[3] = (unsigned char)(0x80 | (code & 63));
+        }
+        bool xml = code == 9 || code == 10 || code == 13 || (code >= 32 && code <= 0xFFFD) ||
+                   code >= 0x10000;
+        bool cairo = (code < 0xFDD0 || code > 0xFDEF) && (code & 0xFFFE) != 0xFFFE;
+        bool obeyed = code >= 0x7F && code <= 0x9F;   // by a terminal
+        int32_t at = text_find_unshown(text, &found);
+        assert_int_equal(at, xml && cairo && !obeyed ? -1 : 2);
+        if (at >= 0) assert_int_equal(found, code);
+    }
+    uint32_t found = 0;
+    assert_int_equal(text_find_unshown("\xC3\xA9\xE9", &found), 2);   // no UTF-8
+    assert_int_equal(found, 0xE9);
+}
+
 static void test_number(void **state)
 {
     (void)state;
@@ -156,6 +193,7 @@ int main(void)
         cmocka_unit_test(test_nearest),
         cmocka_unit_test(test_utf8),
         cmocka_unit_test(test_number),
+        cmocka_unit_test(test_unshown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
