@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The promise test of strangers: its problems are those that were drawn, the program takes a sample of them, and the judge
+judges numbers made by hand."""
+import collections
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+FOLDER = Path(os.environ["AMONTONS_SOURCE"], "validation", "strangers")
+sys.path.insert(0, str(FOLDER))
+import judge  # noqa: E402
+import problems  # noqa: E402
+import strangers  # noqa: E402
+
+DRAWN = "839b6b563d77a34dece25a86bf16143b6eab24f9e04729a325ef6870343b1571"
+
+
+def runs(values, answer="mu_hold", drift=0):
+    """Rows of meshes 1, 2, ... times as fine, each with three values."""
+    return [{"refine": k, "pressure": factor, answer: value, "drift": {answer: drift}}
+            for k, some in enumerate(values, 1) for factor, value in zip(strangers.WINDOW, some)]
+
+
+def asked(value, bar):
+    return {"status": 0, "said": "", "mu_hold": value, "mu_hold_error": bar}
+
+
+class Problems(unittest.TestCase):
+    def test_same_as_drawn(self):
+        self.assertEqual(problems.digest(problems.problems()), DRAWN)
+
+    def test_all_is_said(self):
+        """Each kind of thing that a scene can say comes up in ten problems or more, among the tuning ones too."""
+        found = problems.problems()
+        self.assertEqual((len(found), sum(one.tuning for one in found), sum(one.whole for one in found)), (200, 60, 20))
+        seen = collections.Counter(word for one in found for word in one.features)
+        for word in ("T3", "T6", "Q4", "Q8", "Q9", "SI", "stress", "strain", "table", "formula", "bonded", "machine", "by pad", "along",
+                     "linear-weakening", "exponential-weakening", "program of the rod", "program of the load"):
+            self.assertGreaterEqual(seen[word], 10, word)
+
+    def test_program_takes_a_sample(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for number in range(1, 201, 13):
+                seconds, said = strangers.forecast(problems.problem(number).write(Path(folder)))
+                self.assertIsNotNone(seconds, f"{number}: {said}")
+
+
+class Judge(unittest.TestCase):
+    def test_reading_of_a_run(self):
+        """The second half alone; the lowest of drops that repeat, else their lowest decile; a drift between quarters."""
+        peaks = [{"U": u, "mu": mu} for u, mu in ((1, 9), (4, 8), (6, 0.4), (7, 0.5), (8, 0.6), (9, 0.7))]
+        report = {"results": {"peaks": peaks, "drops": {"period": 1, "list": peaks}}}
+        found = judge.reading(report, 10)
+        self.assertAlmostEqual(found["mu_M"], 0.55)
+        self.assertEqual(found["mu_hold"], 0.4)
+        self.assertAlmostEqual(found["drift"]["mu_M"], 0.65 - 0.45)
+        report["results"]["drops"]["period"] = 0
+        self.assertAlmostEqual(judge.reading(report, 10)["mu_hold"], 0.43)
+        self.assertIsNone(judge.reading(report, 16)["mu_M"])
+
+    def test_reference_of_meshes_that_scatter(self):
+        truth = judge.reference(runs([[0.3, 0.31, 0.32], [0.32, 0.33, 0.34], [0.31, 0.31, 0.4], [0.31, 0.4, 0.5]]), "mu_hold")
+        self.assertAlmostEqual(truth.value, 0.31)       # of 0.3, 0.32, 0.31, 0.31
+        self.assertAlmostEqual(truth.own, math.sqrt(2e-4 / 3 / 4))
+        drifting = judge.reference(runs([[0.3] * 3] * 3, drift=0.02), "mu_hold")
+        self.assertAlmostEqual(drifting.own, 0.01)
+
+    def test_reference_of_meshes_that_converge(self):
+        """0.3 + 0.1 / refine: the finest two, half of the way to the limit; its own error is the other half."""
+        truth = judge.reference(runs([[0.3 + 0.1 / k] * 3 for k in (1, 2, 3, 4)]), "mu_hold")
+        way = 0.1 * (1 / 3 + 1 / 4) / 2
+        self.assertAlmostEqual(truth.value, 0.3 + way / 2)
+        self.assertAlmostEqual(truth.own, way / 2)
+
+    def test_no_reference(self):
+        self.assertIsNone(judge.reference(runs([[0.3] * 3] * 2), "mu_hold"))
+        self.assertIsNone(judge.reference(runs([[0.3, 0.3, None]] * 3), "mu_hold"))
+        self.assertIsNone(judge.reference(runs([[None] * 3] * 3), "mu_hold").value)
+
+    def test_verdicts(self):
+        truth, rough, none = judge.Reference(0.30, 0.001), judge.Reference(0.30, 0.01), judge.Reference(None)
+        for value, bar, of, kind in ((0.305, 0.01, truth, "held"), (0.315, 0.01, truth, "broken"), (0.305, None, truth, "not known"),
+                                     (None, None, truth, "not known"), (None, None, none, "held"), (0.3, 0.1, none, "broken"),
+                                     (0.315, 0.01, rough, "no reference"), (0.36, 0.01, rough, "broken"), (0.3, 0.01, None, "no reference")):
+            found = judge.verdict(1, "mu_hold", asked(value, bar), of)
+            self.assertEqual(found.kind, kind, (value, bar, of))
+        self.assertAlmostEqual(judge.verdict(1, "mu_hold", asked(0.315, 0.01), truth).ratio, 1.5)
+        self.assertEqual(judge.verdict(1, "mu_hold", asked(0.3, 0.01) | {"status": 2}, truth).kind, "refused")
+
+    def test_acceptance(self):
+        held = [judge.Verdict(k, "mu_M", "held", 0.1 + 0.04 * (k % 20)) for k in range(19)]
+        self.assertEqual(judge.count(held + [judge.Verdict(20, "mu_M", "broken", 2.9)]).failed, [])
+        for more, word in ((judge.Verdict(20, "mu_M", "broken", 3), "worst"), (judge.Verdict(20, "mu_M", "refused"), "refused")):
+            self.assertIn(word, " ".join(judge.count([*held, more]).failed))
+        few = [judge.Verdict(k, "mu_M", "broken", 1.5) for k in range(2)]
+        self.assertIn("91 %", judge.count(held + few).failed[0])
+        unknown = [judge.Verdict(k, "mu_M", "not known") for k in range(3)]
+        self.assertIn("not known", judge.count(held + unknown).failed[0])
+        self.assertIn("median", judge.count([judge.Verdict(1, "mu_M", "held", 0.1)]).failed[0])
+
+
+class Command(unittest.TestCase):
+    def test_one_problem(self):
+        """Asked, referred to, gone on with (nothing is computed twice), and its scene as drawn; the judging part is not told."""
+        with tempfile.TemporaryDirectory() as folder:
+            def call(*words):
+                return subprocess.run([FOLDER / "strangers.py", "-o", folder, "--limit", "0", *words], capture_output=True, text=True)
+            first = call("--only", "68")
+            kept = Path(folder, "068.json")
+            data = json.loads(kept.read_text())
+            self.assertEqual(data["asked"]["status"], 0, first.stderr)
+            self.assertGreater(len(data["asked"]["levels"]), 2)
+            self.assertIn("0 problems to compute", call("--only", "68").stdout)
+            self.assertEqual(json.loads(kept.read_text()), data)
+            table = Path(folder, "table.md").read_text()
+            self.assertNotIn("| 68 |", table)
+            self.assertIn("1 problems computed", table)
+            call("--only", "68", "--table", "--show-judging")
+            self.assertIn("| 68 |", Path(folder, "table.md").read_text())
+
+
+if __name__ == "__main__":
+    unittest.main()
