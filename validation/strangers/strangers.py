@@ -32,8 +32,9 @@ import problems                                                 # noqa: E402
 from measured_run import PROGRAM, commit, markdown_table, run   # noqa: E402
 
 WITHIN = 60                 # s, of each request
+USUAL = 70                  # s of processor time of a problem, its reference included
 ASK_LIMIT = 600             # s of processor time after which a request is ended
-LADDER = (1.2, 1.45, 1.75, 2.1, 2.5, 3, 3.6, 4.3)      # mesh.set.refine of references, as far as it takes
+LADDER = (1.2, 1.45, 1.75, 2.1, 2.5, 3, 3.6, 4.3, 5.2, 6.2, 7.5)     # mesh.set.refine of references, as far as it takes
 WINDOW = (0.995, 1, 1.005)  # of pressure: ends and middle of the program's own window
 LONGER = 3                  # a run with too few drops in its second half is made so many times as long,
 MANY = 36                   # one with so many or more, of either kind, so many times as short
@@ -250,10 +251,9 @@ def chosen_of(options):
             and options.set in (None, "tuning" if one.tuning else "judging")]
 
 
-def work(todo, options, ratio=20):
-    """ratio: processor time of a problem over what --dry-run says of one run; learnt on the way."""
-    total, done, spent_so_far = sum(kept.data["forecast"] or 1 for _, kept in todo), 0, 0
-    print(f"{len(todo)} problems to compute or complete, perhaps {minutes(ratio * total / options.jobs)} on free cores", flush=True)
+def work(todo, options):
+    """Computes, and forecasts by what problems took so far; before the first by what the median one takes."""
+    print(f"{len(todo)} problems to compute or complete, perhaps {minutes(USUAL * len(todo) / options.jobs)} on free cores", flush=True)
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         began = time.monotonic()
         running = {pool.submit(compute, one, kept, options): (one, kept) for one, kept in todo}
@@ -261,14 +261,12 @@ def work(todo, options, ratio=20):
             for at, future in enumerate(concurrent.futures.as_completed(running), 1):
                 one, kept = running[future]
                 future.result()
-                done += kept.data["forecast"] or 1
-                spent_so_far = time.monotonic() - began
-                told = ""
+                left, told = (time.monotonic() - began) * (len(todo) / at - 1), ""
                 if one.tuning or options.show_judging:
                     told = "; ".join(f"{each.answer} {each.kind}" + (f" {each.ratio:.2f}" if each.ratio == each.ratio else "")
                                      for each in verdicts_of(one, kept))
                 print(f"{at}/{len(todo)}: {one.number} {one.shape}, asked {kept.data['asked']['seconds']:.0f} s, reference "
-                      f"{spent(kept):.0f} s; {told}; {minutes(spent_so_far * (total / done - 1))} left", flush=True)
+                      f"{spent(kept):.0f} s; {told}; {minutes(left)} left", flush=True)
         except KeyboardInterrupt:
             pool.shutdown(wait=False, cancel_futures=True)
             raise
