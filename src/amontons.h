@@ -178,6 +178,7 @@ bool amontons_scene_read(const char *path, const char *const *overrides, int32_t
                          Scene **scene, Error *err);
 void amontons_scene_destroy(Scene *scene);   // NULL is fine
 const char *amontons_scene_title(const Scene *scene);   // owned by the scene
+bool amontons_scene_is_si(const Scene *scene);   // else its numbers are normalised
 const char *amontons_scene_warning(const Scene *scene);   // NULL: none; static storage
 bool amontons_scene_reference(FILE *out, Error *err);   // every key, as Markdown
 
@@ -191,8 +192,7 @@ bool amontons_run(const Scene *scene, const RunOptions *options, RunSummary *sum
 // Equilibrium under the scene's load, rod displacement and supports; friction is Coulomb's with
 // mu_static, stick is relative to the undeformed block. Forces are per width.
 typedef struct StaticSummary {
-    int32_t nodes, contact_nodes, rod_nodes;
-    int32_t open, sticking, slipping;   // contact nodes
+    int32_t nodes, contact_nodes, rod_nodes, open, sticking, slipping;   // contact nodes that ...
     double normal_force, shear_force;   // of the plane on the block, along z and x
     double pressure_moment;   // sum of x r_n
     double rod_force, rod_height;   // of the rod along x; z of its resultant (NaN: no force)

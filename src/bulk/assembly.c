@@ -10,7 +10,7 @@
 
 #include "base/hash.h"
 #include "base/memory.h"
-#include "bulk/element.h"
+#include "bulk/element_group.h"
 
 #include <math.h>
 #include <string.h>
@@ -37,24 +37,24 @@ static int32_t insert_node(int32_t node, int32_t *list, int32_t count)
 static bool build_graph(const Mesh *mesh, NodeGraph *graph, Error *err)
 {
     int32_t nodes = mesh->node_count;
+    ElementGroup group;
     int32_t *filled = NEW_ARRAY(int32_t, nodes, err);
     graph->start = NEW_ARRAY(int32_t, (int64_t)nodes + 1, err);
     TRY(filled && graph->start);
     for (int32_t e = 0; e < mesh->element_count; e++) {
-        int32_t first = mesh->first_node[e], count = mesh->first_node[e + 1] - first;
-        for (int32_t a = 0; a < count; a++)
-            graph->start[mesh->element_nodes[first + a] + 1] += count;
+        if (!element_group_at(mesh, e, &group)) continue;
+        for (int32_t a = 0; a < group.node_count; a++)
+            graph->start[group.node[a] + 1] += group.node_count;
     }
     for (int32_t i = 0; i < nodes; i++) graph->start[i + 1] += graph->start[i];
     graph->neighbour = NEW_ARRAY(int32_t, graph->start[nodes], err);
     TRY(graph->neighbour);
     for (int32_t e = 0; e < mesh->element_count; e++) {
-        const int32_t *element = mesh->element_nodes + mesh->first_node[e];
-        int32_t count = mesh->first_node[e + 1] - mesh->first_node[e];
-        for (int32_t a = 0; a < count; a++) {
-            int32_t node = element[a], *list = graph->neighbour + graph->start[node];
-            for (int32_t b = 0; b < count; b++)
-                filled[node] = insert_node(element[b], list, filled[node]);
+        if (!element_group_at(mesh, e, &group)) continue;
+        for (int32_t a = 0; a < group.node_count; a++) {
+            int32_t node = group.node[a], *list = graph->neighbour + graph->start[node];
+            for (int32_t b = 0; b < group.node_count; b++)
+                filled[node] = insert_node(group.node[b], list, filled[node]);
         }
     }
     int32_t kept = 0;
@@ -98,10 +98,9 @@ cleanup:
 
 // Unknowns 2 b and 2 b + 1 of a node stand side by side in every row, and both rows of a node are
 // alike, so one look-up serves four entries.
-static void add_element(const Mesh *mesh, int32_t e, const ElementMatrices *matrices, Bulk *bulk)
+static void add_group(const ElementGroup *group, const ElementMatrices *matrices, Bulk *bulk)
 {
-    const int32_t *element = mesh->element_nodes + mesh->first_node[e],
-                  *start = bulk->pattern.start;
+    const int32_t *element = group->node, *start = bulk->pattern.start;
     int32_t nodes = matrices->dof_count / 2;
     for (int32_t a = 0; a < nodes; a++) {
         int32_t row = 2 * element[a], length = start[row + 1] - start[row];
@@ -131,27 +130,26 @@ typedef struct KnownShape {
 } KnownShape;
 
 // Matrices follow from offsets alone, so whether they were kept does not show.
-static const ElementMatrices *matrices_of(const Mesh *mesh, int32_t e, const Material *materials,
-                                          KnownShape known[SHAPES_KEPT])
+static const ElementMatrices *matrices_of(const Mesh *mesh, const ElementGroup *group,
+                                          const Material *materials, KnownShape known[SHAPES_KEPT])
 {
-    const int32_t *element = mesh->element_nodes + mesh->first_node[e];
-    int32_t nodes = mesh->first_node[e + 1] - mesh->first_node[e];
     double offset[ELEMENT_NODES_MAX][2] = {0};
-    const double *origin = mesh->position + 2 * (int64_t)element[0];
-    for (int32_t a = 0; a < nodes; a++)
+    const double *origin = mesh->position + 2 * (int64_t)group->node[0];
+    for (int32_t a = 0; a < group->node_count; a++)
         for (int d = 0; d < 2; d++)
-            offset[a][d] = mesh->position[2 * (int64_t)element[a] + d] - origin[d];
+            offset[a][d] = mesh->position[2 * (int64_t)group->node[a] + d] - origin[d];
     Hash hash = hash_start();
     hash_bytes(&hash, offset, sizeof offset);
     KnownShape *shape = &known[hash.low % SHAPES_KEPT];
-    ElementKind kind = mesh->kind[e];
-    int32_t region = mesh_region(mesh, e);
-    if (shape->nodes == nodes && shape->kind == kind && shape->region == region &&
-        memcmp(shape->offset, offset, sizeof offset) == 0)
+    ElementKind kind = mesh->kind[group->element[0]];
+    int32_t region = mesh_region(mesh, group->element[0]);
+    if (group->count == 1 && shape->nodes == group->node_count && shape->kind == kind &&
+        shape->region == region && memcmp(shape->offset, offset, sizeof offset) == 0)
         return &shape->matrices;
-    *shape = (KnownShape){.nodes = nodes, .kind = kind, .region = region};
+    *shape = (KnownShape){
+        .nodes = group->count == 1 ? group->node_count : 0, .kind = kind, .region = region};
     memcpy(shape->offset, offset, sizeof offset);
-    element_matrices(kind, (const double(*)[2])offset, &materials[region], &shape->matrices);
+    element_group_matrices(mesh, materials, group, &shape->matrices);
     return &shape->matrices;
 }
 
@@ -160,6 +158,7 @@ static const ElementMatrices *matrices_of(const Mesh *mesh, int32_t e, const Mat
 static bool fill(const Mesh *mesh, const Material *materials, Bulk *bulk, Error *err)
 {
     int64_t entries = bulk->pattern.start[bulk->dof_count];
+    ElementGroup group;
     KnownShape *known = NEW_ARRAY(KnownShape, SHAPES_KEPT, err);
     bulk->stiffness = NEW_ARRAY(double, entries, err);
     bulk->damping = NEW_ARRAY(double, entries, err);
@@ -167,7 +166,8 @@ static bool fill(const Mesh *mesh, const Material *materials, Bulk *bulk, Error 
     bulk->load = NEW_ARRAY(double, bulk->dof_count, err);
     bulk->held = NEW_ARRAY(uint8_t, bulk->dof_count, err);
     for (int32_t e = 0; error_is_clean(err) && e < mesh->element_count; e++)
-        add_element(mesh, e, matrices_of(mesh, e, materials, known), bulk);
+        if (element_group_at(mesh, e, &group))
+            add_group(&group, matrices_of(mesh, &group, materials, known), bulk);
     memory_free(known);
     return error_is_clean(err);
 }

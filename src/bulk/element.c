@@ -66,22 +66,48 @@ static void lump_mass(ElementKind kind, const double (*position)[2], double dens
 }
 
 // By the element's own quadrature, per unit width.
-void element_matrices(ElementKind kind, const double (*position)[2], const Material *material,
-                      ElementMatrices *out)
+static void integrate(ElementKind kind, const double (*position)[2], const double elastic[3][3],
+                      const double viscous[3][3], ElementMatrices *out)
 {
-    double elastic[3][3], viscous[3][3], b[3][ELEMENT_DOFS_MAX];
-    material_elastic(material, elastic);
-    material_viscous(material, viscous);
+    double b[3][ELEMENT_DOFS_MAX];
     memset(out, 0, sizeof *out);
-    int32_t nodes = element_node_count(kind);
-    out->dof_count = 2 * nodes;
+    out->dof_count = 2 * element_node_count(kind);
     Quadrature quadrature = shape_quadrature(kind);
     for (int32_t q = 0; q < quadrature.count; q++) {
         const double *point = quadrature.point[q];
         double weight = quadrature.weight[q] * element_strain_matrix(kind, position, point, b);
         add_quadratic_form(out->dof_count, b, elastic, weight, out->stiffness);
         add_quadratic_form(out->dof_count, b, viscous, weight, out->damping);
+        for (int32_t j = 0; j < out->dof_count; j++) out->areal[j] += weight * b[j % 2][j];
         out->area += weight;
     }
+}
+
+void element_matrices(ElementKind kind, const double (*position)[2], const Material *material,
+                      ElementMatrices *out)
+{
+    double elastic[3][3], viscous[3][3];
+    material_elastic(material, elastic);
+    material_viscous(material, viscous);
+    integrate(kind, position, elastic, viscous, out);
+    lump_mass(kind, position, material->density, out);
+}
+
+// Of an isotropic material the areal part is that which xx and zz share.
+static void take_areal_part(double d[3][3])
+{
+    d[0][0] = d[1][1] = d[2][2];
+    d[0][1] = d[1][0] = -d[2][2];
+}
+
+void element_shape_matrices(ElementKind kind, const double (*position)[2], const Material *material,
+                            ElementMatrices *out)
+{
+    double elastic[3][3], viscous[3][3];
+    material_elastic(material, elastic);
+    material_viscous(material, viscous);
+    take_areal_part(elastic);
+    take_areal_part(viscous);
+    integrate(kind, position, elastic, viscous, out);
     lump_mass(kind, position, material->density, out);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Matrices of one element: K = int B' D_el B, C = int B' D_vis B, and a lumped mass that is
-// positive at every node. Used by bulk/assembly, bulk/recovery and run/static_solve.
+// positive at every node. Used by bulk/element_group and bulk/recovery.
 #ifndef AMONTONS_BULK_ELEMENT_H
 #define AMONTONS_BULK_ELEMENT_H
 
@@ -14,6 +14,7 @@ typedef struct ElementMatrices {
     double stiffness[ELEMENT_DOFS_MAX][ELEMENT_DOFS_MAX];   // force/width per length
     double damping[ELEMENT_DOFS_MAX][ELEMENT_DOFS_MAX];   // force/width per velocity
     double mass[ELEMENT_NODES_MAX];   // mass/width of each node
+    double areal[ELEMENT_DOFS_MAX];   // int (N_a,x  N_a,z): by u the growth of the area, length
     double area;
 } ElementMatrices;
 
@@ -21,6 +22,11 @@ typedef struct ElementMatrices {
 // parallelograms Q4 this is the row sum.
 void element_matrices(ElementKind kind, const double (*position)[2], const Material *material,
                       ElementMatrices *out);
+
+// The same without what a change of area meets: K and C of the strain less its areal part, which
+// bulk/element_group adds as a mean.
+void element_shape_matrices(ElementKind kind, const double (*position)[2], const Material *material,
+                            ElementMatrices *out);
 
 // B at one point: strain[3] = B [3][dofs] u; returns det J.
 double element_strain_matrix(ElementKind kind, const double (*position)[2], const double point[2],

@@ -80,6 +80,16 @@ double material_slip_speed(const Material *material)
     return fmin(speeds.longitudinal, 2 * speeds.shear);
 }
 
+// Trace over deviator, lambda (1 + nu)/E or eta2/eta1.
+static const double AREA_RESISTS = 4;
+
+bool material_resists_area(const Material *material)
+{
+    double deviator = material->young / (1 + material->poisson);
+    return lame_lambda(material) > AREA_RESISTS * deviator ||
+           material->eta2 > AREA_RESISTS * material->eta1;
+}
+
 // --- several ------------------------------------------------------------------------------------
 
 Materials materials_of(const Material *material)

@@ -37,6 +37,10 @@ WaveSpeeds material_speeds(const Material *material);
 // plane strain, while slip does not get faster.)
 double material_slip_speed(const Material *material);
 
+// Linear elements would lock in it: area resists so much more than shape, in K or in C, that it is
+// to be a mean (bulk/element_group).
+bool material_resists_area(const Material *material);
+
 enum { MATERIALS_MAX = 17 };
 
 // What a block is made of: one material, or one in each region of its mesh (Mesh.region).

@@ -28,6 +28,9 @@ typedef struct Mesh {
     uint8_t
         *region;   // [element_count] which of the materials it is made of (model/regions); NULL:
     // there is one; owned
+    int32_t *mean_next;   // [element_count] elements that share one areal strain, as rings: the
+        // next of them, itself where it is alone; -1: it has its own at each point; NULL: all have
+        // (bulk/element_group); owned
     int32_t group_count;
     MeshGroup *groups;   // [group_count]; nodes of curves by ascending x, then z; owned
     double x_min, x_max;   // extent, length

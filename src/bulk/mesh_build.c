@@ -28,6 +28,7 @@ void mesh_destroy(Mesh *mesh)
                      .groups = mesh->groups};
     mesh_file_destroy(&file);
     memory_free(mesh->region);
+    memory_free(mesh->mean_next);
     *mesh = (Mesh){0};
 }
 

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Strains are taken at the nodes of each element. On a regular mesh the mean over the elements at
 // an inner node is a central difference, one order better than each of them. The means are one
-// sparse operator, made once; the stress of a point is that of its mean strain.
+// sparse operator, made once; the stress of a point is that of its mean strain. Of elements that
+// share an areal strain (bulk/element_group) this is the areal part.
 //
 // The mean is not weighted by the elements' sizes. Arrays are [3 * nodes]: xx, zz, xz of node 0, of
 // node 1, ...; the strain's third entry is the engineering shear 2 xz, as in bulk/element.
 #include "bulk/recovery.h"
 
 #include "base/memory.h"
-#include "bulk/element.h"
+#include "bulk/element_group.h"
 
 #include <math.h>
 #include <string.h>
@@ -61,27 +62,60 @@ const int32_t *nodal_stress_points(const NodalStress *stress, const Mesh *mesh, 
     return (stress->points ? stress->points : mesh->element_nodes) + mesh->first_node[e];
 }
 
-// To the row of `point`: `share` of the slopes d/dx, d/dz of element `e`'s shape functions at its
-// node `at`. What other elements said of a node is added to; rows are short.
+// The place of `node` in the row of `point`, a new one at its end where there is none yet; rows are
+// short.
+static int32_t place_in_row(NodalStress *stress, int32_t point, int32_t node)
+{
+    int32_t k = stress->row[point], end = k + stress->row_length[point];
+    while (k < end && stress->column[k] != node) k++;
+    stress->row_length[point] += k == end;
+    stress->column[k] = node;
+    return k;
+}
+
+// To the row of `point`: `share` of what the mean areal strain of element e's group is above that
+// of its own slopes `b` there.
+static void add_areal(const Mesh *mesh, int32_t e, int32_t point, double share,
+                      const double b[3][ELEMENT_DOFS_MAX], NodalStress *stress)
+{
+    const int32_t *element = mesh->element_nodes + mesh->first_node[e];
+    double mean[ELEMENT_DOFS_MAX];
+    ElementGroup group;
+    element_group_of(mesh, e, &group);
+    element_group_areal(mesh, &group, mean);
+    for (int32_t i = 0; i < 2 * group.node_count; i++)
+        stress->areal[place_in_row(stress, point, group.node[i / 2])][i % 2] += share * mean[i];
+    for (int32_t a = 0; a < mesh->first_node[e + 1] - mesh->first_node[e]; a++)
+        for (int d = 0; d < 2; d++)
+            stress->areal[place_in_row(stress, point, element[a])][d] -= share * b[d][2 * a + d];
+}
+
+// To the row of the point at element `e`'s node `at`: `share` of the slopes d/dx, d/dz of its shape
+// functions there. What other elements said of a node is added to.
 static void add_to_row(const Mesh *mesh, int32_t e, int32_t at, double share, NodalStress *stress)
 {
     const int32_t *element = mesh->element_nodes + mesh->first_node[e];
     int32_t nodes = mesh->first_node[e + 1] - mesh->first_node[e];
     int32_t point = nodal_stress_points(stress, mesh, e)[at];
-    int32_t first = stress->row[point], *length = &stress->row_length[point];
     double position[ELEMENT_NODES_MAX][2], place[2], b[3][ELEMENT_DOFS_MAX];
     for (int32_t a = 0; a < nodes; a++)
         memcpy(position[a], mesh->position + 2 * element[a], sizeof position[a]);
     shape_node(mesh->kind[e], at, &place[0], &place[1]);
     element_strain_matrix(mesh->kind[e], (const double(*)[2])position, place, b);
     for (int32_t a = 0; a < nodes; a++) {
-        int32_t k = first;
-        while (k < first + *length && stress->column[k] != element[a]) k++;
-        *length += k == first + *length;
-        stress->column[k] = element[a];
+        int32_t k = place_in_row(stress, point, element[a]);
         stress->slope[k][0] += share * b[0][2 * a];
         stress->slope[k][1] += share * b[1][2 * a + 1];
     }
+    if (mesh->mean_next && mesh->mean_next[e] >= 0) add_areal(mesh, e, point, share, b, stress);
+}
+
+// How many nodes element e brings to a row: its own, or those of its group.
+static int32_t nodes_with(const Mesh *mesh, int32_t e)
+{
+    ElementGroup group;
+    element_group_of(mesh, e, &group);
+    return group.node_count;
 }
 
 // A row has room for all nodes of its point's elements.
@@ -95,7 +129,7 @@ static bool prepare_rows(const Mesh *mesh, NodalStress *stress, Error *err)
     if (!error_is_clean(err)) goto cleanup;
     for (int32_t e = 0; e < mesh->element_count; e++)
         for (int32_t a = mesh->first_node[e]; a < mesh->first_node[e + 1]; a++) {
-            stress->row[point[a]] += mesh->first_node[e + 1] - mesh->first_node[e];
+            stress->row[point[a]] += nodes_with(mesh, e);
             shares[point[a]]++;
         }
     for (int32_t k = 0; k < points; k++) {
@@ -104,6 +138,7 @@ static bool prepare_rows(const Mesh *mesh, NodalStress *stress, Error *err)
     }
     TRY(stress->column = NEW_ARRAY(int32_t, room, err));
     TRY(stress->slope = memory_array(room, sizeof *stress->slope, err));
+    if (mesh->mean_next) TRY(stress->areal = memory_array(room, sizeof *stress->areal, err));
     for (int32_t e = 0; e < mesh->element_count; e++)
         for (int32_t a = mesh->first_node[e]; a < mesh->first_node[e + 1]; a++)
             add_to_row(mesh, e, a - mesh->first_node[e], 1.0 / shares[point[a]], stress);
@@ -135,6 +170,7 @@ void nodal_stress_destroy(NodalStress *stress)
     memory_free(stress->row_length);
     memory_free(stress->column);
     memory_free(stress->slope);
+    memory_free(stress->areal);
     memory_free(stress->region);
     memory_free(stress->points);
     memory_free(stress->extra_node);
@@ -150,6 +186,7 @@ static Strains strains_at(const NodalStress *stress, int32_t point, const double
                           const double *velocity)
 {
     Strains found = {0};
+    double more = 0, more_rate = 0;
     int32_t end = stress->row[point] + stress->row_length[point];
     for (int32_t k = stress->row[point]; k < end; k++) {
         const double *u = displacement + 2 * stress->column[k];
@@ -161,6 +198,15 @@ static Strains strains_at(const NodalStress *stress, int32_t point, const double
         found.rate[0] += x * v[0];
         found.rate[1] += z * v[1];
         found.rate[2] += z * v[0] + x * v[1];
+        if (!stress->areal) continue;
+        for (int d = 0; d < 2; d++) {
+            more += 0.5 * stress->areal[k][d] * u[d];
+            more_rate += 0.5 * stress->areal[k][d] * v[d];
+        }
+    }
+    for (int d = 0; d < 2; d++) {
+        found.strain[d] += more;
+        found.rate[d] += more_rate;
     }
     return found;
 }

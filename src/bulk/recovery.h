@@ -17,6 +17,8 @@ typedef struct NodalStress {
     int32_t *row, *row_length;   // [point_count] where a point's row of the operator begins; owned
     int32_t *column;   // a row's nodes, and at each:
     double (*slope)[2];   // d/dx, d/dz of shape functions, means over the point's elements; owned
+    double (*areal)[2];   // by u what the areal strain is above that of the slopes, where elements
+        // share one; owned; NULL: none do
     int32_t point_count;   // from the mesh's nodes on
     int32_t *points;   // [mesh->first_node[elements]] in the place of element_nodes; owned; NULL:
         // points are nodes

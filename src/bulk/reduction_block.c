@@ -128,6 +128,7 @@ void reduction_block_hash(const ReductionBlock *block, const Mesh *mesh, const i
     hash_bytes(hash, mesh->first_node, (elements + 1) * sizeof *mesh->first_node);
     hash_bytes(hash, mesh->element_nodes,
                (size_t)mesh->first_node[elements] * sizeof *mesh->element_nodes);
+    if (mesh->mean_next) hash_bytes(hash, mesh->mean_next, elements * sizeof *mesh->mean_next);
     hash_bytes(hash, bulk->load, unknowns * sizeof *bulk->load);
     hash_bytes(hash, bulk->held, unknowns);
     hash_bytes(hash, dofs, (size_t)dof_count * sizeof *dofs);

@@ -13,7 +13,7 @@ static const double LINE_LENGTH = 1 - 1e-9;
 
 enum { BELOW = -1, UNKNOWN = -2 };
 
-// An element between two heights.
+// An element between two heights, or with all that share its areal strain (bulk/element_group).
 typedef struct Span {
     double low, high;
     int32_t element;
@@ -49,12 +49,16 @@ static void list_spans(const Cut *cut)
     const Mesh *mesh = cut->mesh;
     Span *spans = cut->spans;
     for (int32_t e = 0; e < mesh->element_count; e++) {
+        int32_t member = e;
         spans[e] = (Span){INFINITY, -INFINITY, e};
-        for (int32_t k = mesh->first_node[e]; k < mesh->first_node[e + 1]; k++) {
-            double z = cut->position[2 * mesh->element_nodes[k] + 1];
-            spans[e].low = fmin(spans[e].low, z);
-            spans[e].high = fmax(spans[e].high, z);
-        }
+        do {
+            for (int32_t k = mesh->first_node[member]; k < mesh->first_node[member + 1]; k++) {
+                double z = cut->position[2 * mesh->element_nodes[k] + 1];
+                spans[e].low = fmin(spans[e].low, z);
+                spans[e].high = fmax(spans[e].high, z);
+            }
+            member = mesh->mean_next && mesh->mean_next[e] >= 0 ? mesh->mean_next[member] : e;
+        } while (member != e);
     }
     qsort(spans, (size_t)mesh->element_count, sizeof *spans, by_height);
 }
@@ -137,6 +141,23 @@ static int by_nodes(const void *left, const void *right)
     return 0;
 }
 
+// No ring of elements reaches over the line.
+static bool list_rings(const Cut *cut, const Moved *moved, Mesh *mesh, Error *err)
+{
+    const int32_t *next = cut->mesh->mean_next;
+    int32_t *number = NEW_ARRAY(int32_t, cut->mesh->element_count, err);
+    mesh->mean_next = NEW_ARRAY(int32_t, mesh->element_count, err);
+    if (!number || !mesh->mean_next) goto cleanup;
+    for (int32_t k = 0; k < mesh->element_count; k++) number[moved[k].element] = k;
+    for (int32_t k = 0; k < mesh->element_count; k++) {
+        int32_t after = next[moved[k].element];
+        mesh->mean_next[k] = after < 0 ? -1 : number[after];
+    }
+cleanup:
+    memory_free(number);
+    return error_is_clean(err);
+}
+
 static bool list_elements(const Cut *cut, Mesh *mesh, Error *err)
 {
     const Mesh *from = cut->mesh;
@@ -162,6 +183,7 @@ static bool list_elements(const Cut *cut, Mesh *mesh, Error *err)
                (size_t)moved[k].count * sizeof(int32_t));
         mesh->first_node[k + 1] = filled += moved[k].count;
     }
+    if (from->mean_next) TRY(list_rings(cut, moved, mesh, err));
 cleanup:
     memory_free(moved);
     return error_is_clean(err);

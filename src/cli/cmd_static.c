@@ -19,22 +19,38 @@ static const CommandText text = {
             "static.h5 and static.vtu. Example:\n\n"
             "  amontons static validation/freefem/friction.yaml -o friction"};
 
-// Sums, and last the balances by which to judge them. Forces are per width, in the scene's units.
-static void print_summary(const char *title, const StaticSummary *summary)
+// Of a force, an energy and a moment, each per width, and of a length; empty: normalised.
+typedef struct Units {
+    const char *force, *energy, *moment, *length;
+} Units;
+
+// Sums, and last the balances by which to judge them.
+static void print_summary(const Scene *scene, const StaticSummary *summary)
 {
+    static const Units si = {" N/m", " J/m", " N", " m"}, none = {"", "", "", ""};
+    const char *title = amontons_scene_title(scene);
+    bool is_si = amontons_scene_is_si(scene);
+    Units unit = is_si ? si : none;
+    double tangential = summary->rod_nodes > 0 ? summary->rod_force : -summary->shear_force;
     say("%s\n\n", *title ? title : "equilibrium");
     say("  contact        %d nodes: %d stick, %d slip, %d open\n", summary->contact_nodes,
         summary->sticking, summary->slipping, summary->open);
-    say("  on the block   F_z %.6g, F_x %.6g from the floor, moment of the pressure %.6g\n",
-        summary->normal_force, summary->shear_force, summary->pressure_moment);
+    say("  on the block   F_z %.6g%s, F_x %.6g%s from the floor, moment of the pressure %.6g%s\n",
+        summary->normal_force, unit.force, summary->shear_force, unit.force,
+        summary->pressure_moment, unit.moment);
     if (summary->rod_nodes > 0)
-        say("  rod            %.6g on %d nodes, resultant at z = %.6g\n", summary->rod_force,
-            summary->rod_nodes, summary->rod_height);
-    say("  energy         elastic %.6g, work of the loads %.6g\n", summary->elastic_energy,
-        summary->load_work);
+        say("  rod            %.6g%s on %d nodes, resultant at z = %.6g%s\n", summary->rod_force,
+            unit.force, summary->rod_nodes, summary->rod_height, unit.length);
+    if (summary->normal_force > 0)
+        say("  load ratio     F_T/F_N %.6g, F_T that of the %s\n",
+            tangential / summary->normal_force,
+            summary->rod_nodes > 0 ? "rod" : "floor against +x");
+    say("  energy         elastic %.6g%s, work of the loads %.6g%s\n", summary->elastic_energy,
+        unit.energy, summary->load_work, unit.energy);
     say("  errors         equations %.1e, forces %.1e, moments %.1e, contact %.1e\n",
         summary->residual, summary->force_balance, summary->moment_balance,
         summary->complementarity);
+    say("  units          %s, per width\n", is_si ? "SI" : "those of the scene (normalised)");
 }
 
 // Without -o nothing is written: the lines printed are all.
@@ -51,7 +67,7 @@ int command_static(int argc, char **argv)
     stop_on_signals();
     bool done = amontons_static(scene, words.folder, words.overwrite, &summary, &err);
     if (done && !words.quiet) {
-        print_summary(amontons_scene_title(scene), &summary);
+        print_summary(scene, &summary);
         if (words.folder) say("  results        %s\n", words.folder);
     }
     amontons_scene_destroy(scene);

@@ -2,6 +2,7 @@
 #include "model/regions.h"
 
 #include "base/memory.h"
+#include "bulk/element_group.h"
 
 #include <math.h>
 
@@ -34,13 +35,12 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool model_mark_regions(Model *model, Error *err)
+static bool mark_materials(Model *model, Error *err)
 {
     Mesh *mesh = &model->mesh;
     Materials *materials = &model->materials;
-    uint8_t *owner = NULL;
-    if (model->scene->materials.count == 0) return true;
-    TRY((owner = NEW_ARRAY(uint8_t, mesh->element_count, err)));
+    uint8_t *owner = NEW_ARRAY(uint8_t, mesh->element_count, err);
+    if (!owner) goto cleanup;
     for (int32_t i = 0; i < model->scene->materials.count; i++)
         TRY(scene_blame(model->scene, "materials", claim_elements(model, i, owner, err), err));
     if (materials->count == 1) goto cleanup;
@@ -52,6 +52,15 @@ bool model_mark_regions(Model *model, Error *err)
 cleanup:
     memory_free(owner);
     return error_is_clean(err);
+}
+
+bool model_mark_regions(Model *model, Error *err)
+{
+    uint8_t is_mean[MATERIALS_MAX];
+    if (model->scene->materials.count > 0 && !mark_materials(model, err)) return false;
+    for (int32_t k = 0; k < model->materials.count; k++)
+        is_mean[k] = material_resists_area(&model->materials.list[k]);
+    return element_groups_find(is_mean, &model->mesh, err);
 }
 
 // The regions of the elements that have an edge on a curve.

@@ -6,8 +6,9 @@
 
 #include "model/model.h"
 
-// Marks the elements of model->mesh with their materials and measures these. ERROR_INPUT: no such
-// surface, or two that share an element.
+// Marks the elements of model->mesh with their materials and measures these; groups those that are
+// nearly incompressible (bulk/element_group). ERROR_INPUT: no such surface, or two that share an
+// element.
 bool model_mark_regions(Model *model, Error *err);
 
 // Sets the materials that rod and contact lie on. ERROR_INPUT: soft ends of the rod's strip (which

@@ -8,7 +8,7 @@
 
 #include "base/dense.h"
 #include "base/memory.h"
-#include "bulk/element.h"
+#include "bulk/element_group.h"
 #include "contact/contact_check.h"
 #include "model/contact_laws.h"
 #include "model/gaps.h"
@@ -107,23 +107,19 @@ cleanup:
 static void find_reactions(const Model *model, StaticSolution *solution)
 {
     const Mesh *mesh = &model->mesh;
+    ElementGroup group;
+    ElementMatrices matrices;
     for (int32_t dof = 0; dof < model->bulk.dof_count; dof++)
         solution->reaction[dof] = -solution->load[dof];
     for (int32_t e = 0; e < mesh->element_count; e++) {
-        double position[ELEMENT_NODES_MAX][2];
-        int32_t first = mesh->first_node[e], nodes = mesh->first_node[e + 1] - first;
-        const int32_t *element = mesh->element_nodes + first;
-        for (int32_t a = 0; a < nodes; a++)
-            memcpy(position[a], mesh->position + 2 * element[a], sizeof position[a]);
-        ElementMatrices matrices;
-        element_matrices(mesh->kind[e], (const double(*)[2])position,
-                         &model->materials.list[mesh_region(mesh, e)], &matrices);
-        for (int32_t row = 0; row < 2 * nodes; row++) {
+        if (!element_group_at(mesh, e, &group)) continue;
+        element_group_matrices(mesh, model->materials.list, &group, &matrices);
+        for (int32_t row = 0; row < matrices.dof_count; row++) {
             double force = 0;
-            for (int32_t column = 0; column < 2 * nodes; column++)
+            for (int32_t column = 0; column < matrices.dof_count; column++)
                 force += matrices.stiffness[row][column] *
-                         solution->displacement[2 * element[column / 2] + column % 2];
-            solution->reaction[2 * element[row / 2] + row % 2] += force;
+                         solution->displacement[2 * group.node[column / 2] + column % 2];
+            solution->reaction[2 * group.node[row / 2] + row % 2] += force;
         }
     }
 }

@@ -37,6 +37,11 @@ void amontons_scene_destroy(Scene *scene)
     memory_free(scene);
 }
 
+bool amontons_scene_is_si(const Scene *scene)
+{
+    return scene->units == UNITS_SI;
+}
+
 const char *amontons_scene_title(const Scene *scene)
 {
     return scene->title;

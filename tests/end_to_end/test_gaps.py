@@ -84,7 +84,8 @@ class Gaps(OwnCache):
         _, places, pressing, _ = self.run_scene("rest_run", PARABOLA, *STILL)
         numpy.testing.assert_array_equal(x, places)
         numpy.testing.assert_allclose(pressing[-1], wanted, rtol=0, atol=2e-5 * wanted.max())
-        _, _, pressing, shear = self.run_scene("run", PARABOLA)
+        # On 12 cells the far rim touches by a node that carries next to nothing and slips first.
+        _, _, pressing, shear = self.run_scene("run", PARABOLA, "mesh.set={length: 2, height: 1, nx: 24, nz: 8}")
         slipping = shear[-1] > 0.999 * 0.5 * pressing[-1]
         touching = numpy.flatnonzero(pressing[-1] > 0)
         self.assertTrue(slipping[touching[0]])     # of so wide a contact the rim at the rod first
