@@ -6,8 +6,8 @@
 //
 // and used only with --trust (it is code). The functions are called from several threads at once
 // and very often: they keep no state. Speeds are slip rates >= 0 in the scene's units. The law must
-// be continuous, not negative, and nowhere above its value at speed 0: this is looked at when the
-// scene is read. An example with its CMakeLists.txt: share/doc/amontons/examples/friction.
+// be continuous and not negative: this is looked at when the scene is read. An example
+// with its CMakeLists.txt: share/doc/amontons/examples/friction.
 #ifndef AMONTONS_FRICTION_H
 #define AMONTONS_FRICTION_H
 

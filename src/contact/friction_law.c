@@ -123,6 +123,8 @@ FrictionLaw friction_scaled(const FrictionLaw *law, double factor)
     scaled.mu_static *= factor;
     scaled.mu_kinetic *= factor;
     scaled.steepest *= factor;
+    scaled.bend *= factor;
+    scaled.fall *= factor;
     scaled.factor *= factor;
     return scaled;
 }
@@ -206,7 +208,7 @@ static inline double drop_of(const FrictionLaw *law)
 
 double friction_drop(const FrictionLaw *law)
 {
-    return friction_has_drop(law) ? drop_of(law) : 0;
+    return friction_has_drop(law) ? fmax(drop_of(law), law->fall) : 0;
 }
 
 double friction_slip(const FrictionLaw *law, double pressure, double height, double young)
@@ -345,19 +347,19 @@ double friction_branch(const FrictionLaw *law, int32_t piece, double speed, doub
 }
 
 static const double BEND = 0.5;   // of v_c, or of its speed: a node may go so far
-static const double TURN = 0.1;   // of its steepest: the slope of one's own law may change so much
+static const double TURN = 0.1;   // of the largest: the slope of one's own law may change so much
 
 // The last piece of a law with kinks is level, as is a law without a drop.
 bool friction_is_straight(const FrictionLaw *law, int32_t piece, double from, double to)
 {
     bool last = piece > 0 && !isfinite(friction_kink(law, piece));
     double before, after;
-    if (last || !(friction_drop(law) > 0)) return true;
+    if (last || !(friction_drop(law) > 0 || law->bend > 0)) return true;
     if (fabs(to - from) > BEND * fmax(law->critical_velocity, from)) return false;
     if (friction_is_convex(law)) return true;
     friction_branch(law, piece, from, &before);
     friction_branch(law, piece, to, &after);
-    return fabs(after - before) <= TURN * law->steepest;
+    return fabs(after - before) <= TURN * law->bend;
 }
 
 // Exponential weakening never ends but by underflow: there is no speed from which on a node is
@@ -392,12 +394,13 @@ double friction_spent_speed(const FrictionLaw *law)
     return 0;
 }
 
-// Solves mu = mu_K + (mu_S - mu_K) phi for phi: 1 at rest, 0 from v_c on, and for the linear law
-// just the paper's 1 - |v|/v_c.
+// Solves mu = mu_K + (mu_S - mu_K) phi for phi <= 1: 1 at rest, 0 from v_c on, and for the linear
+// law just the paper's 1 - |v|/v_c.
 double friction_contact_density(const FrictionLaw *law, double speed)
 {
-    double drop = friction_drop(law);
-    return drop > 0 ? (friction_coefficient(law, speed) - law->mu_kinetic) / drop : 1.0;
+    double drop = friction_has_drop(law) ? drop_of(law) : 0;
+    double left = drop > 0 ? (friction_coefficient(law, speed) - law->mu_kinetic) / drop : 1.0;
+    return fmin(left, 1);
 }
 
 // Points of a table and fifteen between each two; else a hundred to a decade, over the twelve below

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The local friction law |tau| <= mu(v) p: THE replaceable file. A law is a coefficient that is
-// continuous, not negative, and nowhere above mu(0), the static threshold; stick is set-valued.
+// continuous and not negative; at rest mu(0) is the static threshold, stick is set-valued.
 //
 //   linear weakening   mu_S - (mu_S - mu_K) |v| / v_c  for |v| < v_c,  mu_K above
 //                      (Otsuki and Matsukawa, Sci. Rep. 3, 1586, 2013)
 //   exponential        mu_K + (mu_S - mu_K) exp(-|v| / v_c)
 //   Coulomb            mu_S
-//   one's own          a table, a formula or a plug-in: may rise again after it has fallen
+//   one's own          a table, a formula or a plug-in: may rise, also above mu(0)
 //
 // A new law is a line of FRICTION_LAWS and its cases in friction_law.c: nobody else asks for the
 // kind, but through the functions below.
@@ -42,6 +42,9 @@ typedef struct FrictionLaw {
     // The rest: of one's own laws, by friction_own_law and contact/friction_look.
     double end;   // beyond this speed mu stays, velocity
     double steepest;   // the largest -mu'(v), one over a velocity
+    double bend;   // the largest |mu'(v)|, one over a velocity
+    double fall;   // of a law that rises above mu(0): the most that mu falls from one speed to a
+        // faster one, 1; else 0
     double spent;   // friction_spent_speed, velocity
     bool strengthens;   // at some speed a faster slip meets more friction
     double factor;   // on what `own` says, 1
@@ -83,7 +86,8 @@ bool friction_is_own(const FrictionLaw *law);
 // The law has mu_K and v_c; else they mean nothing.
 bool friction_has_drop(const FrictionLaw *law);
 
-// mu_S - mu_K, 1: what the law loses from rest to its lowest coefficient; 0 where nothing weakens.
+// What the law loses at most from a speed to a faster one, 1: mu_S - mu_K where it is nowhere above
+// mu(0); 0 where nothing weakens.
 double friction_drop(const FrictionLaw *law);
 
 // The slip that the drop can drive under a mean pressure, drop * pressure * height / young, length;
@@ -123,12 +127,11 @@ bool friction_weakens(const FrictionLaw *law, double speed);
 // At some speed a faster slip meets more friction.
 bool friction_strengthens(const FrictionLaw *law);
 
-// From about this speed on next to nothing weakens any more (linear law: nothing), velocity; 0
-// where nothing weakens.
+// From about this speed on next to nothing weakens any more, velocity; 0 where nothing weakens.
 double friction_spent_speed(const FrictionLaw *law);
 
 // phi = max(0, 1 - |v|/v_c), the density of real contacts that hold (the paper's Figure 1d); from
-// the coefficient for the other laws: (mu - mu_K) / (mu_S - mu_K), and 1 where nothing weakens.
+// the coefficient for the other laws: (mu - mu_K) / (mu_S - mu_K), 1 from mu_S on.
 double friction_contact_density(const FrictionLaw *law, double speed);
 
 // What a key of the map `friction` is to a law.

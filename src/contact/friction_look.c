@@ -4,7 +4,7 @@
 #include <math.h>
 
 static const double SAME = 1e-9;   // relative: a number typed twice, rounding of a formula
-static const double JUMP = 1e-6;   // of mu_S: what is left of a jump that halving does not reduce
+static const double JUMP = 1e-6;   // of mu: what is left of a jump that halving does not reduce
 static const double STEP = 1e-6;   // of a speed, for differences
 static const double SLOPE_ERROR = 1e-3;   // relative, that differences leave to a slope
 static const double CHANGED = 0.63212055882855768;   // 1 - 1/e
@@ -23,11 +23,6 @@ static bool look_at(const FrictionLaw *law, double speed, Error *err)
     if (mu < 0)
         FAIL(err, ERROR_INPUT, "at velocity %g the coefficient is %g: it must not be negative",
              speed, mu);
-    if (mu > law->mu_static * (1 + SAME))
-        FAIL(err, ERROR_INPUT,
-             "at velocity %g the coefficient is %g, above that at rest, %g: a law may strengthen "
-             "after it has weakened, but not beyond what holds at rest",
-             speed, mu, law->mu_static);
 cleanup:
     return error_is_clean(err);
 }
@@ -37,7 +32,8 @@ cleanup:
 static bool is_continuous(const FrictionLaw *law, double low, double high, Error *err)
 {
     double from = friction_coefficient(law, low), to = friction_coefficient(law, high);
-    double slopes = friction_slope(law, low) + friction_slope(law, high), jump = JUMP * from;
+    double slopes = friction_slope(law, low) + friction_slope(law, high);
+    double jump = JUMP * fmax(from, to);
     if (fabs(to - from - 0.5 * (high - low) * slopes) <= jump) return true;
     double least = low + 1e-12 * high;
     while (high - low > 1e-13 * high && high > least && fabs(to - from) > jump) {
@@ -61,7 +57,8 @@ static bool slope_fits(const FrictionLaw *law, double speed, Error *err)
     double before = (mu - friction_coefficient(law, speed - h)) / h;
     double after = (friction_coefficient(law, speed + h) - mu) / h;
     double slope = friction_slope(law, speed);
-    double allowed = SLOPE_ERROR * (fabs(before) + fabs(after)) + STEP * law->mu_static / speed;
+    double allowed = SLOPE_ERROR * (fabs(before) + fabs(after)) +
+                     STEP * fmax(law->mu_static, mu) / speed;
     if (slope < fmin(before, after) - allowed || slope > fmax(before, after) + allowed)
         FAIL(err, ERROR_INPUT,
              "at velocity %g the slope is said to be %g, but differences of the coefficient give "
@@ -76,27 +73,51 @@ static double weakening(const FrictionLaw *law, double speed)
     return fmax(-friction_slope(law, speed), 0);
 }
 
-// 0 where nothing weakens.
+// Weakening, or where there is none what strengthens.
+static double course(const FrictionLaw *law, double speed)
+{
+    double slope = friction_slope(law, speed);
+    return fmax(law->steepest > 0 ? -slope : slope, 0);
+}
+
+// 0 where the law is level.
 static double find_critical(const FrictionLaw *law)
 {
-    double at_rest = weakening(law, 0), allowed = CHANGED * law->steepest, low = 0, high;
+    double largest = law->steepest > 0 ? law->steepest : law->bend;
+    double at_rest = course(law, 0), allowed = CHANGED * largest, low = 0, high;
     for (int32_t k = 1; isfinite(high = friction_look_speed(law, k)); k++) {
-        if (fabs(weakening(law, high) - at_rest) > allowed) break;
+        if (fabs(course(law, high) - at_rest) > allowed) break;
         low = high;
     }
-    if (!(law->steepest > 0) || !isfinite(high)) return law->steepest > 0 ? law->end : 0;
+    if (!(largest > 0) || !isfinite(high)) return largest > 0 ? law->end : 0;
     while (high - low > 1e-15 * high) {
         double middle = 0.5 * (low + high);
         if (middle <= low || middle >= high) break;
-        *(fabs(weakening(law, middle) - at_rest) > allowed ? &high : &low) = middle;
+        *(fabs(course(law, middle) - at_rest) > allowed ? &high : &low) = middle;
     }
     return high;
+}
+
+// The lowest speed from which on no more than SPENT_PART of the largest fall is to come.
+static double last_fall(const FrictionLaw *law)
+{
+    int32_t k = 0;
+    double lowest = INFINITY, speed = law->end;
+    while (isfinite(friction_look_speed(law, k))) k++;
+    while (k-- > 0) {
+        double mu = friction_coefficient(law, friction_look_speed(law, k));
+        lowest = fmin(lowest, mu);
+        if (mu - lowest > SPENT_PART * law->fall) return speed;
+        speed = friction_look_speed(law, k);
+    }
+    return 0;
 }
 
 // By multiples of v_c, so that it does not depend on the last digits of the law.
 static double find_spent(const FrictionLaw *law)
 {
     double drop = law->mu_static - law->mu_kinetic;
+    if (law->fall > 0) return last_fall(law);
     for (double times = 1; times * law->critical_velocity < law->end;
          times += times < 64 ? 1 : times)
         if (friction_coefficient(law, times * law->critical_velocity) - law->mu_kinetic <=
@@ -110,18 +131,24 @@ static double find_spent(const FrictionLaw *law)
 bool friction_look(FrictionLaw *law, Error *err)
 {
     double given = law->mu_static, before = 0, speed, lowest = INFINITY, lowest_at = 0, rise = 0;
+    double highest = 0, fall = 0;
     law->mu_static = friction_coefficient(law, 0);
-    law->steepest = 0;
+    law->steepest = law->fall = 0;
     for (int32_t k = 0; isfinite(speed = friction_look_speed(law, k)); k++) {
         TRY(look_at(law, speed, err));
         if (k > 0) TRY(is_continuous(law, before, speed, err));
         if (k > 0 && speed < law->end) TRY(slope_fits(law, speed, err));
         law->steepest = fmax(law->steepest, weakening(law, speed));
         rise = fmax(rise, friction_slope(law, speed));
-        if (friction_coefficient(law, speed) < lowest) lowest_at = speed;
-        lowest = fmin(lowest, friction_coefficient(law, speed));
+        double mu = friction_coefficient(law, speed);
+        if (mu < lowest) lowest_at = speed;
+        lowest = fmin(lowest, mu);
+        highest = fmax(highest, mu);
+        fall = fmax(fall, highest - mu);
         before = speed;
     }
+    law->bend = fmax(law->steepest, rise);
+    if (highest > law->mu_static * (1 + SAME)) law->fall = fall;
     if (given > 0 && fabs(given - law->mu_static) > SAME * given)
         FAIL(err, ERROR_INPUT, "at velocity 0 the coefficient is %g, but mu_static is given as %g",
              law->mu_static, given);

@@ -11,12 +11,13 @@
 //
 //   mu_S   mu(0)
 //   mu_K   the lowest coefficient
-//   v_c    the speed at which the weakening -mu' has changed by 1 - 1/e of its largest value from
-//          what it is at rest: so it is v_c of the linear and of the exponential law
+//   v_c    the speed at which the weakening -mu' (of a law that only rises: mu') has changed by
+//          1 - 1/e of its largest value from what it is at rest: so it is v_c of the linear and of
+//          the exponential law
 //
 // A v_c that is given stays, a mu_K too, which must be a lower bound. ERROR_INPUT, with the
-// velocity: not finite, negative, above mu(0), not continuous, or a slope that is not that of mu;
-// or a mu_static or mu_kinetic that is not that of the law.
+// velocity: not finite, negative, not continuous, or a slope that is not that of mu; or a mu_static
+// or mu_kinetic that is not that of the law.
 bool friction_look(FrictionLaw *law, Error *err);
 
 #endif

@@ -92,7 +92,7 @@ static const SceneKey keys[] = {
      .sentence = "Law `table`: slip rates, ascending from 0; beyond the last mu stays."},
     {"friction.mu", KEY_NUMBERS, offsetof(Scene, own_friction.mu), "1", RANGE_NOT_NEGATIVE, NULL,
      .may_lack = true,
-     .sentence = "Law `table`: the coefficient at each, nowhere above the first."},
+     .sentence = "Law `table`: the coefficient at each; the first holds at rest."},
     {"friction.interpolation", KEY_CHOICE, offsetof(Scene, own_friction.interpolation), "1",
      RANGE_ANY, NULL, .may_lack = true,
      .sentence = "Law `table`: between points `cubic` (each piece monotone; if not given) or "

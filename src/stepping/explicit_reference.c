@@ -171,8 +171,8 @@ static double below_largest_root(const FrictionLaw *law, double free_speed, doub
 static double slip_speed(const FrictionLaw *law, double free_speed, double strength, bool slipped)
 {
     bool may_stick = free_speed <= strength * friction_coefficient(law, 0);
-    if (may_stick && (!slipped || 1 + strength * friction_slope(law, 0) > 0)) return 0;
     bool convex = friction_is_convex(law);
+    if (may_stick && (!slipped || (convex && 1 + strength * friction_slope(law, 0) > 0))) return 0;
     double speed = free_speed, high = free_speed;
     double low = convex ? 0 : below_largest_root(law, free_speed, strength);
     if (low < 0) return 0;

@@ -199,7 +199,7 @@ static double fall_of_mu(PadWork *work)
     for (int32_t a = 0; a < work->count; a++) {
         int32_t i = work->nodes[a];
         const FrictionLaw *own = friction_at(law, i);
-        double kinetic = own->mu_static - friction_drop(own);
+        double kinetic = fmax(own->mu_static - friction_drop(own), 0);
         work->values[a] = fabs(path->runaway.reaction[interface_tangent(i)]) -
                           kinetic * path->runaway.reaction[interface_normal(i)];
         for (int32_t b = 0; b < work->count; b++)

@@ -50,7 +50,7 @@ static void test_pairs(void **state)
     mesh_destroy(&mesh);
 }
 
-// Only in regions that are marked and not across them; a T3 that is left over joins a group; Q8 stay.
+// In regions that are marked and not across them; a T3 that is left over joins a group; Q8 stay.
 static void test_regions(void **state)
 {
     (void)state;

@@ -164,12 +164,66 @@ static void test_strengthening(void **state)
     rig_destroy(&rig);
 }
 
+// Friction that rises with speed from rest on, mu = 0.3 + k v: v' = lambda (v_end - v), lambda =
+// k P/(rho H), v_end = (shear - 0.3)/k. Driven from rest the block comes to v_end, where mu is that
+// of the drive; thrown forward under less it brakes and stops when v_end + (v - v_end)
+// exp(-lambda t) is 0, and then holds. All of it is certified: nothing weakens.
+static void move_on_rising_friction(double shear, double thrown)
+{
+    Error err = {0};
+    const double k = 50, lambda = k * PRESSURE / HEIGHT, v_end = (shear - 0.3) / k;
+    const double velocity[] = {0, 0.02}, mu[] = {0.3, 0.3 + 0.02 * k};
+    RigDef def = stiff_def();
+    StepControlDef steps = control_def(0.005 / lambda);
+    BlockRig rig;
+    StepControl control;
+    def.traction[0] = shear * PRESSURE;
+    def.law = own_table(2, velocity, mu, true);
+    assert_near("nothing falls", friction_drop(&def.law), 0, 0);
+    rig_build(&def, &rig);
+    assert_true(step_control_create(&rig.block, &steps, &control, &err));
+    rig.law.mu_static = 10;
+    settle(&control);
+    rig.law.mu_static = 0.3;
+    step_control_restart(&control);
+    double start = control.now.displacement[0], from = control.now.time;
+    double friction = control.ledger.frictional;
+    if (thrown > 0) set_velocity(&control, thrown);
+    double stop = v_end < 0 ? log(1 - thrown / v_end) / lambda : INFINITY, fastest = 0;
+    while (lambda * (control.now.time - from) < 4) {
+        assert_true(step_control_advance(&control, INFINITY, &err));
+        double t = control.now.time - from;
+        double wanted = t < stop ? v_end + (thrown - v_end) * exp(-lambda * t) : 0;
+        fastest = fmax(fastest, fabs(mean_velocity(&control) - wanted));
+        assert_true(certificate_holds(&control.certificate, &control.now));
+    }
+    assert_near("v", fastest, 0, 2e-3 * fmax(thrown, v_end));
+    if (thrown > 0) {
+        double way = (thrown - v_end) * (1 - exp(-lambda * stop)) / lambda + v_end * stop;
+        double energy = 0.5 * HEIGHT * thrown * thrown + shear * PRESSURE * way;
+        for (int32_t i = 0; i < control.now.contact_count; i++)
+            assert_int_equal(control.now.status[i], CONTACT_STICK);
+        assert_near("way", control.now.displacement[0] - start, way, 2e-3 * way);
+        assert_near("friction", control.ledger.frictional - friction, energy, 5e-3 * energy);
+    }
+    step_control_destroy(&control);
+    rig_destroy(&rig);
+}
+
+static void test_rising(void **state)
+{
+    (void)state;
+    move_on_rising_friction(0.8, 0);
+    move_on_rising_friction(0.1, 0.015);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_braking),
         cmocka_unit_test(test_runaway),
         cmocka_unit_test(test_strengthening),
+        cmocka_unit_test(test_rising),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
