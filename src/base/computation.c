@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/computation.h"
 
+#include "base/kernels.h"
 #include "computing_sources.h"
 
-// Not in it: versions and kernels of linear algebra, between which answers agree as
-// docs/reliability.md says. What is to separate kept numbers from then on is added here.
 Hash computation_hash(void)
 {
     Hash hash = hash_start();
     hash_text(&hash, COMPUTING_SOURCES);
+    return hash;
+}
+
+Hash computation_hash_bits(void)
+{
+    Hash hash = computation_hash();
+    hash_text(&hash, kernels_name());
     return hash;
 }

@@ -8,6 +8,10 @@
 
 #include "base/hash.h"
 
-Hash computation_hash(void);   // to go on with, or to write as a word
+// To go on with, or to write as a word. Answers with other kernels of linear algebra agree within
+// their bars (docs/reliability.md): rows and states may be gone on with on another processor.
+Hash computation_hash(void);
+// And which kernels: of caches, as the same scene gives the same bits with and without them.
+Hash computation_hash_bits(void);
 
 #endif

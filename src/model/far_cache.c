@@ -15,7 +15,7 @@ enum { COUNTS = 3 };   // unknowns, patches, couplings
 static void find_name(const FarCacheDef *def, char name[HASH_TEXT_SIZE])
 {
     const UpperBlock *upper = def->upper;
-    Hash hash = computation_hash();
+    Hash hash = computation_hash_bits();
     name[0] = 0;
     if (!def->keep) return;
     hash_number(&hash, def->far.tolerance);

@@ -174,7 +174,7 @@ static bool obtain_basis(Model *model, const ReductionBlock *block, Shape *shape
                         .scales = {.stiffness = 1, .damping = 1, .mass = 1, .load = 1}};
     FileLock lock = {0};
     if (scene->reduction.cache) {
-        Hash hash = computation_hash();
+        Hash hash = computation_hash_bits();
         hash_number(&hash, def.tolerance);
         reduction_block_hash(block, &model->mesh, interface->dofs, interface->count, &hash);
         hash_write(&hash, shape->basis);

@@ -85,7 +85,7 @@ bool shape_key(const Scene *scene, double tolerance, char key[HASH_TEXT_SIZE], E
 {
     key[0] = 0;
     if (!scene->reduction.cache) return true;
-    Hash hash = computation_hash();
+    Hash hash = computation_hash_bits();
     bool whole = false;
     double eta = scene->material.eta1 + scene->material.eta2;
     TRY(mesh_source_hash(scene->mesh.file, scene->mesh.parameters, scene->mesh.parameter_count,

@@ -111,6 +111,8 @@ class SameBits(Cached):
                 self.assertEqual(report["model"]["from_cache"], cache is None)
                 self.assertEqual(report["kernels"]["openblas"], "Prescott")
                 self.assert_same_history(first, folder)
+        # Of other kernels: rounded otherwise, so that it is not taken.
+        self.assertFalse(self.model(*settings, OPENBLAS_CORETYPE="Nehalem")["from_cache"])
 
     def test_fields(self):
         """Modes of the whole mesh are kept when first asked for, with the basis they belong to."""

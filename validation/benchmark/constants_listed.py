@@ -228,6 +228,8 @@ NOT_A_CHOICE = {
     "bulk/basis_condense.c": {"WIDE": SIZE, "STRETCH": SIZE, "ALONE": SIZE},
     "bulk/element.h": {"ELEMENT_DOFS_MAX": "two for each node"},
     "bulk/mesh_build.c": {"AREA_TOLERANCE": ROUNDING, "order": "the element"},
+    "bulk/element_group.h": {"GROUP_ELEMENTS_MAX": "a pair of T3 and one at each of its edges"},
+    "bulk/material.c": {"AREA_RESISTS": "docs/method.md, where elements lock"},
     "bulk/material.h": {"MATERIALS_MAX": SIZE},
     "bulk/mesh.h": {"MESH_PATH_SIZE": SIZE},
     "bulk/mesh_contact.c": {"PLACE_TOLERANCE": ROUNDING},
