@@ -41,8 +41,8 @@ typedef struct MeshGroup {
     // group: which of the two an element belongs to is not known
 } MeshGroup;
 
-// Who made it: gmsh now, gmsh before (io/mesh_cache), or io/plain_mesh.
-typedef enum MeshOrigin { MESH_OF_GMSH, MESH_OF_CACHE, MESH_OF_ROWS } MeshOrigin;
+// Made by gmsh now, or before (io/mesh_cache).
+typedef enum MeshOrigin { MESH_OF_GMSH, MESH_OF_CACHE } MeshOrigin;
 
 typedef struct MeshFile {
     MeshOrigin origin;

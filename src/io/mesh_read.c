@@ -11,7 +11,6 @@
 #include "io/geo_parameters.h"
 #include "io/mesh_apart.h"
 #include "io/mesh_cache.h"
-#include "io/plain_mesh.h"
 
 #include <errno.h>
 #include <math.h>
@@ -201,9 +200,6 @@ bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t p
             path, given.list[0].name);
     request.parameters = given.list;
     request.parameter_count = given.count;
-    if (request.generate)
-        TRY(plain_mesh_make(path, parameters, parameter_count, mesh, &found, err));
-    if (found) goto cleanup;
     TRY(mesh_cache_key(path, parameters, parameter_count, key, err));
     TRY(mesh_cache_load(key, mesh, &found, err));
     if (found)

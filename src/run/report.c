@@ -88,8 +88,7 @@ static void write_expected(JsonWriter *json, const Model *model)
 // NULL: nobody, since the shape is in the cache.
 static const char *mesh_maker(const Model *model)
 {
-    static const char *const makers[] = {
-        [MESH_OF_GMSH] = "gmsh", [MESH_OF_CACHE] = "cache", [MESH_OF_ROWS] = "amontons"};
+    static const char *const makers[] = {[MESH_OF_GMSH] = "gmsh", [MESH_OF_CACHE] = "cache"};
     return model->mesh.element_count > 0 ? makers[model->mesh_origin] : NULL;
 }
 

@@ -52,8 +52,7 @@ static void add_phase(RunSummary *summary, const char *name, double seconds, int
 static const char *mesh_note(const Model *model, bool fields)
 {
     static const char *const origins[] = {[MESH_OF_GMSH] = "elements, read through gmsh",
-                                          [MESH_OF_CACHE] = "elements, from the cache",
-                                          [MESH_OF_ROWS] = "elements in rows, without gmsh"};
+                                          [MESH_OF_CACHE] = "elements, from the cache"};
     if (model->mesh.element_count == 0) return "skipped: the shape is in the cache";
     return fields && model->from_cache ? "elements: fields need the mesh"
                                        : origins[model->mesh_origin];
