@@ -4,8 +4,10 @@
 #include "base/apart.h"
 
 #include "base/memory.h"
+#include "base/process.h"
 
 #include <errno.h>
+#include <poll.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,7 +16,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { FIRST_BYTES = 1 << 16 };
+enum { FIRST_BYTES = 1 << 16, WAKE_MS = 100 };
 
 bool apart_is_wanted(void)
 {
@@ -83,9 +85,13 @@ static void be_child(const ApartWork *work, int pipe, pid_t parent)
 static bool take_all(const ApartWork *work, pid_t child, int pipe, ApartReply *reply, Error *err)
 {
     int64_t room = FIRST_BYTES;
-    bool told = false;   // Ctrl-C comes to both; kill to one
+    bool told = !work->stop;   // Ctrl-C comes to both; kill to one
+    struct pollfd ready = {.fd = pipe, .events = POLLIN};
     TRY((reply->bytes = memory_bytes(room, err)));
     for (;;) {
+        if (!told && *work->stop) told = kill(child, SIGTERM) == 0;
+        // A signal that came before it waited does not interrupt it.
+        if (poll(&ready, 1, told ? -1 : WAKE_MS) <= 0) continue;
         if (reply->size == room) {
             char *longer = memory_resize(reply->bytes, room, 2 * room, 1, err);
             TRY(longer);
@@ -93,10 +99,7 @@ static bool take_all(const ApartWork *work, pid_t child, int pipe, ApartReply *r
             room *= 2;
         }
         ssize_t count = read(pipe, reply->bytes + reply->size, (size_t)(room - reply->size));
-        if (count < 0 && errno == EINTR) {
-            if (work->stop && *work->stop && !told) told = kill(child, SIGTERM) == 0;
-            continue;
-        }
+        if (count < 0 && errno == EINTR) continue;
         if (count <= 0) break;
         reply->size += count;
     }
@@ -118,8 +121,13 @@ static void take_error(ApartReply *reply, Error *err)
 static void blame(const ApartWork *work, int ending, const struct rusage *used, Error *err)
 {
     double kilobytes = (double)bytes_allowed() / 1024;
+    char words[200];
+    process_describe(ending, words, sizeof words);
     int number = WIFSIGNALED(ending) ? WTERMSIG(ending) : 0;
-    if (number == SIGXCPU)
+    if (ending == PROCESS_LOST)
+        error_set(err, ERROR_LIBRARY, __FILE__, __LINE__,
+                  "%s: the process in which %s reads it ended %s", work->path, work->reader, words);
+    else if (number == SIGXCPU)
         error_set(err, ERROR_INPUT, __FILE__, __LINE__,
                   "%s: %s had not read it after %ld seconds; %s", work->path, work->reader,
                   (long)(used->ru_utime.tv_sec + used->ru_stime.tv_sec + 1), work->advice);
@@ -136,7 +144,7 @@ static void blame(const ApartWork *work, int ending, const struct rusage *used, 
 // What the streams of this process hold is written before: the child has a copy of them.
 bool apart_read(const ApartWork *work, ApartReply *reply, Error *err)
 {
-    int ends[2] = {-1, -1}, ending = 0;
+    int ends[2] = {-1, -1};
     struct rusage used = {0};
     pid_t parent = getpid();
     *reply = (ApartReply){0};
@@ -152,7 +160,7 @@ bool apart_read(const ApartWork *work, ApartReply *reply, Error *err)
     if (child > 0) take_all(work, child, ends[0], reply, err);
     close(ends[0]);
     if (child < 0) FAIL(err, ERROR_FILE, "cannot start a process: %s", strerror(cause));
-    while (wait4(child, &ending, 0, &used) < 0 && errno == EINTR) continue;
+    int ending = process_wait(child, &used);
     TRY(error_is_clean(err));
     if (ending == 0 && reply->size >= (int64_t)sizeof(Error))
         take_error(reply, err);

@@ -4,6 +4,8 @@
 // could leave a job that nobody knows of.
 #include "base/program.h"
 
+#include "base/process.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <spawn.h>
@@ -54,7 +56,7 @@ static void take_output(int pipe, char *output, size_t size)
 // A program that runs and fails is no error here: its status says so.
 bool program_run(const char *const *words, char *output, size_t size, int *status, Error *err)
 {
-    int ends[2] = {-1, -1}, ending = 0;
+    int ends[2] = {-1, -1};
     pid_t process = 0;
     *output = 0;
     if (pipe2(ends, O_CLOEXEC) != 0)
@@ -67,7 +69,12 @@ bool program_run(const char *const *words, char *output, size_t size, int *statu
     }
     take_output(ends[0], output, size);
     close(ends[0]);
-    while (waitpid(process, &ending, 0) < 0 && errno == EINTR) continue;
+    int ending = process_wait(process, NULL);
+    if (ending == PROCESS_LOST) {
+        char words_of[200];
+        process_describe(ending, words_of, sizeof words_of);
+        FAIL(err, ERROR_LIBRARY, "`%s` ended %s", words[0], words_of);
+    }
     *status = WIFSIGNALED(ending) ? 128 + WTERMSIG(ending) : WEXITSTATUS(ending);
 cleanup:
     return error_is_clean(err);

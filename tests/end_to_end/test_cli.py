@@ -447,6 +447,22 @@ class Run(InFolder):
         for line in said:
             self.assertRegex(line, r" to \S*/amontons \[0\]")
 
+    def test_ignored_children(self):
+        """Whoever starts it may ignore SIGCHLD: an sbatch that fails has failed all the same."""
+        sbatch = self.folder / "sbatch"
+        sbatch.write_text("#!/bin/sh\necho sbatch: error: invalid partition\n[ $1 = --version ]\n")
+        for name in ("scancel", "squeue", "scontrol"):
+            (self.folder / name).write_text("#!/bin/sh\n")
+        for file in self.folder.iterdir():
+            file.chmod(0o755)
+        study = self.folder / "study.yaml"
+        study.write_text(f"scene: {FIG1}\nvary: {{load.pressure: [0.002, 0.006]}}\nrecord: [mu_max]\n")
+        done = subprocess.run([PROGRAM, "sweep", study, "--slurm", "-o", self.folder / "points"], capture_output=True, text=True,
+                              timeout=60, env={**os.environ, "PATH": f"{self.folder}:{os.environ['PATH']}"},
+                              preexec_fn=lambda: signal.signal(signal.SIGCHLD, signal.SIG_IGN))
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("sbatch refuses the array: sbatch: error: invalid partition", done.stderr)
+
     def test_standard_streams_that_are_closed(self):
         """The first file opened would get their numbers, and progress would be written into it."""
         result = self.folder / "result"

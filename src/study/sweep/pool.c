@@ -8,6 +8,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "base/process.h"
 #include "study/sweep/tally.h"
 
 #include <errno.h>
@@ -131,35 +132,31 @@ cleanup:
 }
 
 // Takes what a point left, or else says why it left nothing: the message of its child, or how that
-// ended (as waitpid has it).
+// ended (as process_wait has it).
 static bool note_result(Pool *pool, const Worker *of, const char *said, int ending, Error *err)
 {
     const char *failure = *said ? "not begun" : "crashed";
-    char message[ERROR_MESSAGE_SIZE];
+    char message[ERROR_MESSAGE_SIZE], how[200];
     double seconds = clock_seconds() - of->started;
     bool left = false;
+    process_describe(ending, how, sizeof how);
     TRY(sweep_take_ended(pool->sweep, of->point, seconds, &left, err));
     if (left) goto cleanup;
     if (*said)
         snprintf(message, sizeof message, "%s", said);
-    else if (WIFSIGNALED(ending))
-        snprintf(message, sizeof message, "the process ended by signal %d (%s)", WTERMSIG(ending),
-                 strsignal(WTERMSIG(ending)));
     else
-        snprintf(message, sizeof message, "the process ended with status %d, without a word",
-                 WEXITSTATUS(ending));
+        snprintf(message, sizeof message, "the process ended %s, without a word", how);
     TRY(sweep_take_lost(pool->sweep, of->point, seconds, failure, message, err));
 cleanup:
     return error_is_clean(err);
 }
 
 // Waits for the child, which ends by itself once it has nothing to read, and frees its worker. The
-// status as waitpid has it.
+// status as process_wait has it.
 static int reap(Worker *worker)
 {
-    int ending = 0;
     shutdown(worker->socket, SHUT_WR);   // also where another child has a copy of it
-    while (waitpid(worker->process, &ending, 0) < 0 && errno == EINTR) continue;
+    int ending = process_wait(worker->process, NULL);
     close(worker->socket);
     worker->process = 0;
     return ending;

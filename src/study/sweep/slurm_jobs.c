@@ -226,12 +226,14 @@ bool slurm_is_end(const char *state)
     return false;
 }
 
-// Whether any job of the folder is waiting or running. False also where squeue fails.
-static bool any_alive(SlurmJobs *jobs, const char *name, Error *err)
+// *none: no job of the folder is waiting or running. *status: of squeue, which may fail.
+static bool find_none_alive(SlurmJobs *jobs, const char *name, bool *none, int *status, Error *err)
 {
     const char *const words[] = {"squeue", "-h", name, "-o", "%F", NULL};
-    int status = 0;
-    return ask(jobs, words, &status, err) && status == 0 && jobs->answer[0];
+    TRY(ask(jobs, words, status, err));
+    *none = *status == 0 && !jobs->answer[0];
+cleanup:
+    return error_is_clean(err);
 }
 
 void slurm_pause(double seconds)
@@ -245,16 +247,23 @@ bool slurm_cancel(SlurmJobs *jobs, Error *err)
 {
     char name[sizeof jobs->name + 10];
     int status = 0;
+    bool none = false;
     double until = clock_seconds() + CANCEL_LIMIT;
     snprintf(name, sizeof name, "--name=%s", jobs->name);
     const char *const words[] = {"scancel", name, NULL};
     TRY(ask(jobs, words, &status, err));
     if (status != 0) FAIL(err, ERROR_LIBRARY, "scancel fails: %.1500s", jobs->answer);
-    while (any_alive(jobs, name, err)) {
+    TRY(find_none_alive(jobs, name, &none, &status, err));
+    while (!none) {
+        if (clock_seconds() > until && status != 0)
+            FAIL(err, ERROR_LIBRARY,
+                 "whether jobs called %s have ended is not known: squeue does not answer: %.1500s",
+                 jobs->name, jobs->answer);
         if (clock_seconds() > until)
             FAIL(err, ERROR_LIBRARY, "jobs called %s are still there a minute after scancel",
                  jobs->name);
         slurm_pause(CANCEL_PAUSE);
+        TRY(find_none_alive(jobs, name, &none, &status, err));
     }
 cleanup:
     return error_is_clean(err);

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 
+#include <pthread.h>
 #include <setjmp.h>
 #include <signal.h>
 #include <stdarg.h>
@@ -152,6 +153,68 @@ static void test_ends_without_answer(void **state)
     }
 }
 
+// A crash was called a damaged file "without a word".
+static void test_ignored_children(void **state)
+{
+    (void)state;
+    Error err = {0};
+    signal(SIGCHLD, SIG_IGN);
+    assert_true(fails_in(crash, &err));
+    signal(SIGCHLD, SIG_DFL);
+    says(&err,
+         "stone.msh: the process in which a mason reads it ended in a way that nobody can say");
+}
+
+// --- stopped ------------------------------------------------------------------------------------
+
+static volatile sig_atomic_t stopped;
+
+static void note_stop(int number)
+{
+    (void)number;
+    stopped = 1;
+}
+
+static bool work_until_stopped(void *context, FILE *reply, Error *err)
+{
+    (void)context;
+    stopped = 0;   // its copy; the parent is told meanwhile
+    fputc('r', reply);
+    fflush(reply);
+    while (!stopped) usleep(1000);
+    error_set(err, ERROR_INTERRUPT, __FILE__, __LINE__, "stopped");
+    return false;
+}
+
+static void *tell_without_a_signal(void *unused)
+{
+    usleep(200000);
+    stopped = 1;
+    return unused;
+}
+
+// A stop that interrupts no call, as it came before the parent had begun to wait.
+static void test_stop_before_it_waits(void **state)
+{
+    (void)state;
+    Error err = {0};
+    ApartReply reply = {0};
+    ApartWork work = {
+        .path = "p", .reader = "r", .seconds = 7, .read = work_until_stopped, .stop = &stopped};
+    pthread_t teller;
+    signal(SIGTERM, note_stop);
+    alarm(30);   // ends a parent that waits for ever
+    stopped = 0;
+    assert_int_equal(pthread_create(&teller, NULL, tell_without_a_signal, NULL), 0);
+    assert_false(apart_read(&work, &reply, &err));
+    alarm(0);
+    signal(SIGTERM, SIG_DFL);
+    pthread_join(teller, NULL);
+    assert_int_equal(err.code, ERROR_INTERRUPT);
+}
+
+// --- limits -------------------------------------------------------------------------------------
+
 // What the child may use; the parent stays as it was.
 static bool tell_limits(void *context, FILE *reply, Error *err)
 {
@@ -189,9 +252,13 @@ static void test_limits(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_reply),        cmocka_unit_test(test_error_comes_back),
-        cmocka_unit_test(test_who_wants_it), cmocka_unit_test(test_ends_without_answer),
+        cmocka_unit_test(test_reply),
+        cmocka_unit_test(test_error_comes_back),
+        cmocka_unit_test(test_who_wants_it),
+        cmocka_unit_test(test_ends_without_answer),
         cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_ignored_children),
+        cmocka_unit_test(test_stop_before_it_waits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

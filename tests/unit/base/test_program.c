@@ -53,10 +53,27 @@ static void says_which_program_is_missing(void **state)
     assert_non_null(strstr(err.message, "`amontons-no-such-program`: No such file"));
 }
 
+// A failed sbatch counted as done, its words as the job.
+static void says_that_nobody_knows_how_it_ended(void **state)
+{
+    (void)state;
+    const char *const words[] = {"sh", "-c", "echo ran; exit 3", NULL};
+    char output[10] = "?";
+    int status = -1;
+    Error err = {0};
+    signal(SIGCHLD, SIG_IGN);
+    assert_false(program_run(words, output, sizeof output, &status, &err));
+    signal(SIGCHLD, SIG_DFL);
+    assert_int_equal(err.code, ERROR_LIBRARY);
+    assert_non_null(strstr(err.message, "`sh` ended in a way that nobody can say: SIGCHLD"));
+    assert_int_equal(status, -1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(takes_what_is_said),
                                        cmocka_unit_test(reads_to_the_end),
-                                       cmocka_unit_test(says_which_program_is_missing)};
+                                       cmocka_unit_test(says_which_program_is_missing),
+                                       cmocka_unit_test(says_that_nobody_knows_how_it_ended)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

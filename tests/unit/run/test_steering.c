@@ -3,6 +3,7 @@
 // linear elasticity, and by the energy ledger.
 #include "amontons_simulation.h"
 #include "base/memory.h"
+#include "result_place.h"
 #include "small_scene.h"
 
 #include <math.h>
@@ -256,7 +257,9 @@ static void test_nothing_follows_the_end(void **state)
     RunSummary summary;
     SavedState saved = {0}, later = {0};
     Steered steered = {.scene = small_scene((const char *const[]){NULL})};
-    RunOptions options = {.folder = "nothing_follows_the_end", .overwrite = true};
+    char place[PLACE_SIZE];
+    place_make(place);
+    RunOptions options = {.folder = place};
     assert_true(amontons_simulation_create(steered.scene, &options, &steered.simulation, &err));
     step(&steered);
     Simulation *simulation = steered.simulation;
@@ -278,6 +281,7 @@ static void test_nothing_follows_the_end(void **state)
     amontons_state_free(&saved);
     amontons_simulation_destroy(simulation);
     amontons_scene_destroy(steered.scene);
+    place_remove(place);
 }
 
 int main(void)

@@ -108,6 +108,29 @@ static void test_silence(void **state)
     assert_false(slurm_jobs_open("/nowhere/at/all", 2, &jobs, &err));
 }
 
+// A squeue that fails says nothing of the jobs: they are asked for again.
+static void test_cancel(void **state)
+{
+    (void)state;
+    Error err = {0};
+    SlurmJobs jobs;
+    char script[4 * PLACE_SIZE], usual[4000], asked[400];
+    place_read(place, "squeue", usual, sizeof usual);
+    snprintf(
+        script, sizeof script,
+        "#!/bin/sh\ncd %s\necho . >>cancel.asked\ncase $(wc -l <cancel.asked) in 1 | 2) echo no "
+        "controller; exit 1;; 3) echo 1;; esac\n",
+        place);
+    place_write(place, "squeue", script);
+    fake_slurm_says(place, "scancel", "", "0");
+    assert_true(slurm_jobs_open(place, 2, &jobs, &err));
+    if (!slurm_cancel(&jobs, &err)) fail_msg("%s", err.message);
+    place_read(place, "cancel.asked", asked, sizeof asked);
+    assert_string_equal(asked, ".\n.\n.\n.\n");
+    slurm_jobs_close(&jobs);
+    place_write(place, "squeue", usual);
+}
+
 // The lists that the last sweep left.
 static void test_element(void **state)
 {
@@ -220,8 +243,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_ends),    cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_silence), cmocka_unit_test(test_element),
-        cmocka_unit_test(test_share),
+        cmocka_unit_test(test_silence), cmocka_unit_test(test_cancel),
+        cmocka_unit_test(test_element), cmocka_unit_test(test_share),
     };
     return cmocka_run_group_tests(tests, begin, end);
 }
