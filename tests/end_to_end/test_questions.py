@@ -16,7 +16,7 @@ BIN = Path(os.environ.get("AMONTONS_BIN", SOURCE / "build" / "bin"))
 sys.path.insert(0, str(BIN.resolve().parent / "python"))
 begin_again_with(BIN / "libamontons.so")
 from amontons import _structs as structs            # noqa: E402
-from amontons._library import lib, path_or_none     # noqa: E402
+from amontons._library import c_text, lib           # noqa: E402
 
 QUESTIONS = SOURCE / "validation" / "questions"
 
@@ -27,8 +27,8 @@ class Questions(unittest.TestCase):
         folder = tempfile.mkdtemp(prefix="amontons-questions-")
         self.addCleanup(shutil.rmtree, folder)
         error, summary = structs.Error(), structs.SweepSummary()
-        options = structs.SweepOptions(folder=path_or_none(folder), stop=ctypes.pointer(ctypes.c_int(1)))
-        lib.amontons_sweep(str(study).encode(), ctypes.byref(options), ctypes.byref(summary), ctypes.byref(error))
+        options = structs.SweepOptions(folder=c_text(folder), stop=ctypes.pointer(ctypes.c_int(1)))
+        lib.amontons_sweep(c_text(study), ctypes.byref(options), ctypes.byref(summary), ctypes.byref(error))
         self.assertIn(b"stopped", error.message, study)
         self.assertEqual((summary.computed, summary.failed), (0, 0), study)
         return summary.pending
