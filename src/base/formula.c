@@ -4,39 +4,14 @@
 // (forward differentiation: Griewank and Walther, Evaluating Derivatives, 2008, ch. 3).
 #include "base/formula.h"
 
+#include "base/formula_steps.h"
 #include "base/text.h"
 
 #include <ctype.h>
 #include <math.h>
 #include <string.h>
 
-enum { NAME_SIZE = 96, DEPTH_MAX = 50, MANY = -1 };
-
-// symbol, name in a formula, arguments
-#define FUNCTIONS(X)                                                                               \
-    X(STEP_SQRT, "sqrt", 1)                                                                        \
-    X(STEP_EXP, "exp", 1)                                                                          \
-    X(STEP_LOG, "log", 1)                                                                          \
-    X(STEP_TANH, "tanh", 1)                                                                        \
-    X(STEP_ABS, "abs", 1)                                                                          \
-    X(STEP_MIN, "min", 2)                                                                          \
-    X(STEP_MAX, "max", 2)                                                                          \
-    X(STEP_POINTS, "points", MANY)
-
-typedef enum Operation {
-#define X(symbol, name, arguments) symbol,
-    FUNCTIONS(X)
-#undef X
-        STEP_FUNCTIONS,   // how many
-    STEP_NUMBER = STEP_FUNCTIONS,
-    STEP_VARIABLE,
-    STEP_NEGATE,
-    STEP_ADD,
-    STEP_SUBTRACT,
-    STEP_MULTIPLY,
-    STEP_DIVIDE,
-    STEP_POWER
-} Operation;
+enum { NAME_SIZE = 96, DEPTH_MAX = 50 };
 
 static const struct {
     const char *name;
@@ -297,7 +272,7 @@ static Dual apply(Operation operation, Dual a, Dual b)
     return a;
 }
 
-static bool takes_two(Operation operation)
+bool formula_takes_two(Operation operation)
 {
     if (operation < STEP_FUNCTIONS) return functions[operation].arguments == 2;
     return operation >= STEP_ADD;
@@ -321,7 +296,7 @@ double formula_at(const Formula *formula, double x, double *slope)
             stack[top] = along_points(stack[top], &stack[top + 1], count - 1);
         } else {
             Dual last = stack[top];
-            if (takes_two(operation)) top--;
+            if (formula_takes_two(operation)) top--;
             stack[top] = apply(operation, stack[top], last);
         }
     }

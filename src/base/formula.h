@@ -46,6 +46,11 @@ bool formula_read(const char *text, const FormulaNames *names, Formula *formula,
 // have a kink it is that of one side.
 double formula_at(const Formula *formula, double x, double *slope);
 
+// Between which values it stays while the variable is between x[0] and x[1], rounding aside, or
+// wider bounds than that: infinite where a part may have no value. The narrower x, the better they
+// are.
+void formula_bounds(const Formula *formula, const double x[2], double bounds[2]);
+
 // The value of a formula without a variable. ERROR_INPUT as above, or that it is not finite.
 bool formula_value(const char *text, FormulaLookUp look_up, const void *context, double *value,
                    Error *err);

@@ -39,9 +39,10 @@ static void print_parts(double error, const double parts[3])
 static void print_mu_M(const RunSummary *summary)
 {
     if (isnan(summary->mu_M)) {
-        say("  mu_M            none: %s\n", summary->peaks > 0
-                                                ? "after the start only parts of the block slid"
-                                                : "the block as a whole did not slide in this run");
+        say("  mu_M            none: %s\n",
+            summary->peaks > 0     ? "after the start only parts of the block slid"
+            : summary->leading > 0 ? "the block slid from the start on, and not once from rest"
+                                   : "the block as a whole did not slide in this run");
         return;
     }
     print_estimate("mu_M", summary->mu_M, summary->mu_M_error);
@@ -123,7 +124,8 @@ static void print_answers(const RunSummary *summary)
     say("  precursors      %d quasi-static, %d bounded rapid, %d leading rapid\n",
         summary->quasi_static, summary->bounded, summary->leading);
     if (isnan(summary->critical_length))
-        say("  critical length not reached: the block as a whole did not slide\n");
+        say("  critical length not reached: the block as a whole did not slide%s\n",
+            summary->leading > 0 ? " from rest" : "");
     else
         say("  critical length %.3f of the block's length\n", summary->critical_length);
     print_resolution(summary);

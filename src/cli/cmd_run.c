@@ -104,6 +104,11 @@ static int ask_accuracy(RunWords *own, SceneWords *words)
     if (own->within && !(seconds_of(own->within) > 0))
         return report_misuse("--within: found `%.40s`; allowed: a time such as 300s, 5min or 1h",
                              own->within);
+    char *end = own->to ? (char *)own->to : NULL;
+    if (own->to && strtod(own->to, &end) == 0 && end != own->to)
+        return report_misuse("--to: found `%.40s`; allowed: an error bar above 0, such as 1%%; "
+                             "without --to the scene is run as it is",
+                             own->to);
     if (own->to) {
         snprintf(own->settings[0], SETTING_SIZE, "accuracy.mu=%.50s", own->to);
         add_setting(own->settings[0], words);

@@ -8,6 +8,10 @@ static const double JUMP = 1e-6;   // of mu: what is left of a jump that halving
 static const double STEP = 1e-6;   // of a speed, for differences
 static const double SLOPE_ERROR = 1e-3;   // relative, that differences leave to a slope
 static const double CHANGED = 0.63212055882855768;   // 1 - 1/e
+static const double SLIGHT = 1e-6;   // of mu_S: what a formula may be below 0
+static const double PEAK = 1.01;   // a wide one is met that nearly
+// LOOKED_MAX pieces take some 10 ms; halves of halves end at rounding before PIECES_MAX wait.
+enum { LOOKED_MAX = 20000, PIECES_MAX = 1100 };
 static const double SPENT_PART = 0.01;   // of the drop may be left where the law is spent
 
 // What mu and its slope are at this speed, and whether they may be that.
@@ -23,6 +27,36 @@ static bool look_at(const FrictionLaw *law, double speed, Error *err)
     if (mu < 0)
         FAIL(err, ERROR_INPUT, "at velocity %g the coefficient is %g: it must not be negative",
              speed, mu);
+cleanup:
+    return error_is_clean(err);
+}
+
+// A formula also between the speeds that are looked at: each piece whose bounds do not say that mu
+// is neither negative nor a peak that was not seen (PEAK above the highest that was) is looked at in
+// its middle and halved, until they do. Where mu only just touches 0 some pieces may stay undecided.
+static bool stays_within(const FrictionLaw *law, double highest, Error *err)
+{
+    double pieces[PIECES_MAX][2] = {{0, law->end}};
+    const double least = -SLIGHT * law->mu_static, most = PEAK * highest;
+    if (law->kind != FRICTION_FORMULA) return true;
+    for (int32_t count = 1, looked = 0; count > 0 && looked < LOOKED_MAX; looked++) {
+        double bounds[2], *piece = pieces[--count];
+        double middle = 0.5 * (piece[0] + piece[1]), high = piece[1];
+        formula_bounds(&law->own.formula, piece, bounds);
+        if (bounds[0] >= least && bounds[1] <= most) continue;
+        if (middle <= piece[0] || middle >= high || count + 2 > PIECES_MAX) continue;
+        double mu = friction_coefficient(law, middle);
+        if (!(mu >= least)) TRY(look_at(law, middle, err));
+        if (mu > most)
+            FAIL(err, ERROR_INPUT,
+                 "at velocity %g the coefficient is %g, but at the velocities looked at no more "
+                 "than %g: a peak must be wider",
+                 middle, mu, highest);
+        piece[1] = middle;
+        pieces[count + 1][0] = middle;
+        pieces[count + 1][1] = high;
+        count += 2;
+    }
 cleanup:
     return error_is_clean(err);
 }
@@ -147,6 +181,7 @@ bool friction_look(FrictionLaw *law, Error *err)
         fall = fmax(fall, highest - mu);
         before = speed;
     }
+    TRY(stays_within(law, highest, err));
     law->bend = fmax(law->steepest, rise);
     if (highest > law->mu_static * (1 + SAME)) law->fall = fall;
     if (given > 0 && fabs(given - law->mu_static) > SAME * given)

@@ -111,12 +111,16 @@ static int32_t count_slid(const Events *events, const Interface *interface)
     return slid;
 }
 
-// The event of this step makes a drop, of these kinds.
+// The event of this step makes a drop, of these kinds; but one that began with the run.
 static bool add_drop(Drops *drops, const Observation *seen, bool bulk, Error *err)
 {
     Drop *rising = &drops->rising;
     rising->event = drops->events->count - 1;
     const Event *event = &drops->events->list[rising->event];
+    if (isnan(event->slip_length)) {   // it moved at t = 0: nothing had held before
+        *rising = NOTHING_SEEN;
+        return true;
+    }
     bool divided = seen->interface->pad_count > 1;
     rising->critical_length = divided ? event->slip_length : event->front_start - seen->trailing;
     rising->pads = count_slid(drops->events, seen->interface);
@@ -135,11 +139,10 @@ bool drops_record(void *self, const Observation *seen, Error *err)
     drops->mu_max = fmax(drops->mu_max, seen->mu);
     if (in_event) follow_fall(drops, seen);
     if (events->crossed) {
-        if (isinf(drops->rising.mu)) rise(&drops->rising, seen);   // it slid from the first step on
         if (seen->grows && isnan(drops->rising.front_growth))
             drops->rising.front_growth = front_of_slip(seen);
         TRY(add_drop(drops, seen, true, err));
-    } else if (sliding) {
+    } else if (sliding && drops->count > 0) {
         Drop *drop = &drops->list[drops->count - 1];
         drop->mu_after = fmin(drop->mu_after, seen->mu);
     } else {

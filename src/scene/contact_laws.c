@@ -143,6 +143,14 @@ bool scene_contact_laws(const SceneValue *value, Scene *scene, Error *err)
         }
         *item = (SceneContactLaw){0};
         TRY(read_item(&one, scene, own, item, err));
+        for (int32_t k = 0; k < laws->count; k++) {
+            if (strcmp(laws->item[k].group, item->group) != 0) continue;
+            yaml_error(
+                value->document, node, err,
+                "friction.contacts: the group `%s` is named twice: by item %d and by item %d",
+                item->group, k + 1, laws->count + 1);
+            goto cleanup;
+        }
         laws->count++;
     }
 cleanup:

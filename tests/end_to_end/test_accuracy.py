@@ -133,7 +133,8 @@ class Accuracy(unittest.TestCase):
         self.assertEqual([(level["refine"], level["contact_nodes"]) for level in levels], [(1, 11), (2, 21), (4, 41)])
 
     def test_refused(self):
-        for words, said in ((["--within", "5min"], "--to"), (["--to", "1%", "--within", "5 parsecs"], "300s, 5min or 1h"),
+        for words, said in ((["--within", "5min"], "--to"), (["--to", "0%"], "found `0%`; allowed: an error bar above 0"),
+                            (["--to", "1%", "--within", "5 parsecs"], "300s, 5min or 1h"),
                             (["--to", "200%"], "a number from 0 to 1"), (["--to", "1 um"], "no unit")):
             ended = self.run_it(*words, settings=[*SETTINGS, "units=si"] if "um" in words[1] else SETTINGS)
             self.assertEqual(ended.returncode, 2, words)

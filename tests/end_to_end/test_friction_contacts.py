@@ -113,6 +113,8 @@ class Contacts(unittest.TestCase):
                 ("contact_1: mu_kinetic: 0.1 is more than mu_static (0.05)",
                  "friction.contacts=[{group: contact_1, mu_static: 0.05}]"),
                 ("needs its `group`", "friction.contacts=[{mu_static: 0.2}]"),
+                ("the group `contact_1` is named twice: by item 1 and by item 3", "friction.contacts=[{group: contact_1, "
+                 "mu_static: 0.2}, {group: contact_2, mu_static: 0.3}, {group: contact_1, mu_static: 0.4}]"),
                 ("a table is for the whole contact", "friction.contacts=[{group: contact_1, law: table}]"),
                 ("at velocity", "friction.contacts=[{group: contact_1, law: formula, formula: '0.3 - v'}]"),
                 ("friction.along, as set: at x = ", "friction.along=x - 2"),

@@ -160,11 +160,69 @@ static void test_depth(void **state)
     }
 }
 
+static bool look_up_none(const void *context, const char *name, double *value)
+{
+    (void)context;
+    (void)name;
+    (void)value;
+    return false;
+}
+
+// No value inside is beyond the bounds, and those of a narrow piece are near the value.
+static void test_bounds(void **state)
+{
+    (void)state;
+    static const char *const formulas[] = {"x",
+                                           "-x",
+                                           "x * x - 2 * x + 3",
+                                           "x ^ 3 - x ^ 2",
+                                           "(x - 1) ^ 4",
+                                           "x ^ -2 + 1 / x",
+                                           "1 / (x - 0.3) ^ 3",
+                                           "abs(x) ^ 0.5",
+                                           "(x + 4) ^ x",
+                                           "2 ^ x",
+                                           "sqrt(x + 4) - log(x + 4.5)",
+                                           "exp(-x ^ 2) * tanh(3 * x)",
+                                           "min(x, 1, x ^ 2) + max(-x, abs(x - 1))",
+                                           "points(x, -1, 2, 0, -1, 1, 3) * x",
+                                           "points(2 * x, x, 1, x + 1, 2)",
+                                           "x ^ 0 + 0 * x",
+                                           "exp(x * 300) / exp(x * 300)",
+                                           "log(x)",
+                                           "sqrt(x)",
+                                           "(-2) ^ 3 * x"};
+    const FormulaNames names = {look_up_none, NULL, "x", "is unknown"};
+    for (size_t k = 0; k < sizeof formulas / sizeof formulas[0]; k++) {
+        Error err = {0};
+        Formula formula;
+        double slope, narrow[2];
+        assert_true(formula_read(formulas[k], &names, &formula, &err));
+        for (int32_t i = 0; i < 400; i++) {
+            double x[2] = {-4 + 0.02 * i, -4 + 0.02 * i + exp2(-(i % 12))}, bounds[2];
+            formula_bounds(&formula, x, bounds);
+            for (int32_t j = 0; j <= 50; j++) {
+                double value = formula_at(&formula, x[0] + (x[1] - x[0]) * j / 50, &slope);
+                double slight = 1e-12 * (1 + fabs(value));
+                if (value < bounds[0] - slight || value > bounds[1] + slight)
+                    fail_msg("%s in [%g, %g]: %g is not in [%g, %g]", formulas[k], x[0], x[1],
+                             value, bounds[0], bounds[1]);
+            }
+            const double near[2] = {x[0], x[0] + 1e-9};
+            formula_bounds(&formula, near, narrow);
+            double value = formula_at(&formula, x[0], &slope);
+            bool smooth = isfinite(value) && fabs(slope) < 1e3 && k != 14 && x[0] > 0.5;
+            if (smooth && !(narrow[1] - narrow[0] < 1e-4))
+                fail_msg("%s at %g: [%g, %g]", formulas[k], x[0], narrow[0], narrow[1]);
+        }
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_values),
-                                       cmocka_unit_test(test_refusals),
-                                       cmocka_unit_test(test_derivatives),
-                                       cmocka_unit_test(test_length), cmocka_unit_test(test_depth)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_values),      cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_derivatives), cmocka_unit_test(test_length),
+        cmocka_unit_test(test_depth),       cmocka_unit_test(test_bounds)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -50,6 +50,11 @@ static void test_static_friction(void **state)
     assert_null(strstr(said, "Results in"));
     summary.peaks = 3;
     assert_says(closing("A", &summary), "after the start only parts of the block slid");
+    summary.peaks = 0;
+    summary.leading = 1;
+    assert_says(closing("A", &summary), "the block slid from the start on, and not once from rest");
+    assert_says(closing("A", &summary), "as a whole did not slide from rest");
+    summary.peaks = 3;
     summary.mu_M = 0.25;
     summary.peaks_counted = 1;
     said = closing("A", &summary);

@@ -103,13 +103,19 @@ static void test_refusals(void **state)
     (void)state;
     static const struct {
         const char *formula, *words;
-    } known[] = {{"0.4 - 0.1 * v", "is -"},
-                 {"0.4 - 0.1 * v", "must not be negative"},
-                 {"0.3 - 0.1 * sqrt(v)", "at velocity 0 the slope"},
-                 {"0.3 + 0.1 * log(v)", "at velocity 0 the coefficient is -inf"},
-                 {"0.3 - 0.1 * (v - 2) / abs(v - 2)", "at velocity 2 the coefficient jumps"},
-                 {"0.3 + 0 * exp(v * 300)", "not a finite number"},
-                 {"0.3 - 0.1 * abs(v) / v", "at velocity 0 the coefficient is"}};
+    } known[] = {
+        {"0.4 - 0.1 * v", "is -"},
+        {"0.4 - 0.1 * v", "must not be negative"},
+        {"0.3 - 0.1 * sqrt(v)", "at velocity 0 the slope"},
+        {"0.3 + 0.1 * log(v)", "at velocity 0 the coefficient is -inf"},
+        {"0.3 - 0.1 * (v - 2) / abs(v - 2)", "at velocity 2 the coefficient jumps"},
+        {"0.3 + 0 * exp(v * 300)", "not a finite number"},
+        {"0.3 - 0.1 * abs(v) / v", "at velocity 0 the coefficient is"},
+        // between the speeds that are looked at
+        {"0.3 - 0.5 * exp(-((v - 3.1234567) / 1e-5)^2)", "must not be negative"},
+        {"0.3 - 0.3001 * exp(-((v - 3.1234567) / 1e-5)^2)", "must not be negative"},
+        {"0.3 - 0.1 * tanh(v) + 0.2 * exp(-((v - 3.1234567) / 1e-5)^2)", "a peak must be wider"},
+        {"0.3 - 0.1 * tanh(v) - 1e-9 / (v - 3.1234567)", "at velocity 3.12"}};
     for (size_t k = 0; k < sizeof known / sizeof known[0]; k++) {
         Error err = {0};
         const char *key = NULL;
@@ -121,6 +127,19 @@ static void test_refusals(void **state)
         if (!strstr(err.message, known[k].words))
             fail_msg("%s: \"%s\" lacks \"%s\"", known[k].formula, err.message, known[k].words);
     }
+}
+
+// What touches its limits, or comes close to them, is none of these.
+static void test_at_the_limits(void **state)
+{
+    (void)state;
+    static const char *const formulas[] = {"0.3 - 0.2 * v + v^2 / 30",   // 0.3 (1 - v/3)^2
+                                           "0.3 - 0.29999 * exp(-((v - 3.1234567) / 0.01)^2)",
+                                           "0.3 * (1 - tanh(v)) + 0 * v",
+                                           "0.3 - 0.1 * v * exp(-v) + 0.1 * v * exp(-v)",
+                                           "max(0, 0.3 - v)",
+                                           "points(v, 0, 0.3, 1, 0, 2, 0, 5, 0.3)"};
+    for (size_t k = 0; k < sizeof formulas / sizeof formulas[0]; k++) own_formula(formulas[k], 5);
 }
 
 // mu_static and mu_kinetic that are not those of the law.
@@ -143,6 +162,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_known_laws),    cmocka_unit_test(test_given),
         cmocka_unit_test(test_strengthening), cmocka_unit_test(test_above_rest),
-        cmocka_unit_test(test_refusals),      cmocka_unit_test(test_contradictions)};
+        cmocka_unit_test(test_refusals),      cmocka_unit_test(test_at_the_limits),
+        cmocka_unit_test(test_contradictions)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

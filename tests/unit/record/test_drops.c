@@ -53,6 +53,25 @@ static void test_kinds(void **state)
     hand_drops_end(&hand);
 }
 
+// A block that moves at t = 0 slides without having held anything; from its first rest on all is as
+// ever.
+static void test_moving_at_the_start(void **state)
+{
+    (void)state;
+    for (int32_t part = 0; part < 2; part++) {
+        HandDrops hand;
+        hand_drops_begin(&hand, 2);
+        for (int32_t k = 0; k < 4; k++) see(&hand, 0.3 - 0.1 * k, part ? LEFT : ACROSS);
+        see(&hand, 0, REST);
+        assert_int_equal(hand.run.events.count, 1);
+        assert_int_equal(hand.drops.count, 0);
+        drop(&hand, 0.2, 0.1, ACROSS);
+        assert_int_equal(hand.drops.count, 1);
+        assert_near("mu", hand.drops.list[0].mu, 0.2, 0);
+        hand_drops_end(&hand);
+    }
+}
+
 // A drop of one kind holds the largest mu since the last one of its kind.
 static void test_since_the_last_of_its_kind(void **state)
 {
@@ -264,6 +283,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_least_drop),
         cmocka_unit_test(test_kinds),
+        cmocka_unit_test(test_moving_at_the_start),
         cmocka_unit_test(test_since_the_last_of_its_kind),
         cmocka_unit_test(test_fronts_since_the_last_of_its_kind),
         cmocka_unit_test(test_slip_on_pads),
