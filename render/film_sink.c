@@ -54,16 +54,24 @@ static bool ends_in_png(const char *path)
     return length > 4 && strcmp(path + length - 4, ".png") == 0;
 }
 
+// Where in the name of a file, without its folder, a number is to stand; NULL: nowhere. A folder
+// may be called `50% load`, and so may a film.
+static const char *find_mark(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return video_file_is_known(path) ? NULL : strchr(slash ? slash : path, '%');
+}
+
 // "run-%04d.png" in its three parts; never handed to printf.
 static bool pattern_read(const char *path, Pattern *pattern, Error *err)
 {
-    const char *mark = strchr(path, '%'), *d = mark + 1;
+    const char *mark = find_mark(path), *d = mark + 1;
     size_t length = (size_t)(mark - path);
     pattern->digits = 0;
     for (; *d >= '0' && *d <= '9' && pattern->digits <= DIGITS_MAX; ++d)
         pattern->digits = 10 * pattern->digits + (*d - '0');
-    if (*d != 'd' || strchr(d, '%') || strchr(d, '/') || !ends_in_png(d) ||
-        pattern->digits > DIGITS_MAX || strlen(d) > NAME_MAX || length >= PATH_MAX)
+    if (*d != 'd' || strchr(d, '%') || !ends_in_png(d) || pattern->digits > DIGITS_MAX ||
+        strlen(d) > NAME_MAX || length >= PATH_MAX)
         FAIL(err, ERROR_INPUT,
              "%s: a pattern of frames has one number and ends in .png: run-%%04d.png", path);
     memcpy(pattern->before, path, length);
@@ -85,7 +93,7 @@ static bool is_folder_name(const char *path)
 bool film_sink_check(const char *path, Error *err)
 {
     Pattern pattern;
-    if (strchr(path, '%')) return pattern_read(path, &pattern, err);
+    if (find_mark(path)) return pattern_read(path, &pattern, err);
     if (path[0] && (video_file_is_known(path) || is_folder_name(path))) return true;
     FAIL(err, ERROR_INPUT, "%s: %s", path, ENDINGS);
 cleanup:
@@ -94,7 +102,7 @@ cleanup:
 
 bool film_sink_is_gif(const char *path)
 {
-    return !strchr(path, '%') && video_file_is_gif(path);
+    return video_file_is_gif(path);
 }
 
 static void frame_path(const Pattern *pattern, int32_t frame, char path[2 * PATH_MAX])
@@ -109,7 +117,7 @@ static bool frames_begin(FilmSink *sink, Error *err)
     const char *path = sink->def.path;
     Pattern *pattern = &sink->pattern;
     char folder[PATH_MAX], first[2 * PATH_MAX];
-    if (strchr(path, '%')) {
+    if (find_mark(path)) {
         TRY(pattern_read(path, pattern, err));
     } else {
         bool slash = path[strlen(path) - 1] == '/';
@@ -223,7 +231,7 @@ FilmSink *film_sink_create(const FilmSinkDef *def, Error *err)
     palette_fill(palette);
     for (int32_t k = 0; k < SLOTS; ++k)
         TRY(sink->slot[k] = memory_bytes(4 * (int64_t)def->width * def->height, err));
-    if (video_file_is_known(def->path) && !strchr(def->path, '%'))
+    if (video_file_is_known(def->path))
         TRY(sink->video = video_file_create(&video, err));
     else
         TRY(frames_begin(sink, err));

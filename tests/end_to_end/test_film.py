@@ -226,6 +226,20 @@ class Ends(OfHistory):
             self.assertIn(word, done.stderr)
         self.assertEqual(list(self.folder.glob(name)), [])
 
+    def test_per_cent_in_names(self):
+        """A folder, and a film that is named after it, may have one; a pattern is the name of a PNG."""
+        half = self.folder / "50% load"
+        half.mkdir()
+        (half / "result 50%d").symlink_to(self.result)
+        few = ("--seconds", "0.3", "--quiet")
+        done = subprocess.run([PROGRAM, "film", half / "result 50%d", *few], capture_output=True, text=True, timeout=100, cwd=half)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertGreater((half / "result 50%d.mp4").stat().st_size, 1000)
+        film(self.result, half / "run-%02d.png", *few)
+        self.assertEqual(sorted(path.name for path in half.glob("run*")), [f"run-{k:02}.png" for k in (1, 2, 3)])
+        film(self.result, half / "frames", *few)
+        self.assertEqual(len(list((half / "frames").iterdir())), 3)
+
     def test_errors(self):
         self.refused("film.avi", ".mp4, .webm or .gif", "PNG frames", name="film.avi")
         self.refused("one number", name="frames-%s.png")
