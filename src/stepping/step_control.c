@@ -240,6 +240,9 @@ bool step_control_gets_on(StepControl *control, double end, Error *err)
     int64_t steps = control->counters.accepted - control->looked_steps;
     if (steps < STEPS_LOOKED) return true;
     double step = (control->now.time - control->looked_time) / (double)steps;
+    bool resolves_waves = control->def.wave_step > 0 && step > control->def.wave_step / 2;
+    if (resolves_waves)   // an event, which may be long: the pace of the whole run counts
+        step = control->now.time / (double)control->counters.accepted;
     double left = (end - control->now.time) / step;
     control->looked_steps = control->counters.accepted;
     control->looked_time = control->now.time;

@@ -17,7 +17,7 @@
 #include "stepping/sdirk.h"
 #include "stepping/oscillation_record.h"
 
-enum { STEPS_LOOKED = 20000 };   // an event takes some hundred
+enum { STEPS_LOOKED = 20000 };   // an event takes some hundred; under a slow rod also 40000
 
 typedef struct StepControlDef {
     TableauKind scheme;
@@ -76,9 +76,9 @@ bool step_control_advance(StepControl *control, double remaining, Error *err);
 // Whether a rung that is built is at most `remaining` long: what is less is not worth a new one.
 bool step_control_fits(const StepControl *control, double remaining);
 
-// After each accepted step. ERROR_COMPUTE: at the pace of the last STEPS_LOOKED the time `end`
-// would take more than 1e8 more: a state lets no step be accepted but very short ones, and does not
-// change.
+// After each accepted step. ERROR_COMPUTE: at the pace of the last STEPS_LOOKED (of the whole run
+// where these resolved waves, as an event does) the time `end` would take more than 1e8 more: a
+// state lets no step be accepted but very short ones, and does not change.
 bool step_control_gets_on(StepControl *control, double end, Error *err);
 
 // Until the next restart only the state reached in the end matters: steps may be as long as

@@ -223,6 +223,19 @@ static void test_short_steps_that_end(void **state)
     assert_true(go_on(&run, STEPS_LOOKED, 1e-2));
 }
 
+// Nor are events that take longer than a look, at steps that resolve waves, and come again.
+static void test_long_events(void **state)
+{
+    (void)state;
+    Run run = {.control.def.wave_step = 1e-9};
+    for (int32_t k = 0; k < 5; k++) {
+        assert_true(go_on(&run, STEPS_LOOKED / 4, 1e-2));
+        assert_true(go_on(&run, 2 * STEPS_LOOKED, 1e-9));
+    }
+    Run endless = {.control.def.wave_step = 1e-6};   // from the start on, and 1e9 of them to go
+    assert_false(go_on(&endless, STEPS_LOOKED, 1e-6));
+}
+
 // 1000 away at 1e-6: 1e9 steps.
 static void test_standstill(void **state)
 {
@@ -293,6 +306,7 @@ int main(void)
         cmocka_unit_test(test_gives_up),
         cmocka_unit_test(test_energy_balance),
         cmocka_unit_test(test_short_steps_that_end),
+        cmocka_unit_test(test_long_events),
         cmocka_unit_test(test_standstill),
         cmocka_unit_test(test_long_runs),
         cmocka_unit_test(test_allocations),
