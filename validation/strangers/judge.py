@@ -11,6 +11,7 @@ import numpy
 
 ANSWERS = ("mu_M", "mu_hold")
 LATE_LEAST = 3          # peaks, or drops, that a reading needs
+MESHES = 5              # the finest of a reference, that count
 OWN_MAX = 1 / 3         # of a bar: a reference's own error may be so large
 HELD_LEAST, WORST, MEDIAN, UNKNOWN_MOST = 0.91, 3, (0.2, 0.8), 0.10
 KINDS = ("held", "broken", "not known", "refused", "no reference")
@@ -49,12 +50,13 @@ class Reference:
 
 
 def gathered(rows, answer):
-    """{refine: [values]} of the meshes all of whose pressures were run; a value may be None. rows: of {"refine", "pressure",
-    "drift", answers}."""
+    """{refine: [values]} of the finest meshes, all of whose pressures were run; a value may be None. rows: of {"refine",
+    "pressure", "drift", answers}."""
     meshes = {}
     for row in rows:
         meshes.setdefault(row["refine"], []).append(row[answer])
-    return {refine: values for refine, values in sorted(meshes.items()) if len(values) == 3}
+    whole = [(refine, values) for refine, values in sorted(meshes.items()) if len(values) == 3]
+    return dict(whole[-MESHES:])
 
 
 def reference(rows, answer):
