@@ -74,6 +74,14 @@ WaveSpeeds material_speeds(const Material *material)
     return speeds;
 }
 
+double material_gradient(const Material *material, double pressure, double shear)
+{
+    double d[3][3];
+    material_elastic(material, d);
+    double uniaxial = d[0][0] - d[0][1] * d[0][1] / d[0][0];
+    return hypot(shear / d[2][2], pressure / uniaxial);
+}
+
 double material_slip_speed(const Material *material)
 {
     WaveSpeeds speeds = material_speeds(material);

@@ -33,6 +33,10 @@ typedef struct WaveSpeeds {
 // Rayleigh's equation is solved to rounding (Achenbach, Wave Propagation in Elastic Solids, 5.11).
 WaveSpeeds material_speeds(const Material *material);
 
+// The norm of the displacement gradient under a pressure across it and a shear stress along it:
+// (tau/G, p/E'), E' that of uniaxial stress in the plane.
+double material_gradient(const Material *material, double pressure, double shear);
+
 // For the time scales of slip: c_L, but at most 2 c_S. (c_L grows without bound towards nu = 1/2 in
 // plane strain, while slip does not get faster.)
 double material_slip_speed(const Material *material);
@@ -49,6 +53,8 @@ typedef struct Materials {
     Material list[MATERIALS_MAX];   // [count] by number of the region
     double area[MATERIALS_MAX];   // [count] of the region, length^2; 0: of no element; of one
         // material it need not be known
+    double width[MATERIALS_MAX];   // [count] of the region on the mean, area over extent along z,
+        // length; 0 likewise
     Material mean;   // what scales are measured with; the material itself, where there is one
 } Materials;
 

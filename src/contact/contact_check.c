@@ -20,7 +20,7 @@ static void check_unilateral(double approach, double force, ContactResidual *wor
 
 // velocity, reaction: [interface->count] in the order of contact/interface. The limit of friction
 // is taken with the pressure that pushes only, so that a node which pulls may carry no shear at
-// all. A soft rod node yields by r_x softness / rod_reach before it counts as penetrating.
+// all. A soft rod node yields by r_x softness / (rod_reach + lag) before it counts as penetrating.
 ContactResidual contact_residual(const ContactProblem *problem, const double *velocity,
                                  const double *reaction, double force_scale, double velocity_scale)
 {

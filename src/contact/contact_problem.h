@@ -6,7 +6,7 @@
 //     contact, tangent    |r_t| <= mu(|v_t|) r_n,  r_t = -mu(|v_t|) r_n sign(v_t) where v_t != 0
 //     rod                 v_x >= bound_x,  r_x >= 0,  complementary (push)
 //                         v_x  = bound_x (bonded),    r_x = 0 (away)
-//                         bound_x - r_x softness/rod_reach in its place at a soft node
+//                         bound_x - r_x softness/(rod_reach + lag) in its place at a soft node
 //
 // The bounds say in velocities that the end of the stage must not penetrate:
 // (0 - u*) / (gamma dt) for the plane, (target - u*) / (gamma dt) for the rod.
@@ -25,7 +25,8 @@ typedef struct ContactProblem {
     const FrictionLaw *law;
     RodKind rod_kind;
     const double *rod_softness;   // [rod_count] length per force/width, 0: rigid; NULL: all are
-    double rod_reach;   // r_x softness over (bound_x - v_x) at a soft node, time
+    const double *rod_lag;   // [rod_count] time; NULL: 0
+    double rod_reach;   // with the lag, r_x softness over (bound_x - v_x) at a soft node, time
     ContactMatrix *matrix;   // S and what was computed from it; NULL: judged only, not solved
     const double *g;   // [count]
     const double *bound;   // [count] of normals and rod; entries of tangents are not used
@@ -43,7 +44,8 @@ typedef struct ContactSolution {
 static inline double rod_stiffness(const ContactProblem *problem, int32_t j)
 {
     bool soft = problem->rod_softness && problem->rod_softness[j] > 0;
-    return soft ? problem->rod_reach / problem->rod_softness[j] : 0;
+    double lag = problem->rod_lag ? problem->rod_lag[j] : 0;
+    return soft ? (problem->rod_reach + lag) / problem->rod_softness[j] : 0;
 }
 
 #endif

@@ -10,6 +10,9 @@
 static const double PI = 3.14159265358979323846;
 // Softness over ln(1/w)/(pi E*); the header says what it is fitted to.
 static const double END_SOFTNESS = 4;
+// A node with such a share is rigid: its spring would hardly yield beside the block, and be so
+// stiff that forces could not be found to the solver's tolerance.
+static const double WHOLE = 1 - 1e-4;
 
 // origin is 0 here: where the nodes stand when the rod begins to move is set once the block is at
 // rest. false with ERROR_MEMORY: *rod is half built, rod_destroy frees it.
@@ -18,23 +21,28 @@ bool rod_build(const Interface *interface, RodKind kind, double velocity, Rod *r
     *rod = (Rod){.kind = kind, .velocity = velocity, .count = interface->rod_count};
     rod->origin = NEW_ARRAY(double, interface->rod_count, err);
     rod->softness = NEW_ARRAY(double, interface->rod_count, err);
-    return rod->origin && rod->softness;
+    rod->lag = NEW_ARRAY(double, interface->rod_count, err);
+    return rod->origin && rod->softness && rod->lag;
 }
 
 void rod_destroy(Rod *rod)
 {
     memory_free(rod->origin);
     memory_free(rod->softness);
+    memory_free(rod->lag);
     *rod = (Rod){0};
 }
 
-// END_SOFTNESS ln(1/w) / (pi E*) with w the node's share in (0, 1]; 0, rigid, for a node wholly in
-// the strip.
-void rod_soften(const Interface *interface, double modulus, double viscosity, Rod *rod)
+// END_SOFTNESS ln(1/w) / (pi E*) with w the node's share in (0, 1]; 0, rigid, for a node that is in
+// the strip as good as wholly.
+void rod_soften(const Interface *interface, const RodGround ground[2], Rod *rod)
 {
-    rod->lag = viscosity / modulus;
-    for (int32_t j = 0; j < interface->rod_count; j++)
-        rod->softness[j] = -END_SOFTNESS * log(interface->rod_share[j]) / (PI * modulus);
+    for (int32_t j = 0; j < interface->rod_count; j++) {
+        const RodGround *at = &ground[j > 0];
+        double share = interface->rod_share[j] > WHOLE ? 1 : interface->rod_share[j];
+        rod->softness[j] = -END_SOFTNESS * log(share) / (PI * at->modulus);
+        rod->lag[j] = rod->softness[j] > 0 ? at->viscosity / at->modulus : 0;
+    }
 }
 
 double rod_displacement(const Rod *rod, double time)
@@ -68,13 +76,12 @@ double rod_bound(const Rod *rod, int32_t j, double position, double time, double
     double way = rod->origin[j] + rod_displacement(rod, time) - position;
     if (rod->softness[j] == 0) return way / reach;
     // r = [way - reach v + lag (V - v)] / softness = 0 at this v.
-    return (way + rod->lag * rod_velocity(rod, time)) / (reach + rod->lag);
+    return (way + rod->lag[j] * rod_velocity(rod, time)) / (reach + rod->lag[j]);
 }
 
 double rod_bound_on_spring(const Rod *rod, int32_t j, double position, double way, double reach)
 {
-    double lag = rod->softness[j] == 0 ? 0 : rod->lag;
-    return (rod->origin[j] + way - position) / (reach + lag);
+    return (rod->origin[j] + way - position) / (reach + rod->lag[j]);
 }
 
 // Force per width, positive when the rod pushes along +x.

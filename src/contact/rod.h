@@ -43,7 +43,7 @@ typedef struct Rod {
     double stiffness;   // of the spring that drives it, force/width over length; 0: rigid
     double *origin;   // [rod_count] u_x,j(0), length; owned
     double *softness;   // [rod_count] length per force/width, 0: rigid; owned
-    double lag;   // of soft nodes, time
+    double *lag;   // [rod_count] of soft nodes, time; owned
     int32_t count;
 } Rod;
 
@@ -51,8 +51,14 @@ typedef struct Rod {
 bool rod_build(const Interface *interface, RodKind kind, double velocity, Rod *rod, Error *err);
 void rod_destroy(Rod *rod);
 
-// Springs where the interface has shares below 1. modulus, viscosity: E* of both, stress, * time.
-void rod_soften(const Interface *interface, double modulus, double viscosity, Rod *rod);
+// What an end of the strip lies on: E* of its elastic and of its viscous stiffness, stress, * time.
+typedef struct RodGround {
+    double modulus, viscosity;
+} RodGround;
+
+// Springs where the interface has shares below 1: the lowest node, and the highest. ground: of the
+// strip's lower and upper end.
+void rod_soften(const Interface *interface, const RodGround ground[2], Rod *rod);
 
 // U: V t, where V was the same from t = 0 on; and its velocity.
 double rod_displacement(const Rod *rod, double time);

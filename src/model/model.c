@@ -4,6 +4,8 @@
 #include "base/memory.h"
 #include "scene/materials.h"
 
+#include <math.h>
+
 void model_destroy(Model *model)
 {
     bulk_operator_destroy(&model->system);
@@ -76,15 +78,34 @@ static double half_plane(double d[3][3])
     return d[0][0] > 0 ? 4 * d[2][2] * (d[0][0] - d[2][2]) / d[0][0] : 0;
 }
 
-bool model_build_rod(const Model *model, RodKind kind, Rod *rod, Error *err)
+static RodGround ground_of(const Model *model, double region)
 {
+    const Material *face = &model->materials.list[(int32_t)region];
     double elastic[3][3], viscous[3][3];
-    const Material *face = &model->materials.list[model->rod_region];
     material_elastic(face, elastic);
     material_viscous(face, viscous);
+    return (RodGround){half_plane(elastic), half_plane(viscous)};
+}
+
+// Where materials meet within what the strip's end covers: as their pieces yield one after the
+// other, so that the force changes without a jump as the strip is moved over the joint.
+static RodGround rod_ground(const Model *model, const RodEnd *end)
+{
+    RodGround below = ground_of(model, end->region[0]), above = ground_of(model, end->region[1]);
+    double part = end->below;
+    if (end->region[0] == end->region[1]) return below;
+    double viscous = part / below.viscosity + (1 - part) / above.viscosity;
+    return (RodGround){.modulus = 1 / (part / below.modulus + (1 - part) / above.modulus),
+                       .viscosity = isfinite(viscous) ? 1 / viscous : 0};
+}
+
+bool model_build_rod(const Model *model, RodKind kind, Rod *rod, Error *err)
+{
+    RodGround ground[2];
+    for (int k = 0; k < 2; k++) ground[k] = rod_ground(model, &model->rod_end[k]);
     if (!rod_build(&model->interface, kind, 0, rod, err)) return false;
     rod->stiffness = model->scene->rod.stiffness;
-    rod_soften(&model->interface, half_plane(elastic), half_plane(viscous), rod);
+    rod_soften(&model->interface, ground, rod);
     return true;
 }
 

@@ -14,10 +14,17 @@
 #include "record/observation.h"
 #include "scene/scene.h"
 
+// What the strip covers of the face around the node at its end.
+typedef struct RodEnd {
+    double region[2];   // the material below the node and that above
+    double below;   // which part of it is below, 1
+} RodEnd;
+
 typedef struct Model {
     const Scene *scene;   // not owned; outlives the model
     Materials materials;
-    int32_t rod_region, contact_region;   // of which of them rod and contact (its first pad) are
+    RodEnd rod_end[2];   // the lower and the upper end of the rod's strip
+    int32_t contact_region;   // of which of them the contact (its first pad) is
     FrictionLaw law;
     FrictionLaw *node_laws;   // [contact_count] where they differ (model/contact_laws); owned
     Mesh mesh;   // empty: the shape came from the cache, and no fields are asked for; owned, like

@@ -77,9 +77,10 @@ static bool adopt_shape(Model *model, Shape *shape, Error *err)
     model->middle = shape->sizes.middle;
     model->elements = (int32_t)shape->sizes.elements;
     model->full_dofs = (int32_t)shape->sizes.full_dofs;
-    model->rod_region = (int32_t)shape->sizes.rod_region;
+    memcpy(model->rod_end, shape->sizes.rod_end, sizeof model->rod_end);
     model->contact_region = (int32_t)shape->sizes.contact_region;
     memcpy(model->materials.area, shape->sizes.region_area, sizeof shape->sizes.region_area);
+    memcpy(model->materials.width, shape->sizes.region_width, sizeof shape->sizes.region_width);
     materials_find_mean(&model->materials);
     reduced_bulk_set_scales(&model->reduced, bulk_scales(model, load));
     model->is_reduced = true;
@@ -216,9 +217,10 @@ static bool reduce_bulk(Model *model, const char *key, Error *err)
                              .load_size = model->unit_load.size,
                              .load_resultant = model->unit_load.resultant,
                              .rod_reach = rod_reach(model),
-                             .rod_region = model->rod_region,
                              .contact_region = model->contact_region}};
+    memcpy(shape.sizes.rod_end, model->rod_end, sizeof model->rod_end);
     memcpy(shape.sizes.region_area, model->materials.area, sizeof shape.sizes.region_area);
+    memcpy(shape.sizes.region_width, model->materials.width, sizeof shape.sizes.region_width);
     shape.interface = model->interface;
     model->interface = (Interface){0};
     TRY(reduction_block_create(&model->mesh, bulk, &model->materials, load, &block, err));

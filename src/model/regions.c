@@ -6,9 +6,6 @@
 
 #include <math.h>
 
-// Of a strip's ends and an element's, relative to the block's height: rounding only.
-static const double HEIGHT_TOLERANCE = 1e-9;
-
 // The elements of region i, which no other has. owner: [elements] 1 + region.
 static bool claim_elements(const Model *model, int32_t i, uint8_t *owner, Error *err)
 {
@@ -35,6 +32,22 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Of the elements of region k: 0 where there are none.
+static double mean_width(const Model *model, int32_t k)
+{
+    const Mesh *mesh = &model->mesh;
+    double low = INFINITY, high = -INFINITY;
+    for (int32_t e = 0; e < mesh->element_count; e++) {
+        for (int32_t a = mesh->first_node[e]; a < mesh->first_node[e + 1]; a++) {
+            double z = mesh->position[2 * mesh->element_nodes[a] + 1];
+            if (mesh_region(mesh, e) != k) continue;
+            low = fmin(low, z);
+            high = fmax(high, z);
+        }
+    }
+    return high > low ? model->materials.area[k] / (high - low) : 0;
+}
+
 static bool mark_materials(Model *model, Error *err)
 {
     Mesh *mesh = &model->mesh;
@@ -48,6 +61,7 @@ static bool mark_materials(Model *model, Error *err)
         materials->area[owner[e]] += mesh_element_area(mesh, e);
     materials_find_mean(materials);
     mesh->region = owner;
+    for (int32_t k = 0; k < materials->count; k++) materials->width[k] = mean_width(model, k);
     owner = NULL;
 cleanup:
     memory_free(owner);
@@ -63,15 +77,10 @@ bool model_mark_regions(Model *model, Error *err)
     return element_groups_find(is_mean, &model->mesh, err);
 }
 
-// The regions of the elements that have an edge on a curve.
-typedef struct EdgeRegions {
-    int32_t first, other;   // the first found; another one, -1: none
-} EdgeRegions;
-
-// Only edges that reach between the heights low and high. on: [nodes] of the curve.
-static EdgeRegions find_regions(const Mesh *mesh, const uint8_t *on, double low, double high)
+// The material of the first element that has an edge on a curve, at the height *z (NULL: at any);
+// -1: none has. on: [nodes] of the curve.
+static int32_t find_region(const Mesh *mesh, const uint8_t *on, const double *z)
 {
-    EdgeRegions found = {-1, -1};
     for (int32_t e = 0; e < mesh->element_count; e++) {
         double bottom = INFINITY, top = -INFINITY;
         int32_t count = 0;
@@ -82,13 +91,9 @@ static EdgeRegions find_regions(const Mesh *mesh, const uint8_t *on, double low,
             bottom = fmin(bottom, mesh->position[2 * node + 1]);
             top = fmax(top, mesh->position[2 * node + 1]);
         }
-        if (count < 2 || top < low || bottom > high) continue;
-        if (found.first < 0)
-            found.first = mesh_region(mesh, e);
-        else if (mesh_region(mesh, e) != found.first)
-            found.other = mesh_region(mesh, e);
+        if (count >= 2 && (!z || (bottom <= *z && *z <= top))) return mesh_region(mesh, e);
     }
-    return found;
+    return -1;
 }
 
 // [nodes of the mesh] 1 for those listed; the caller's to free. NULL: memory is short.
@@ -99,9 +104,26 @@ static uint8_t *mark_nodes(const Mesh *mesh, const int32_t *nodes, int32_t count
     return on;
 }
 
-static const char *region_name(const Scene *scene, int32_t region)
+// Rod node j, at an end of the strip from low to high, with its stretch of the face half way to the
+// nodes beside it. on: [nodes] of the face.
+static RodEnd find_end(const Model *model, const MeshCurve *rod, const uint8_t *on, int32_t j,
+                       double low, double high)
 {
-    return region == 0 ? "material" : scene->materials.region[region - 1].group;
+    const Mesh *mesh = &model->mesh;
+    double z = model->interface.rod_z[j], under = -INFINITY, over = INFINITY;
+    for (int32_t k = 0; k < rod->node_count; k++) {
+        double other = mesh->position[2 * rod->nodes[k] + 1];
+        if (other < z) under = fmax(under, other);
+        if (other > z) over = fmin(over, other);
+    }
+    low = fmin(fmax(low, isfinite(under) ? 0.5 * (under + z) : z), z);
+    high = fmax(fmin(high, isfinite(over) ? 0.5 * (z + over) : z), z);
+    double inside[2] = {0.5 * (low + z), 0.5 * (z + high)};
+    int32_t below = find_region(mesh, on, &inside[0]), above = find_region(mesh, on, &inside[1]);
+    if (!(low < z)) below = above;
+    if (!(high > z)) above = below;
+    return (RodEnd){.region = {fmax(below, 0), fmax(above, 0)},
+                    .below = high > low ? (z - low) / (high - low) : 0};
 }
 
 bool model_place_regions(Model *model, double low, double high, Error *err)
@@ -109,28 +131,19 @@ bool model_place_regions(Model *model, double low, double high, Error *err)
     const Scene *scene = model->scene;
     const Mesh *mesh = &model->mesh;
     const Interface *interface = &model->interface;
-    double rounding = HEIGHT_TOLERANCE * model->height;
-    EdgeRegions found;
     uint8_t *on_pad = NULL, *on_rod = NULL;
     MeshCurve rod;
     int32_t pad = 0;   // contact nodes of the first pad
     if (!mesh->region) return true;
     while (pad < interface->contact_count && interface->pad[pad] == interface->pad[0]) pad++;
     TRY((on_pad = mark_nodes(mesh, interface->node, pad, err)));
-    found = find_regions(mesh, on_pad, -INFINITY, INFINITY);
-    model->contact_region = found.first < 0 ? 0 : found.first;
+    model->contact_region = find_region(mesh, on_pad, NULL);
+    if (model->contact_region < 0) model->contact_region = 0;
     if (scene->rod.kind == ROD_NONE) goto cleanup;
     TRY(mesh_curve(mesh, scene->groups.rod, &rod, err));
     TRY((on_rod = mark_nodes(mesh, rod.nodes, rod.node_count, err)));
-    found = find_regions(mesh, on_rod, low + rounding, high - rounding);
-    if (found.other >= 0 && scene->rod.ends == ROD_ENDS_EXACT)
-        FAIL(
-            err, ERROR_INPUT,
-            "%s: the strip from z = %g to %g lies on two materials, `%s` and `%s`: its ends within "
-            "cells can be on one only (move rod.height, narrow rod.width, or rod.ends: nodes)",
-            scene->path, low, high, region_name(scene, found.first),
-            region_name(scene, found.other));
-    model->rod_region = found.first < 0 ? 0 : found.first;
+    model->rod_end[0] = find_end(model, &rod, on_rod, 0, low, high);
+    model->rod_end[1] = find_end(model, &rod, on_rod, interface->rod_count - 1, low, high);
 cleanup:
     memory_free(on_pad);
     memory_free(on_rod);

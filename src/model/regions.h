@@ -11,8 +11,7 @@
 // element.
 bool model_mark_regions(Model *model, Error *err);
 
-// Sets the materials that rod and contact lie on. ERROR_INPUT: soft ends of the rod's strip (which
-// reaches from low to high) in different materials.
+// Sets the materials that the contact and the ends of the rod's strip, from low to high, lie on.
 bool model_place_regions(Model *model, double low, double high, Error *err);
 
 #endif

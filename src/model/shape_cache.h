@@ -13,6 +13,7 @@
 #include "bulk/material.h"
 #include "contact/interface.h"
 #include "io/cache_file.h"
+#include "model/model.h"
 #include "scene/scene.h"
 
 // Sizes that a run needs beside the arrays.
@@ -25,8 +26,10 @@ typedef struct ShapeSizes {
     double load_resultant;   // of the loads towards the plane, per unit of load_reference()
     double rod_reach;   // greatest x of a rod node from the trailing end, over L; 0: no rod
     double middle;   // x of the block's middle, length
-    double rod_region, contact_region;   // numbers of their materials
+    RodEnd rod_end[2];
+    double contact_region;   // number of its material
     double region_area[MATERIALS_MAX];   // of one material 0, length^2
+    double region_width[MATERIALS_MAX];   // likewise, length
 } ShapeSizes;
 
 typedef struct Shape {

@@ -91,7 +91,8 @@ Observation observe(const StepControl *control, const ObservationScales *scales)
                                   .law = scheme->law,
                                   .rod_kind = scheme->rod->kind,
                                   .rod_softness = scheme->rod->softness,
-                                  .rod_reach = scheme->reach + scheme->rod->lag,
+                                  .rod_lag = scheme->rod->lag,
+                                  .rod_reach = scheme->reach,
                                   .bound = scheme->bound};
         ContactResidual residual = contact_residual(&problem, state->slip_rate, state->reaction,
                                                     scales->load / interface->contact_count,

@@ -305,7 +305,10 @@ static bool hand_out_report(const Simulation *simulation, const RunReport *repor
 {
     const RunOptions *options = &simulation->options;
     char *text = NULL;
-    if (writes_results(simulation)) TRY(report_write(simulation->folder.path, report, err));
+    // A scene that was refused has left nothing, and so nothing is in the way of the one put right.
+    bool refused = report->failure && report->failure->code == ERROR_INPUT;
+    if (writes_results(simulation) && !refused)
+        TRY(report_write(simulation->folder.path, report, err));
     if (!options->on_report) goto cleanup;
     TRY((text = report_text(options->folder ? options->folder : ".", report, err)));
     options->on_report(text, options->context);
@@ -332,6 +335,9 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
     const Event *least = drops_least_resolved(&simulation->drops, answers.first);
     warnings_of_slip(&simulation->scene, &simulation->model.interface, least,
                      &simulation->warnings);
+    Schedule load = scene_schedule(&simulation->scene.load.program);
+    warnings_of_strain(&simulation->model, simulation->model.scales.load * schedule_largest(&load),
+                       answers.mu_max, &simulation->warnings);
     RunCounters counters = summary_count(simulation);
     if (simulation->history.file) {
         TRY(output_store_warnings(simulation, err));

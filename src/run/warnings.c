@@ -13,8 +13,8 @@
 // with more (median 0.3 %, largest 3.2 %).
 #include "run/warnings.h"
 
-#include "model/model.h"
 #include "record/drops.h"
+#include "scene/materials.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -62,6 +62,48 @@ void warnings_of_resolution(const Certificate *certificate, double load, RunWarn
                      "element, and what comes out depends on the mesh; elements %.2g times as "
                      "long would do",
                      undamped, certificate->moving.interface->contact_count, 1 / worst);
+}
+
+// Of the displacement gradient. What the theory of small strains leaves out, half its square in the
+// strains and its first power in where forces act, is such a part of what it has: at 5 % more than
+// any error bar that a run gives.
+static const double GRADIENT_SMALL = 0.05;
+
+// Across how much of the block's length region k takes the load.
+static double loaded_width(const Model *model, int32_t k)
+{
+    const Interface *interface = &model->interface;
+    double width = model->materials.width[k] > 0 ? model->materials.width[k] : model->length;
+    double contact = 0;
+    if (k != model->contact_region) return width;
+    for (int32_t i = 0; i < interface->contact_count; i++) contact += interface->weight[i];
+    return fmin(width, contact);
+}
+
+void warnings_of_strain(const Model *model, double load, double mu, RunWarnings *warnings)
+{
+    const Materials *materials = &model->materials;
+    double largest = GRADIENT_SMALL, push = fmax(mu, 0);
+    int32_t worst = -1;
+    for (int32_t k = 0; k < materials->count; k++) {
+        if (materials->count > 1 && !(materials->area[k] > 0)) continue;
+        double pressure = load / loaded_width(model, k);
+        double gradient = material_gradient(&materials->list[k], pressure, push * pressure);
+        if (gradient <= largest) continue;
+        largest = gradient;
+        worst = k;
+    }
+    if (worst < 0) return;
+    const Material *material = &materials->list[worst];
+    double pressure = load / loaded_width(model, worst);
+    warnings_add(warnings,
+                 "strains are not small: at the largest load ratio, %.3g, the mean stresses shear "
+                 "`%s` by %.2g %% and compress it by %.2g %%; from %g %% on what the theory of "
+                 "small strains leaves out is more than the error bars: answers hold to that "
+                 "part only",
+                 push, scene_region_name(model->scene, worst),
+                 100 * material_gradient(material, 0, push * pressure),
+                 100 * material_gradient(material, pressure, 0), 100 * GRADIENT_SMALL);
 }
 
 // How to get a mesh with contact cells of half the size, from the parameters that the scene gives.

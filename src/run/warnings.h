@@ -9,7 +9,7 @@
 #define AMONTONS_RUN_WARNINGS_H
 
 #include "amontons.h"
-#include "contact/friction_law.h"
+#include "model/model.h"
 #include "record/error_bars.h"
 #include "record/events.h"
 #include "scene/scene.h"
@@ -29,6 +29,10 @@ void warnings_of_shape(const Scene *scene, double length, double height, RunWarn
 // The rod's strip against the extent of its face; height: H, length.
 void warnings_of_rod(const Scene *scene, const Interface *interface, double height,
                      RunWarnings *warnings);
+
+// A material that the mean stresses of a load (force/width) and of mu times it deform by more than
+// small strains allow for: the one that they deform most.
+void warnings_of_strain(const Model *model, double load, double mu, RunWarnings *warnings);
 
 // least: the event with the fewest cells (record/drops); NULL: none, and nothing is said.
 void warnings_of_slip(const Scene *scene, const Interface *interface, const Event *least,

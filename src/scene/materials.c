@@ -24,6 +24,11 @@ static int32_t word_index(const char *word)
     return -1;
 }
 
+const char *scene_region_name(const Scene *scene, int32_t k)
+{
+    return k == 0 ? "material" : scene->materials.region[k - 1].group;
+}
+
 static const SceneKey *material_key(int32_t k)
 {
     char name[40];

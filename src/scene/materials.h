@@ -12,6 +12,9 @@ const char *scene_material_word(int32_t k);
 // Number k of a region: its own, or else that of `material`.
 double scene_material_number(const Scene *scene, const SceneMaterial *region, int32_t k);
 
+// What material k of a model is called: 0 `material`, then the regions in their order.
+const char *scene_region_name(const Scene *scene, int32_t k);
+
 // Fills scene->materials from the map `value`; or, where value->part is the rest of the path of a
 // --set ("pads", "pads.young"), the one region or number that it names. ERROR_INPUT shows the
 // place.

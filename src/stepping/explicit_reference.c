@@ -242,7 +242,7 @@ static bool rod_holds(const Rod *rod, double velocity, double bound)
 static double rod_yields(const ExplicitReference *scheme, int32_t j)
 {
     const Rod *rod = scheme->def.rod;
-    return rod->softness[j] / (scheme->def.step + rod->lag);
+    return rod->softness[j] / (scheme->def.step + rod->lag[j]);
 }
 
 // The bounds of the rod's nodes for a step that ends at `time`. Those of a rod on a spring are

@@ -63,7 +63,7 @@ void moving_set_find(MovingSet *set, const State *state, bool with_open)
         MovingUnknown *moving = add_unknown(set, interface_rod(interface, j));
         if (!state->rod_touches[j]) continue;
         moving->spring = 1 / softness;
-        moving->damper = set->rod->lag / softness;
+        moving->damper = set->rod->lag[j] / softness;
     }
     for (int32_t a = 0; a < set->count; a++) {
         const MovingUnknown *moving = &set->list[a];

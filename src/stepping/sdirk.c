@@ -116,7 +116,8 @@ static bool solve_stage(Sdirk *scheme, const Trial *trial, int32_t i, ContactSol
                               .law = scheme->law,
                               .rod_kind = scheme->rod->kind,
                               .rod_softness = scheme->rod->softness,
-                              .rod_reach = scheme->reach + scheme->rod->lag,
+                              .rod_lag = scheme->rod->lag,
+                              .rod_reach = scheme->reach,
                               .matrix = ladder_contact(scheme->ladder, rung),
                               .g = scheme->g,
                               .bound = scheme->bound};

@@ -479,7 +479,7 @@ class Sweep(unittest.TestCase):
                              {row["point"]: row["warnings"] for row in rows})
         for name, value in ("plot", "y"), ("ranking", "x"):
             series = json.loads((self.folder / f"out/figures/{name}.json").read_text())["series"]
-            self.assertEqual([c["label"] for c in series if c["label"].startswith("open")], ["open: slip is not resolved"])
+            self.assertEqual([c["label"] for c in series if c["label"].startswith("open")], ["open: slip is not resolved", "open: strains are not small"])
             drawn = [v for c in series if c["marker"] == "circle" and not c["filled"] and not c["label"] for v in c[value]]
             self.assertEqual(sorted(v for v in drawn if v is not None),
                              sorted(float(row["mu_max"]) for row, words in zip(rows, said) if words))

@@ -76,9 +76,11 @@ def materials():
                                (0, "stress"), (-0.99, "stress"))]
     cases.append(refused("poisson", "nu 0.5, plane strain",
                          ["material.poisson=0.5", "material.plane=strain"]))
+    # At 1000 on 16 cells a node more in the precursor before it moves the first peak by 4 %.
     for ratio in (1e-3, 1e-2, 1e2, 1e3):
-        cases.append(Case("viscosity", f"eta2/eta1 = {ratio:g}", [f"material.eta2={ratio}"],
-                          quick=ratio == 1e3))
+        finer = ["mesh.set.nx=32", "mesh.set.nz=16"] if ratio == 1e3 else []
+        cases.append(Case("viscosity", f"eta2/eta1 = {ratio:g}",
+                          [f"material.eta2={ratio}", *finer], quick=ratio == 1e3))
     for scale in (1e-1, 1e-2, 1e-3, 1e-6):
         cases.append(Case("viscosity", f"eta1 = eta2 = {scale:g}",
                           [f"material.eta1={scale}", f"material.eta2={scale}"], may_refuse=True,

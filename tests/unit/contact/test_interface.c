@@ -205,7 +205,7 @@ static void test_soft_rod(void **state)
     Rod rod;
     assert_true(rod_build(&interface, ROD_PUSHES, 1e-2, &rod, &err));
     assert_near("rigid at first", rod_bound(&rod, 0, 0.1, 30, 2), (0.3 - 0.1) / 2, 1e-15);
-    rod_soften(&interface, 4, 6, &rod);
+    rod_soften(&interface, (RodGround[]){{4, 6}, {4, 6}}, &rod);
     assert_near("softness", rod.softness[0], log(2) / 3.14159265358979, 1e-12);
     assert_near("a whole node", rod.softness[1], 0, 0);
     assert_near("its bound", rod_bound(&rod, 1, 0.1, 30, 2), (0.3 - 0.1) / 2, 1e-15);

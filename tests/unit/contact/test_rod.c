@@ -25,11 +25,18 @@ static void test_softness(void **state)
     Rod rod;
     assert_true(rod_build(&interface, ROD_PUSHES, 0.5, &rod, &err));
     for (int32_t j = 0; j < 3; j++) assert_true(rod.softness[j] == 0 && rod.origin[j] == 0);
-    rod_soften(&interface, 8, 2, &rod);
+    rod_soften(&interface, (RodGround[]){{8, 2}, {8, 2}}, &rod);
     assert_true(rod.softness[0] == 0);   // wholly inside: rigid
     assert_near("ln(1/w) = 1", rod.softness[1], 0.5 / acos(-1.0), 1e-15);
     assert_near("ln 2", rod.softness[2], 0.5 * log(2) / acos(-1.0), 1e-15);
-    assert_near("lag", rod.lag, 0.25, 0);
+    assert_near("lag", rod.lag[1], 0.25, 0);
+    assert_true(rod.lag[0] == 0);
+    // The lowest node on a ground of its own, half as stiff.
+    interface.rod_share[0] = 0.5;
+    rod_soften(&interface, (RodGround[]){{4, 3}, {8, 2}}, &rod);
+    assert_near("lower", rod.softness[0], 2 * rod.softness[2], 1e-15);
+    assert_near("its lag", rod.lag[0], 0.75, 0);
+    assert_near("the others'", rod.lag[2], 0.25, 0);
     rod_destroy(&rod);
     rod_destroy(&rod);
 }
@@ -45,14 +52,14 @@ static void test_bound(void **state)
     Rod rod;
     double position = 0.75, time = 3, reach = 0.5;
     assert_true(rod_build(&interface, ROD_IS_BONDED, 0.5, &rod, &err));
-    rod_soften(&interface, 8, 2, &rod);
+    rod_soften(&interface, (RodGround[]){{8, 2}, {8, 2}}, &rod);
     for (int32_t j = 0; j < 3; j++) rod.origin[j] = 0.25 * j;
     double rigid = rod_bound(&rod, 0, position, time, reach);
     assert_near("rigid", position + reach * rigid, 0 + 0.5 * time, 1e-15);
     for (int32_t j = 1; j < 3; j++) {
         double bound = rod_bound(&rod, j, position, time, reach);
         double way = rod.origin[j] + 0.5 * time - position;
-        assert_near("no force", way - reach * bound + rod.lag * (0.5 - bound), 0, 1e-15);
+        assert_near("no force", way - reach * bound + rod.lag[j] * (0.5 - bound), 0, 1e-15);
     }
     rod_destroy(&rod);
 }

@@ -117,7 +117,7 @@ static void add_springs(const Case *test, BulkTerm term, const double *unit, dou
         double softness = test->rod.softness[j], factor = 0;
         if (softness == 0 || !test->state.rod_touches[j]) continue;
         if (term == BULK_STIFFNESS) factor = 1 / softness;
-        if (term == BULK_DAMPING) factor = test->rod.lag / softness;
+        if (term == BULK_DAMPING) factor = test->rod.lag[j] / softness;
         double force = factor * (unit[dof] - (rod < 0 ? 0 : unit[first]));
         image[dof] += force;
         if (rod >= 0) image[first] -= force;
@@ -271,7 +271,7 @@ static int32_t check_block(FrictionLaw law, double length, double pressure, bool
     test.stiffness = machine;
     case_open(&test, growth_def(length, 1.06, test.interface.contact_count));
     test.rod.softness[0] = reduced ? 0 : 0.4;   // rigid, or its end within a cell
-    test.rod.lag = 1.5;
+    for (int32_t j = 0; j < test.interface.rod_count; j++) test.rod.lag[j] = 1.5;
     double factors[] = {0.03, 0.3, 0.7, 1, 2, 2.6};
     int32_t growing = 0;
     for (size_t p = 0; p < sizeof factors / sizeof *factors; p++) {
@@ -338,8 +338,10 @@ static void check_rigid_block(double machine, double softness, double lag)
     GrowthDef how = growth_def(0.8, 0.8 * rate, test.interface.contact_count);
     case_open(&test, how);
     memset(test.state.rod_touches, machine > 0, (size_t)test.interface.rod_count);
-    for (int32_t j = 0; j < test.interface.rod_count; j++) test.rod.softness[j] = softness;
-    test.rod.lag = lag;
+    for (int32_t j = 0; j < test.interface.rod_count; j++) {
+        test.rod.softness[j] = softness;
+        test.rod.lag[j] = lag;
+    }
     for (int32_t i = 0; i < 3; i++)
         slip(&test.state, i, CONTACT_SLIP_FORWARD, 1e-3, pressure * test.interface.weight[i]);
     GrowthRates rates;
