@@ -32,8 +32,8 @@ cleanup:
 }
 
 // A formula also between the speeds that are looked at: each piece whose bounds do not say that mu
-// is neither negative nor a peak that was not seen (PEAK above the highest that was) is looked at in
-// its middle and halved, until they do. Where mu only just touches 0 some pieces may stay undecided.
+// is neither negative nor a peak that was not seen (PEAK times the highest that was) is looked at
+// in its middle and halved, until they do. Where mu just touches 0 some may stay undecided.
 static bool stays_within(const FrictionLaw *law, double highest, Error *err)
 {
     double pieces[PIECES_MAX][2] = {{0, law->end}};

@@ -149,8 +149,8 @@ static bool read_shape(const CacheFile *file, Shape *shape, Error *err)
     if (!(dofs < INT32_MAX && shape->sizes.elements >= 0 && shape->sizes.elements < INT32_MAX))
         return false;
     const RodEnd *end = shape->sizes.rod_end;
-    const double region[] = {end[0].region[0], end[0].region[1], end[1].region[0],
-                             end[1].region[1], shape->sizes.contact_region};
+    const double region[] = {end[0].region[0], end[0].region[1], end[1].region[0], end[1].region[1],
+                             shape->sizes.contact_region};
     for (size_t k = 0; k < sizeof region / sizeof *region; k++)
         if (!(region[k] >= 0 && region[k] < MATERIALS_MAX)) return false;
     memcpy(shape->basis, basis, HASH_TEXT_SIZE);

@@ -203,10 +203,12 @@ NOT_A_CHOICE = {
     "contact/friction_look.c": {
         "SAME": "rounding of a formula", "JUMP": "halved as long as it is larger",
         "STEP": "of differences: half the digits", "SLOPE_ERROR": "that differences leave",
-        "CHANGED": "1 - 1/e: v_c of the exponential law", "SPENT_PART": "as of the exponential law"},
+        "CHANGED": "1 - 1/e: v_c of the exponential law", "SPENT_PART": "as of the exponential law",
+        "SLIGHT": "rounding of a formula's bounds", "PEAK": "that a wide peak is met to",
+        "LOOKED_MAX": "pieces that take some 10 ms", "PIECES_MAX": SIZE},
     "contact/friction_table.h": {"FRICTION_POINTS_MAX": SIZE},
     "contact/interface.c": {"STRIP_TOLERANCE": ROUNDING},
-    "contact/rod.c": {"PI": "pi"},
+    "contact/rod.c": {"PI": "pi", "WHOLE": ROUNDING},
     "stepping/certificate.c": {"BETWEEN_RUNGS": "(sqrt 2 + 1/sqrt 2)/2: rungs double"},
     "stepping/explicit_reference.c": {
         "BLOCK_SIZE": "two 2 x 2 blocks", "NODE_SIZE": "u and v of a node",
@@ -268,7 +270,6 @@ NOT_A_CHOICE = {
     "record/history.c": {"FLUSH_EVERY": "seconds of a run that a kill may cost"},
     "record/window.h": {"WINDOW_SLIDINGS_MAX": "slidings that a scene may ask for as the last: room for their states"},
     "record/observation.h": {"RECORDERS_MAX": SIZE},
-    "model/regions.c": {"HEIGHT_TOLERANCE": ROUNDING},
     "model/gaps.c": {"ROUNDING": ROUNDING},
     "model/basis_cache.c": {"WAIT_MAX": "seconds for another run's basis", "COUNTS": "stored", "HALF_COUNTS": "stored",
                             "WHOLE": "none"},
