@@ -27,16 +27,6 @@ bool amontons_cache_list(CacheCallback on_entry, void *context, CacheSummary *su
 // Removes all of it; removed: what that was.
 bool amontons_cache_clean(CacheSummary *removed, Error *err);
 
-// Times over those of the machine that the program's own figures are of; what is kept is rounded to
-// powers of the root of 2.
-typedef struct CacheSpeed {
-    double factor;   // for the factors of a mesh
-    double pass;   // for a pass through such a factor
-} CacheSpeed;
-// Measures how fast this machine is (0.2 s) and keeps it in the cache's folder for
-// `reduction.use: auto`, until it is measured again: cleaning the cache leaves it.
-bool amontons_cache_measure(CacheSpeed *speed, Error *err);
-
 #ifdef __cplusplus
 }
 #endif

@@ -259,14 +259,6 @@ def clean_cache() -> dict[str, Any]:
     return plain(removed)
 
 
-def measure_machine() -> dict[str, float]:
-    """Measures how fast this machine is and keeps it for `reduction.use: auto`: `amontons cache --measure`. factor, pass:
-    times over the usual ones, of a mesh's factors and of a pass through them."""
-    speed = c.CacheSpeed()
-    call(lib.amontons_cache_measure, ctypes.byref(speed))
-    return plain(speed)
-
-
 def data_folder() -> Path:
     """The folder of the meshes and example scenes that come with the library."""
     folder = ctypes.create_string_buffer(c.AMONTONS_PATH_SIZE)

@@ -18,9 +18,8 @@ static const CommandText text = {
         "\vThe folder is $AMONTONS_CACHE, else ~/.cache/amontons. When a new file makes it larger "
         "than $AMONTONS_CACHE_LIMIT (bytes, or as in 500M, 10G; default 2G) those go that were "
         "not used for the longest time. A run that finds nothing makes its reduction anew. "
-        "What --measure finds is kept there too, and --clean leaves it. Examples:\n\n"
+        "Examples:\n\n"
         "  amontons cache\n"
-        "  amontons cache --measure\n"
         "  amontons cache --clean"};
 
 // The last ones of the list: those used last.
@@ -54,34 +53,17 @@ static void print_entries(const Shown *shown)
         say("  ... and %lld more, unused for longer\n", (long long)(shown->count - count));
 }
 
-static int measure(void)
-{
-    CacheSpeed speed;
-    Error err = {0};
-    if (!amontons_cache_measure(&speed, &err)) return report_error(&err);
-    say("kept for reduction.use: auto: factors of a mesh take %.2f of the usual time, passes "
-        "through them %.2f\n",
-        speed.factor, speed.pass);
-    return 0;
-}
-
 int command_cache(int argc, char **argv)
 {
     const char *none = NULL;
-    bool clean = false, measures = false;
+    bool clean = false;
     CacheSummary summary;
     Shown shown = {0};
     Error err = {0};
     const Option options[] = {
-        {"clean", 0, NULL, "Remove all reductions of the cache", .flag = &clean},
-        {"measure", 0, NULL,
-         "Measure how fast this machine is, for `reduction.use: auto`: once, when little else runs",
-         .flag = &measures},
-        {0}};
+        {"clean", 0, NULL, "Remove all reductions of the cache", .flag = &clean}, {0}};
     int status = options_read(&text, options, argc, argv, &none);
     if (status != 0) return status;
-    if (clean && measures) return report_misuse("--clean and --measure do not go together");
-    if (measures) return measure();
     bool done = clean ? amontons_cache_clean(&summary, &err)
                       : amontons_cache_list(keep_entry, &shown, &summary, &err);
     if (!done) return report_error(&err);

@@ -36,17 +36,16 @@ static const double STAGES_REST = 100, STAGES_SLIDING = 380;
 static const double STAGES_STEP = 2;   // of SDIRK2
 static const double PERIODIC_SLIDINGS = 8;   // after which a run that waits for it has its period
 
-ExpectedCost choice_expect(const ChoiceSizes *sizes, const Processor *processor)
+ExpectedCost choice_expect(const ChoiceSizes *sizes)
 {
     double n = sizes->unknowns, square = sizes->interface * sizes->interface;
-    double factor = FULL_FACTOR * pow(n, 1.5) * processor->factor;
-    double pass = (FULL_STAGE * pow(n, 1.5) + FULL_BORDER * square) * processor->pass;
+    double factor = FULL_FACTOR * pow(n, 1.5);
+    double pass = FULL_STAGE * pow(n, 1.5) + FULL_BORDER * square;
     double parts = sizes->halves, m = sizes->interface / parts;
     double products = REDUCTION_PRODUCTS * parts * m * m * far_patches_left(n / parts, m);
-    double reduction = (REDUCTION_FACTORS * n + products) * processor->factor;
-    double stage = REDUCED_STAGE * square * processor->pass;
+    double reduction = REDUCTION_FACTORS * n + products;
     return (ExpectedCost){.reduction = reduction,
-                          .reduced = sizes->stages * stage,
+                          .reduced = sizes->stages * REDUCED_STAGE * square,
                           .full = RUNGS * factor + sizes->stages * pass};
 }
 

@@ -4,7 +4,6 @@
 #ifndef AMONTONS_MODEL_CHOICE_H
 #define AMONTONS_MODEL_CHOICE_H
 
-#include "model/processor.h"
 #include "scene/scene.h"
 
 typedef struct ChoiceSizes {
@@ -23,7 +22,7 @@ typedef struct ExpectedCost {
     double full;   // factors and stages on the mesh
 } ExpectedCost;
 
-ExpectedCost choice_expect(const ChoiceSizes *sizes, const Processor *processor);
+ExpectedCost choice_expect(const ChoiceSizes *sizes);
 
 // A basis that is held costs nothing; the runs that share one share its cost. Never beyond the
 // memory that a basis may take.

@@ -275,12 +275,10 @@ static bool expect(Model *model, bool held, Error *err)
 {
     const Scene *scene = model->scene;
     const Mesh *mesh = &model->mesh;
-    Processor processor;
     bool mirrored = model->reduced.halves != NULL;
     if (!held && is_reducible(scene))
         TRY(mirror_is_likely(&model->bulk, mesh->position, model->interface.dofs,
                              model->interface.count, &mirrored, err));
-    TRY(processor_kept(&processor, model->cache_note, err));
     model->choice =
         (ChoiceSizes){.unknowns = model->full_dofs,
                       .interface = model->interface.count,
@@ -288,7 +286,7 @@ static bool expect(Model *model, bool held, Error *err)
                       .halves = mirrored ? 2 : 1,
                       .runs = scene->reduction.cache ? fmax(scene->reduction.runs, 1) : 1,
                       .held = held};
-    model->expected = choice_expect(&model->choice, &processor);
+    model->expected = choice_expect(&model->choice);
 cleanup:
     return error_is_clean(err);
 }

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What `amontons cache` asks of io/cache_folder and model/processor.
+// What `amontons cache` asks of io/cache_folder.
 #include "amontons_cache.h"
-#include "base/dense.h"
 #include "io/cache_folder.h"
-#include "model/processor.h"
 
 #include <stdio.h>
 
@@ -43,16 +41,5 @@ bool amontons_cache_clean(CacheSummary *removed, Error *err)
              folder.count - (int32_t)removed->files, folder.count, folder.path);
 cleanup:
     cache_folder_destroy(&folder);
-    return error_is_clean(err);
-}
-
-bool amontons_cache_measure(CacheSpeed *speed, Error *err)
-{
-    Processor processor = PROCESSOR_USUAL;
-    dense_use_one_thread();
-    TRY(processor_measure(&processor, err));
-    TRY(processor_keep(&processor, err));
-    *speed = (CacheSpeed){.factor = processor.factor, .pass = processor.pass};
-cleanup:
     return error_is_clean(err);
 }

@@ -292,31 +292,6 @@ class Choice(Cached):
         self.assertIn("in the cache", said)
         self.assertEqual((held["reduction"], held["steps"]), (0, longer["steps"]))
 
-    def cache_command(self, *words, cache=None):
-        return subprocess.run([BIN / "amontons", "cache", *words], capture_output=True, text=True,
-                              env=dict(os.environ, AMONTONS_CACHE=str(cache or self.cache)))
-
-    def test_measured(self):
-        """Kept until it is measured again, whatever is cleaned; a damaged file is not believed."""
-        said = self.cache_command("--measure")
-        self.assertEqual((said.returncode, said.stderr), (0, ""))
-        self.assertIn("kept for reduction.use: auto", said.stdout)
-        self.cache_command("--clean")
-        kept = self.cache / "processor.speed"
-        usual = self.model(*PLAIN, cache="")["expected_s"]
-        model = self.model(*PLAIN)
-        self.assertIsNone(model["cache_note"])
-        # In powers of the root of 2, whatever the machine.
-        rungs = 2 * np.log2(model["expected_s"]["reduction"] / usual["reduction"])
-        self.assertAlmostEqual(rungs, round(rungs), delta=1e-9)
-        kept.write_bytes(kept.read_bytes()[:-1])
-        model = self.model(*PLAIN)
-        self.assertIn("measure again", model["cache_note"])
-        self.assertEqual(model["expected_s"], usual)
-        self.assertEqual(self.cache_command("--measure", "--clean").returncode, 2)
-        nowhere = self.cache_command("--measure", cache="/proc/self/none")
-        self.assertEqual((nowhere.returncode, nowhere.stdout), (1, ""))
-
     def test_sweep(self):
         """Eight points of one block are reduced, each of eight blocks is not."""
         head = f"scene: {SCENE}\nset: {{{self.BRIEF.replace('=', ': ')}, mesh.set.nx: 40, mesh.set.nz: 40}}\n"

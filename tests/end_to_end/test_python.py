@@ -424,10 +424,6 @@ class Commands(InFolder):
             self.assertEqual(sorted(name for name, *_ in found["entries"]), files)
             self.assertEqual(found["bytes"], sum(size for _, size, _ in found["entries"]))
             self.assertEqual((amontons.clean_cache()["files"], amontons.cache()["files"]), (len(files), 0))
-            speed = amontons.measure_machine()
-            self.assertTrue(all(0.01 < times < 100 for times in speed.values()), speed)
-            self.assertEqual(amontons.clean_cache()["files"], 0)
-            self.assertEqual([path.name for path in (self.folder / "cache").iterdir()], ["processor.speed"])
         finally:
             os.environ["AMONTONS_CACHE"] = ""
 

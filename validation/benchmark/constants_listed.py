@@ -293,11 +293,6 @@ NOT_A_CHOICE = {
         "PERIODIC_SLIDINGS": "the same, counted",
         "NOT_WORTH_ASKING": "s that may be lost; choice.py",
         "BYTES_FACTORS": "counted", "BYTES_PRODUCTS": "counted", "BYTES_MAX": "memory"},
-    "model/processor.c": {
-        "SIDE": "a lattice that takes 10 ms", "NODES": "of it", "NEIGHBOURS": "of a node",
-        "TURNS": "0.1 s in all", "PASSES": "the same",
-        "FACTOR_SECONDS": "measured where the constants of model/choice.c were",
-        "PASS_SECONDS": "the same", "FARTHEST": "no machine"},
     "study/stability/stability.c": {"POINTS_BEYOND": "shown"},
     "study/stability/why.c": {"TAKES_PART": "words", "EARLIER": "words"},
 }

@@ -17,7 +17,7 @@ static ChoiceSizes block(double side, double stages)
 
 static bool reduces(const ChoiceSizes *sizes)
 {
-    ExpectedCost cost = choice_expect(sizes, &PROCESSOR_USUAL);
+    ExpectedCost cost = choice_expect(sizes);
     return choice_reduces(sizes, &cost);
 }
 
@@ -62,9 +62,9 @@ static void test_many_runs(void **state)
     ChoiceSizes brief = block(160, 100);
     brief.runs = 20;
     assert_true(reduces(&brief));
-    ExpectedCost one = choice_expect(&brief, &PROCESSOR_USUAL);
+    ExpectedCost one = choice_expect(&brief);
     brief.runs = 1;
-    ExpectedCost same = choice_expect(&brief, &PROCESSOR_USUAL);
+    ExpectedCost same = choice_expect(&brief);
     assert_true(one.reduction == same.reduction && one.full == same.full);   // of all, of one
 }
 
@@ -85,21 +85,6 @@ static void test_memory(void **state)
     ChoiceSizes large = block(320, 1e4), huge = block(700, 1e6);
     assert_true(reduces(&large));
     assert_false(reduces(&huge));
-}
-
-// Of a machine that is slow at factors, or at memory.
-static void test_processor(void **state)
-{
-    (void)state;
-    ChoiceSizes sizes = block(80, 300);
-    ExpectedCost usual = choice_expect(&sizes, &PROCESSOR_USUAL);
-    ExpectedCost slow = choice_expect(&sizes, &(Processor){3, 3});
-    assert_near("reduction", slow.reduction, 3 * usual.reduction, 1e-12);
-    assert_near("reduced", slow.reduced, 3 * usual.reduced, 1e-12);
-    assert_near("full", slow.full, 3 * usual.full, 1e-12);
-    ExpectedCost memory = choice_expect(&sizes, &(Processor){1, 2});
-    assert_true(memory.reduction == usual.reduction);
-    assert_true(memory.full > usual.full && memory.full < 2 * usual.full);
 }
 
 // mu_S = 0.4 and mu_K = 0.2: slidings where the rod is at 0.4, 0.6, ... times `way`.
@@ -145,7 +130,6 @@ int main(void)
                                        cmocka_unit_test(test_many_runs),
                                        cmocka_unit_test(test_not_worth_asking),
                                        cmocka_unit_test(test_memory),
-                                       cmocka_unit_test(test_processor),
                                        cmocka_unit_test(test_stages)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
