@@ -4,7 +4,6 @@
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 // Bytes of the UTF-8 character at `text`, and its number; 0: it is none. Overlong forms are of no
 // account here: what they stand for is judged.
@@ -27,19 +26,23 @@ static bool is_obeyed(unsigned code)
     return (control && code != '\n' && code != '\t') || turns;
 }
 
+// In one piece: lines of processes that write into one file do not mix.
 static void put(const char *text, FILE *stream)
 {
     const unsigned char *next = (const unsigned char *)text;
-    while (*next) {
+    char *shown = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&shown, &size);
+    while (out && *next) {
         unsigned code = 0;
         int length = read_character(next, &code);
-        if (length > 0 && !is_obeyed(code)) {
-            fwrite(next, 1, (size_t)length, stream);
-            next += length;
-            continue;
-        }
-        for (int k = 0; k < (length > 0 ? length : 1); k++) fprintf(stream, "\\x%02x", *next++);
+        bool harmless = length > 0 && !is_obeyed(code);
+        for (int k = 0; k < (length > 0 ? length : 1); k++, next++)
+            fprintf(out, harmless ? "%c" : "\\x%02x", *next);
     }
+    if (out) fclose(out);
+    if (out && shown) fwrite(shown, 1, size, stream);
+    free(shown);
 }
 
 static int put_formatted(FILE *stream, const char *format, va_list arguments)

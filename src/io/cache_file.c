@@ -66,9 +66,9 @@ static void stay_below_limit(const char *path)
 {
     Error unseen = {0};
     CacheFolder folder = {0};
-    int64_t bytes = 0;
-    if (cache_folder_read(&folder, &unseen))
-        cache_folder_trim(&folder, cache_folder_limit(), path, &bytes);
+    int64_t bytes = 0, limit = 0;
+    if (cache_folder_limit(&limit, &unseen) && cache_folder_read(&folder, &unseen))
+        cache_folder_trim(&folder, limit, path, &bytes);
     cache_folder_destroy(&folder);
 }
 

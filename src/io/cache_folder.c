@@ -4,6 +4,7 @@
 #include "io/cache_folder.h"
 
 #include "base/memory.h"
+#include "base/text.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -15,6 +16,7 @@
 #include <unistd.h>
 
 static const int64_t LIMIT_DEFAULT = 2000000000;
+static const double LIMIT_MOST = 1e18;   // bytes: an integer holds them
 
 // Also false where the path would be too long: such a cache is as good as none.
 bool cache_folder_path(char path[PATH_MAX])
@@ -33,20 +35,30 @@ bool cache_folder_path(char path[PATH_MAX])
     return fits;
 }
 
-// What is no number of bytes is as good as not given; `amontons cache` says which limit holds.
-int64_t cache_folder_limit(void)
+bool cache_folder_limit(int64_t *bytes, Error *err)
 {
     static const struct {
         const char *ending;
         double factor;
     } units[] = {{"", 1}, {"K", 1e3}, {"M", 1e6}, {"G", 1e9}, {"T", 1e12}};
     const char *given = getenv("AMONTONS_CACHE_LIMIT");
-    char *end = NULL;
-    double number = given ? strtod(given, &end) : -1;
-    if (!given || end == given || !(number >= 0 && number < 1e6)) return LIMIT_DEFAULT;
-    for (size_t k = 0; k < sizeof units / sizeof *units; k++)
-        if (strcmp(end, units[k].ending) == 0) return (int64_t)(number * units[k].factor);
-    return LIMIT_DEFAULT;
+    double number = 0;
+    *bytes = LIMIT_DEFAULT;
+    if (!given || !*given) return true;
+    int32_t length = text_number(given, &number);
+    for (size_t k = 0; length > 0 && k < sizeof units / sizeof *units; k++) {
+        double size = number * units[k].factor;
+        if (strcmp(given + length, units[k].ending) != 0 || !(size >= 0 && size < LIMIT_MOST))
+            continue;
+        *bytes = (int64_t)size;
+        return true;
+    }
+    FAIL(err, ERROR_INPUT,
+         "AMONTONS_CACHE_LIMIT: found `%.40s`; allowed: a number of bytes, as in 500000000, 500M "
+         "or 10G",
+         given);
+cleanup:
+    return false;
 }
 
 // 32 digits and letters, and an ending that only we use.

@@ -28,8 +28,8 @@ typedef struct CacheFolder {
 // ($AMONTONS_CACHE is empty).
 bool cache_folder_path(char path[PATH_MAX]);
 
-// Bytes: $AMONTONS_CACHE_LIMIT ("500M", "10G"), else 2 GB.
-int64_t cache_folder_limit(void);
+// $AMONTONS_CACHE_LIMIT ("500M", "10G"), else 2 GB. ERROR_INPUT: it is no number of bytes.
+bool cache_folder_limit(int64_t *bytes, Error *err);
 
 // A folder that is not there is empty.
 bool cache_folder_read(CacheFolder *folder, Error *err);

@@ -11,6 +11,7 @@ extern "C" {
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
+#include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
@@ -221,8 +222,36 @@ bool hand_on(vtkDataArray *array, const char *name, FieldTake take, void *contex
     return take(context, &part, err);
 }
 
+// "ERROR: In FILE, line 407\nvtkXMLReader (0x55...): Cannot read it.\n\n": what stands behind the
+// address, up to the end of its line.
+std::string sentence_of(const std::string &message)
+{
+    const auto from = message.find("): ");
+    const std::string text = from == std::string::npos ? message : message.substr(from + 3);
+    return text.substr(0, text.find('\n'));
+}
+
+// What VTK makes on the way has no observer and would write to standard error itself. The verbosity
+// is the process's, hence given back.
+class Silence
+{
+  public:
+    Silence() : before(vtkLogger::GetCurrentVerbosityCutoff())
+    {
+        vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+    }
+    ~Silence()
+    {
+        vtkLogger::SetStderrVerbosity(before);
+    }
+
+  private:
+    const vtkLogger::Verbosity before;
+};
+
 bool decode(const char *path, FieldTake take, void *context, Error *err)
 {
+    const Silence silence;
     std::string message;
     vtkNew<vtkCallbackCommand> observer;
     observer->SetCallback(keep_first);
@@ -234,9 +263,10 @@ bool decode(const char *path, FieldTake take, void *context, Error *err)
     reader->SetFileName(path);
     reader->Update();
     vtkUnstructuredGrid *grid = reader->GetOutput();
-    if (!message.empty() || !grid || grid->GetNumberOfCells() < 1) {
-        error_set(err, ERROR_FILE, __FILE__, __LINE__, "%s: VTK cannot read it: %s", path,
-                  message.empty() ? "it has no cells" : message.c_str());
+    if (!message.empty() || !grid || grid->GetNumberOfCells() < 1 || !grid->GetPoints()) {
+        error_set(err, ERROR_FILE, __FILE__, __LINE__,
+                  "the file is damaged, VTK cannot read it: %s",
+                  message.empty() ? "it has no cells" : sentence_of(message).c_str());
         return false;
     }
     bool done =

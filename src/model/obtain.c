@@ -9,9 +9,11 @@
 #include "base/memory.h"
 #include "bulk/mirrored_reduction.h"
 #include "bulk/reduction_block.h"
+#include "io/cache_folder.h"
 #include "model/assemble.h"
 #include "model/basis_cache.h"
 #include "model/contact_laws.h"
+#include "model/extremes.h"
 #include "model/far_cache.h"
 #include "model/gaps.h"
 #include "model/shape_cache.h"
@@ -184,7 +186,7 @@ static bool obtain_basis(Model *model, const ReductionBlock *block, Shape *shape
     if (model->from_cache) goto cleanup;
     if (basis_cache_lock(shape->basis, &lock)) TRY(load_basis(model, block, shape, err));
     if (model->from_cache) goto cleanup;
-    TRY(build_basis(model, block, interface, &def, err));
+    TRY(model_blame_extremes(model, build_basis(model, block, interface, &def, err), err));
     if (!basis_cache_store(shape->basis, &model->reduced, model->cache_note)) shape->basis[0] = 0;
 cleanup:
     file_lock_release(&lock);
@@ -339,7 +341,9 @@ cleanup:
 static bool find_key(Model *model, char key[HASH_TEXT_SIZE], Error *err)
 {
     const Scene *scene = model->scene;
+    int64_t limit;   // of the cache that is to be used
     key[0] = 0;
+    if (scene->reduction.cache && !cache_folder_limit(&limit, err)) return false;
     if (!is_reducible(scene) || scene->load.support_count > 0) return true;
     bool done = shape_key(scene, reduction_tolerance(scene), key, err);
     if (done && !key[0] && scene->reduction.cache)

@@ -75,7 +75,7 @@ bool amontons_report(const char *const *results, int32_t count, const char *file
 {
     ReportRequest request = {results, count, file};
     ApartWork work = {.path = count > 0 ? results[0] : "",
-                      .reader = "HDF5",
+                      .reader = "HDF5 or VTK",
                       .seconds = SECONDS_MAX,
                       .advice = "its history is damaged",
                       .read = write_file,

@@ -6,19 +6,18 @@
 #include <stdio.h>
 
 // A path that is too long for AMONTONS_PATH_SIZE is cut: it is shown only.
-static CacheSummary summary_of(const CacheFolder *folder)
+static bool summarise(const CacheFolder *folder, CacheSummary *summary, Error *err)
 {
-    CacheSummary summary = {
-        .files = folder->count, .bytes = folder->bytes, .limit = cache_folder_limit()};
-    snprintf(summary.folder, sizeof summary.folder, "%.*s", AMONTONS_PATH_SIZE - 1, folder->path);
-    return summary;
+    *summary = (CacheSummary){.files = folder->count, .bytes = folder->bytes};
+    snprintf(summary->folder, sizeof summary->folder, "%.*s", AMONTONS_PATH_SIZE - 1, folder->path);
+    return cache_folder_limit(&summary->limit, err);
 }
 
 bool amontons_cache_list(CacheCallback on_entry, void *context, CacheSummary *summary, Error *err)
 {
     CacheFolder folder = {0};
     TRY(cache_folder_read(&folder, err));
-    *summary = summary_of(&folder);
+    TRY(summarise(&folder, summary, err));
     for (int32_t k = 0; on_entry && k < folder.count; k++) {
         CacheEntry entry = {.name = folder.entries[k].name,
                             .bytes = folder.entries[k].bytes,
@@ -34,7 +33,7 @@ bool amontons_cache_clean(CacheSummary *removed, Error *err)
 {
     CacheFolder folder = {0};
     TRY(cache_folder_read(&folder, err));
-    *removed = summary_of(&folder);
+    TRY(summarise(&folder, removed, err));
     removed->files = cache_folder_trim(&folder, 0, NULL, &removed->bytes);
     if (removed->files < folder.count)
         FAIL(err, ERROR_FILE, "%d of %d files in %s could not be removed",

@@ -48,7 +48,7 @@ bool amontons_render_result(const char *folder, const PictureRequest *request, E
     static const PictureRequest all = {0};
     DrawRequest draw = {folder, request ? request : &all};
     ApartWork work = {.path = folder,
-                      .reader = "HDF5",
+                      .reader = "HDF5 or VTK",
                       .seconds = SECONDS_MAX,
                       .advice = "its history is damaged",
                       .read = draw_apart,
@@ -74,7 +74,7 @@ bool amontons_film(const char *folder, const FilmRequest *request, Error *err)
 {
     FilmWork film = {folder, request};
     ApartWork work = {.path = folder,
-                      .reader = "HDF5",
+                      .reader = "HDF5 or VTK",
                       .seconds = FILM_SECONDS_MAX,
                       .advice = "its history is damaged",
                       .stop = request->stop,

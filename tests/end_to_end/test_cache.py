@@ -309,6 +309,29 @@ class Choice(Cached):
                 self.assertEqual(model["expected_s"]["runs"], 8 if name == "one" else 1)
 
 
+class Refused(Cached):
+    def refused(self, *settings, **environment):
+        done = subprocess.run([BIN / "amontons", "run", SCENE, "-o", self.folder / "refused", "--quiet", "--overwrite", "--set", "mesh.set.nx=8",
+                               "mesh.set.nz=8", *settings], capture_output=True, text=True, timeout=60,
+                              env={**os.environ, "AMONTONS_CACHE": str(self.cache), **environment})
+        self.assertEqual(done.returncode, 2, done.stderr)
+        return done.stderr
+
+    def test_numbers_too_far_apart(self):
+        """Where rounding leaves nothing of a reduction: the key whose number it is, and what goes without."""
+        for settings, words in (
+                (["material.poisson=0.4999999999", "material.plane=strain"], ["material.poisson", "is 5e+09", "not independent"]),
+                (["mesh.set.height=1e6", "rod.height=5e5", "rod.width=1e6"], ["mesh.set, as set: one side of the block over the other is 1e+06"]),
+                (["material.eta2=1e12"], ["material.eta2", "one viscosity over the other is 1e+12"])):
+            said = self.refused(*settings)
+            for word in ["fig1.yaml", "reduction.use: never", "while reducing the bulk", *words]:
+                self.assertIn(word, said)
+
+    def test_limit(self):
+        said = self.refused(AMONTONS_CACHE_LIMIT="abc")
+        self.assertIn("AMONTONS_CACHE_LIMIT: found `abc`; allowed: a number of bytes", said)
+
+
 class OneBasis(Cached):
     """Blocks of one shape, whatever their length, step on one basis: made once."""
     LENGTHS = (0.25, 1, 4)

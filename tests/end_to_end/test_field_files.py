@@ -9,6 +9,7 @@ import subprocess
 import tempfile
 import unittest
 import xml.etree.ElementTree
+from pathlib import Path
 
 import h5py
 import meshio
@@ -48,6 +49,28 @@ def arrays_of(attributes):
         attributes.GetArrayName(k): vtk_to_numpy(attributes.GetArray(k))
         for k in range(attributes.GetNumberOfArrays())
     }
+
+
+class Damaged(unittest.TestCase):
+    def test_a_sentence_each(self):
+        """Whatever is wrong with a .vtu, one line says it: none of VTK's own log."""
+        with tempfile.TemporaryDirectory(prefix="amontons_fields_") as place:
+            result = Path(place) / "result"
+            program, scene = Path(os.environ["AMONTONS_BIN"]) / "amontons", Path(os.environ["AMONTONS_SOURCE"]) / "validation/paper/fig1.yaml"
+            subprocess.run([program, "run", scene, "--set", "mesh.set.nx=8", "mesh.set.nz=8", "time.until.U=1e-3", "output.figures=[]",
+                            "output.fields.every_U=1e-3", "-q", "-o", result], check=True, stdout=subprocess.DEVNULL)
+            files = {path: path.read_bytes() for path in result.glob("fields/*.vtu")}
+            for damage in (lambda b: b[:len(b) // 2] + bytes(200) + b[len(b) // 2 + 200:], lambda b: b[:3000], lambda b: b[:300],
+                           lambda b: b"", lambda b: b"\n", lambda b: b.replace(b"vtkZLib", b"vtkNone"),
+                           lambda b: b.replace(b'NumberOfCells="', b'NumberOfCells="9'), lambda b: b.replace(b"Points", b"Pionts"),
+                           lambda b: b.replace(b"UnstructuredGrid", b"PolyData"), lambda b: b.replace(b'type="Float', b'type="Flaot')):
+                for path, whole in files.items():
+                    path.write_bytes(damage(whole))
+                done = subprocess.run([program, "render", result, "--figure", "field"], capture_output=True, text=True)
+                self.assertIn(done.returncode, (1, 2), done.stderr)
+                where = r"(fields/bulk_\d+\.vtu|HDF5 or VTK crashes)"   # VTK does, where a type is unknown
+                self.assertRegex(done.stderr, rf"\Aamontons: error: [^\n\x1b]*{where}[^\n\x1b]*\n\Z")
+                self.assertNotIn("0x", done.stderr)
 
 
 class FieldFiles(unittest.TestCase):

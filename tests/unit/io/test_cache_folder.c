@@ -119,15 +119,27 @@ static void test_limit(void **state)
     const struct {
         const char *word;
         int64_t bytes;
-    } cases[] = {{"500M", 500000000}, {"10G", 10000000000}, {"1.5K", 1500},     {"12", 12},
-                 {"", 2000000000},    {"much", 2000000000}, {"-1", 2000000000}, {"3X", 2000000000},
-                 {"nan", 2000000000}, {"1e300", 2000000000}};
+    } cases[] = {{"500M", 500000000}, {"10G", 10000000000},       {"1.5K", 1500},
+                 {"12", 12},          {"3500000000", 3500000000}, {"", 2000000000}};
+    static const char *const wrong[] = {"much", "-1", "3X", "nan", "1e300", "2 G", "0x10", " 5"};
+    Error err = {0};
+    int64_t bytes = 0;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         setenv("AMONTONS_CACHE_LIMIT", cases[k].word, 1);
-        assert_int_equal(cache_folder_limit(), cases[k].bytes);
+        assert_true(cache_folder_limit(&bytes, &err));
+        assert_int_equal(bytes, cases[k].bytes);
+    }
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        err = (Error){0};
+        setenv("AMONTONS_CACHE_LIMIT", wrong[k], 1);
+        assert_false(cache_folder_limit(&bytes, &err));
+        assert_int_equal(err.code, ERROR_INPUT);
+        assert_non_null(strstr(err.message, wrong[k]));
     }
     unsetenv("AMONTONS_CACHE_LIMIT");
-    assert_int_equal(cache_folder_limit(), 2000000000);
+    err = (Error){0};
+    assert_true(cache_folder_limit(&bytes, &err));
+    assert_int_equal(bytes, 2000000000);
 }
 
 static void test_no_folder(void **state)

@@ -99,7 +99,7 @@ static void test_damaged(void **state)
     assert_damaged(parts, "its connectivity are damaged");
     parts = GOOD;
     parts.offsets = "3 -6";
-    assert_damaged(parts, "VTK cannot read it");
+    assert_damaged(parts, "the file is damaged, VTK cannot read it: ");
     parts = GOOD;
     parts.offsets = "3 5";
     assert_damaged(parts, "its cells have the wrong number of nodes");

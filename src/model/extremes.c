@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "model/extremes.h"
+
+#include <math.h>
+
+// Below this a quotient is nothing unusual, and what failed is not its fault.
+static const double USUAL = 1e4;
+
+typedef struct Extreme {
+    const char *key, *what;
+    double quotient;
+} Extreme;
+
+static void compare(Extreme *extreme, const char *key, const char *what, double quotient)
+{
+    if (quotient > extreme->quotient) *extreme = (Extreme){key, what, quotient};
+}
+
+static Extreme find_largest(const Model *model)
+{
+    Extreme found = {"reduction.use", "", USUAL};
+    const Materials *materials = &model->materials;
+    bool regions = model->scene->materials.count > 0;
+    double softest = INFINITY, stiffest = 0;
+    for (int32_t k = 0; k < materials->count; k++) {
+        const Material *one = &materials->list[k];
+        double viscosities = one->eta1 / one->eta2;
+        if (one->plane_strain)
+            compare(&found, regions ? "materials" : "material.poisson",
+                    "stiffness of volume over that of shear in plane strain",
+                    2 * (1 - one->poisson) / (1 - 2 * one->poisson));
+        compare(&found, regions ? "materials" : "material.eta2", "one viscosity over the other",
+                fmax(viscosities, 1 / viscosities));
+        softest = fmin(softest, one->young);
+        stiffest = fmax(stiffest, one->young);
+    }
+    double slender = model->height / model->length;
+    compare(&found, "materials", "Young's modulus of one region over another's",
+            stiffest / softest);
+    bool given = model->scene->mesh.parameter_count > 0;
+    compare(&found, given ? "mesh.set" : "mesh.file", "one side of the block over the other",
+            fmax(slender, 1 / slender));
+    return found;
+}
+
+bool model_blame_extremes(const Model *model, bool done, Error *err)
+{
+    Extreme largest = find_largest(model);
+    if (done || (err->code != ERROR_COMPUTE && err->code != ERROR_LIBRARY)) return done;
+    if (largest.quotient > USUAL)
+        error_context(err,
+                      "%s is %.3g, too much for the rounding of a reduction (reduction.use: never "
+                      "steps on the whole mesh)",
+                      largest.what, largest.quotient);
+    else
+        error_context(err, "`never` steps on the whole mesh");
+    err->code = ERROR_INPUT;
+    return scene_blame(model->scene, largest.key, done, err);
+}
