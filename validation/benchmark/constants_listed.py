@@ -270,6 +270,7 @@ NOT_A_CHOICE = {
     "record/history.c": {"FLUSH_EVERY": "seconds of a run that a kill may cost"},
     "record/window.h": {"WINDOW_SLIDINGS_MAX": "slidings that a scene may ask for as the last: room for their states"},
     "record/observation.h": {"RECORDERS_MAX": SIZE},
+    "model/extremes.c": {"USUAL": "from which on a message names a quotient"},
     "model/gaps.c": {"ROUNDING": ROUNDING},
     "model/basis_cache.c": {"WAIT_MAX": "seconds for another run's basis", "COUNTS": "stored", "HALF_COUNTS": "stored",
                             "WHOLE": "none"},
