@@ -97,14 +97,14 @@ typedef struct RunWarnings {   // what makes an answer doubtful, a sentence each
 typedef struct RunSummary {
     // Answers, as record/answers.h defines them: macroscopic static friction coefficient, holding
     // coefficient, the largest mu. NaN: the block did not slide; the load did not drop.
-    double mu_M, mu_hold, mu_max;
+    double mu_M, mu_hold, mu_max, mu_steady;   // mu_steady: at which it slides at the end; NaN
     double mu_M_error, mu_hold_error;   // bars of 95 %, of the parts that are known; NaN: none is
     double mu_M_parts[3], mu_hold_parts[3];   // of the bars: mesh, branches, drops; NaN: not known
     // Where the scene asked for an error bar (accuracy.mu): runs, meshes, contact nodes of the
     // last, and why no more were computed (static storage). 0, NULL: it did not.
     int32_t bar_runs, bar_meshes, bar_nodes;
     double bar_wanted, bar_window;   // over mu; of pressures, relative
-    const char *bar_ended;
+    const char *bar_ended, *mu_M_is;   // results.mu_M_is of run.json; static storage, both
     double mu_M_spread;   // largest less smallest of the peaks in mu_M; NaN: fewer than two
     int32_t peaks, peaks_counted;   // before bulk sliding: seen; those in mu_M
     int32_t period;   // peaks repeat after so many slidings; 0: they do not

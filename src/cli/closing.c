@@ -35,14 +35,20 @@ static void print_parts(double error, const double parts[3])
     if (*separator == ',') say(")");
 }
 
+static const char STEADY[] = "steady sliding";   // what mu_M then is
+
 // The macroscopic static friction coefficient, from how many peaks, and whether they repeat.
 static void print_mu_M(const RunSummary *summary)
 {
     if (isnan(summary->mu_M)) {
-        say("  mu_M            none: %s\n",
-            summary->peaks > 0     ? "after the start only parts of the block slid"
-            : summary->leading > 0 ? "the block slid from the start on, and not once from rest"
-                                   : "the block as a whole did not slide in this run");
+        say("  mu_M            %s\n", summary->mu_M_is);
+        return;
+    }
+    if (strcmp(summary->mu_M_is, STEADY) == 0) {
+        say("  mu_M            %.4f: F_T/F_N of %s; the block slides slowly as a whole, no sliding "
+            "was fast\n"
+            "                  the mesh's error is not known\n",
+            summary->mu_M, STEADY);
         return;
     }
     print_estimate("mu_M", summary->mu_M, summary->mu_M_error);
@@ -63,6 +69,14 @@ static void print_mu_M(const RunSummary *summary)
             "0.5 to 3 %%\n"
             "                  (--to 1%% finds it)\n",
             summary->peaks_counted);
+}
+
+// Beside a mu_M from peaks.
+static void print_mu_steady(const RunSummary *summary)
+{
+    if (isnan(summary->mu_steady) || strcmp(summary->mu_M_is, STEADY) == 0) return;
+    say("  mu_steady       %.4f: at the end the block slides steadily, its drops have ceased\n",
+        summary->mu_steady);
 }
 
 // The holding coefficient: parts of a block that slide on their own make the load drop below mu_M.
@@ -118,6 +132,7 @@ static void print_bar(const RunSummary *summary)
 static void print_answers(const RunSummary *summary)
 {
     print_mu_M(summary);
+    print_mu_steady(summary);
     print_mu_hold(summary);
     if (summary->bar_runs > 0) print_bar(summary);
     say("  mu_max          %.4f, the largest load ratio of the run\n", summary->mu_max);

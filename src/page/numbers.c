@@ -20,7 +20,8 @@ typedef struct NumberRow {
 
 static const NumberRow RESULTS[] = {
     {"results.mu_M", NUMBER_ESTIMATE, "<i>\u03bc</i><sub>M</sub>",
-     "macroscopic static friction coefficient: mean of the peaks before the whole block slides"},
+     "macroscopic static friction coefficient: mean of the peaks before the whole block slides, or "
+     "what it takes to slide steadily"},
     {"results.mu_hold", NUMBER_ESTIMATE, "<i>\u03bc</i><sub>hold</sub>",
      "what the contact holds: the lowest load ratio at which the load dropped"},
     {"results.mu_max", NUMBER_FOUND, "<i>\u03bc</i><sub>max</sub>",

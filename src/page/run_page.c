@@ -56,15 +56,24 @@ static void write_lead(HtmlWriter *html, const RunSource *run)
     }
     html_markup(html, ").");
     double mu_M = run_number(run, "results.mu_M");
+    char is[160] = "";   // older results do not say
+    json_find_text(run->json, "results.mu_M_is", is, sizeof is);
+    bool steady = strcmp(is, "steady sliding") == 0;
     if (isfinite(mu_M)) {
         html_markup(html, " The block as a whole slides at <i>F</i><sub>T</sub>/<i>F</i>"
                           "<sub>N</sub> = <strong><i>\u03bc</i><sub>M</sub> = ");
         estimate_write(html, mu_M, run_number(run, "results.mu_M_error"), true);
         bool mesh_known = isfinite(run_number(run, "results.mu_M_error_parts.mesh"));
         html_markup(html, "</strong>%s.",
-                    mesh_known ? "" : " (of the peaks alone: the mesh\u2019s error is not known)");
+                    mesh_known ? ""
+                    : steady ? ", slowly and steadily: no sliding was fast (the mesh\u2019s error "
+                               "is not known)"
+                             : " (of the peaks alone: the mesh\u2019s error is not known)");
     } else {
-        html_markup(html, " The block as a whole did not slide after the start in this run.");
+        bool told = strncmp(is, "none: ", 6) == 0;
+        html_markup(html, " There is no <i>\u03bc</i><sub>M</sub>: ");
+        html_text(html, told ? is + 6 : "the block as a whole did not slide after the start");
+        html_markup(html, ".");
     }
     html_markup(html, "</p>\n");
 }

@@ -50,7 +50,7 @@ typedef struct Recorder {
     bool (*record)(void *self, const Observation *seen, Error *err);
 } Recorder;
 
-enum { RECORDERS_MAX = 8 };
+enum { RECORDERS_MAX = 9 };
 
 typedef struct Recorders {
     int32_t count;

@@ -180,6 +180,7 @@ static void write_results(JsonWriter *json, const RunReport *report)
     double length = report->model->length;
     json_begin_object(json, "results");
     answers_write_json(report->answers, report->drops, length, json);
+    steady_write_json(report->steady, report->answers, json);
     write_slip(json, report->least_resolved, report->pads);
     pads_write_json(report->pads, json);
     write_events(json, report->events, report->pads);

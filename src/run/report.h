@@ -8,6 +8,7 @@
 #include "model/model.h"
 #include "record/error_bars.h"
 #include "record/pads.h"
+#include "record/steady.h"
 
 // The largest of each kind of error over a run's accepted steps, relative (record/observation).
 typedef struct RunErrors {
@@ -39,6 +40,7 @@ typedef struct RunReport {
     const Drops *drops;
     const Answers *answers;
     const Event *least_resolved;   // before which the fewest cells slipped; NULL: none
+    const Steady *steady;
     const Pads *pads;
     const Levels *levels;   // NULL: one run
     const RunWarnings *warnings;

@@ -173,6 +173,7 @@ static bool archive_parts(Simulation *simulation, Archive *archive, Error *err)
     explicit_reference_archive(&simulation->explicit_reference, archive);
     TRY(events_archive(&simulation->events, interface, archive, err));
     TRY(drops_archive(&simulation->drops, archive, err));
+    steady_archive(&simulation->steady, archive);
     pads_archive(&simulation->pads, archive);
     contact_arrays_archive(&simulation->contact, archive);
     archive_errors(&simulation->errors, archive);

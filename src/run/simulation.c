@@ -51,6 +51,10 @@ static bool open_recorders(Simulation *simulation, Error *err)
     TRY(drops_create(&simulation->events, simulation->scene.time.periodic_tolerance,
                      &simulation->drops, err));
     recorders_add(&simulation->recorders, &simulation->drops, drops_record);
+    simulation->steady =
+        steady_of(&simulation->events, model_friction_slip(&simulation->model) +
+                                           model_machine_yield(&simulation->model));
+    recorders_add(&simulation->recorders, &simulation->steady, steady_record);
     TRY(pads_create(&simulation->model.interface, &simulation->events, &simulation->pads, err));
     recorders_add(&simulation->recorders, &simulation->pads, pads_record);
     TRY(contact_arrays_create(&simulation->model.interface, &simulation->model.law,
@@ -298,6 +302,7 @@ static Answers answers_to_report(const Simulation *simulation)
 {
     Answers answers = answers_of(&simulation->drops);
     if (simulation->levels) levels_answer_for(simulation->levels, &answers);
+    steady_answer(&simulation->steady, &answers);
     return answers;
 }
 
@@ -305,8 +310,7 @@ static bool hand_out_report(const Simulation *simulation, const RunReport *repor
 {
     const RunOptions *options = &simulation->options;
     char *text = NULL;
-    // A scene that was refused has left nothing, and so nothing is in the way of the one put right.
-    bool refused = report->failure && report->failure->code == ERROR_INPUT;
+    bool refused = report->failure && report->failure->code == ERROR_INPUT;   // leaves nothing
     if (writes_results(simulation) && !refused)
         TRY(report_write(simulation->folder.path, report, err));
     if (!options->on_report) goto cleanup;
@@ -335,9 +339,7 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
     const Event *least = drops_least_resolved(&simulation->drops, answers.first);
     warnings_of_slip(&simulation->scene, &simulation->model.interface, least,
                      &simulation->warnings);
-    Schedule load = scene_schedule(&simulation->scene.load.program);
-    warnings_of_strain(&simulation->model, simulation->model.scales.load * schedule_largest(&load),
-                       answers.mu_max, &simulation->warnings);
+    warnings_of_strain(&simulation->model, answers.mu_max, &simulation->warnings);
     RunCounters counters = summary_count(simulation);
     if (simulation->history.file) {
         TRY(output_store_warnings(simulation, err));
@@ -361,6 +363,7 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
                             .drops = &simulation->drops,
                             .answers = &answers,
                             .least_resolved = least,
+                            .steady = &simulation->steady,
                             .pads = &simulation->pads,
                             .levels = simulation->levels,
                             .warnings = &simulation->warnings};

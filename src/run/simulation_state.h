@@ -11,6 +11,7 @@
 #include "record/contact_arrays.h"
 #include "record/fields.h"
 #include "record/history.h"
+#include "record/steady.h"
 #include "run/kept_states.h"
 #include "run/report.h"
 #include "run/result_folder.h"
@@ -32,6 +33,7 @@ struct Simulation {
     Observation seen;   // the last accepted step
     Events events;
     Drops drops;
+    Steady steady;
     Pads pads;
     ContactArrays contact;
     History history;

@@ -160,6 +160,8 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
                             .mu_hold = answers->mu_hold.value,
                             .mu_hold_error = answers->mu_hold.error,
                             .mu_max = answers->mu_max,
+                            .mu_steady = steady_mu(&simulation->steady).value,
+                            .mu_M_is = steady_words(&simulation->steady, answers),
                             .peaks = answers->peaks,
                             .peaks_counted = answers->peaks_counted,
                             .period = answers->period,

@@ -15,6 +15,7 @@
 
 #include "record/drops.h"
 #include "scene/materials.h"
+#include "scene/programs.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -80,11 +81,14 @@ static double loaded_width(const Model *model, int32_t k)
     return fmin(width, contact);
 }
 
-void warnings_of_strain(const Model *model, double load, double mu, RunWarnings *warnings)
+void warnings_of_strain(const Model *model, double mu, RunWarnings *warnings)
 {
     const Materials *materials = &model->materials;
     double largest = GRADIENT_SMALL, push = fmax(mu, 0);
     int32_t worst = -1;
+    if (!(model->scales.load > 0)) return;   // the run did not come so far
+    Schedule program = scene_schedule(&model->scene->load.program);
+    double load = model->scales.load * schedule_largest(&program);
     for (int32_t k = 0; k < materials->count; k++) {
         if (materials->count > 1 && !(materials->area[k] > 0)) continue;
         double pressure = load / loaded_width(model, k);

@@ -30,9 +30,9 @@ void warnings_of_shape(const Scene *scene, double length, double height, RunWarn
 void warnings_of_rod(const Scene *scene, const Interface *interface, double height,
                      RunWarnings *warnings);
 
-// A material that the mean stresses of a load (force/width) and of mu times it deform by more than
+// A material that the mean stresses of the largest load and of mu times it deform by more than
 // small strains allow for: the one that they deform most.
-void warnings_of_strain(const Model *model, double load, double mu, RunWarnings *warnings);
+void warnings_of_strain(const Model *model, double mu, RunWarnings *warnings);
 
 // least: the event with the fewest cells (record/drops); NULL: none, and nothing is said.
 void warnings_of_slip(const Scene *scene, const Interface *interface, const Event *least,

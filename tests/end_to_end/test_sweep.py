@@ -484,13 +484,33 @@ class Sweep(unittest.TestCase):
             self.assertEqual(sorted(v for v in drawn if v is not None),
                              sorted(float(row["mu_max"]) for row, words in zip(rows, said) if words))
 
+    def test_steady_sliding(self):
+        """At a small pressure the block slides slowly, without drops: its mu_M is mu(V), in table, ranking and map, and says so;
+        one that has not slid yet is a hole with its reason."""
+        study = (HEAD + "cases:\n  - {load.pressure: 0.0003, time.until.U: 0.0012}\n  - {load.pressure: 0.003, time.until.U: 0.008}\n"
+                 "  - {load.pressure: 0.0006, time.until.U: 2e-4}\nrank: {by: mu_M}\n"
+                 "record: [mu_M, mu_steady, results.mu_M_is]\nplot: {x: load.pressure, y: mu_M}\n")
+        done = self.sweep(study=self.study(study))
+        slow, fast, short = self.table()
+        scene = json.loads((self.folder / "out" / slow["run"] / "run.json").read_text())["scene"]
+        law, V = scene["friction"], scene["rod"]["velocity"]
+        exact = law["mu_static"] - (law["mu_static"] - law["mu_kinetic"]) * V / law["critical_velocity"]
+        self.assertLess(abs(float(slow["mu_M"]) / exact - 1), 2e-3)
+        self.assertEqual((slow["mu_steady"], slow["results.mu_M_is"]), (slow["mu_M"], "steady sliding"))
+        self.assertEqual((fast["mu_steady"], fast["results.mu_M_is"]), ("", "peaks"))
+        self.assertEqual((short["mu_M"], short["results.mu_M_is"]), ("", "none: the block as a whole did not slide in this run"))
+        self.assertIn("1 of 3 points: no mu_M: the block as a whole did not slide in this run\n", done.stdout)
+        series = json.loads((self.folder / "out/figures/plot.json").read_text())["series"]
+        drawn = [v for c in series for v in c["y"] if v is not None]
+        self.assertTrue(any(abs(v - float(slow["mu_M"])) < 1e-12 for v in drawn))
+
     def test_points_without_a_result(self):
         study = STUDY.replace("[0.003, 0.006]", "[0.003, 0.3]")
         for words in ("rank: {by: mu_M}\n", "plot: {x: load.pressure, y: mu_M}\n"):
             done = self.sweep(study=self.study(study + words))
             missing = [row["point"] for row in self.table() if not row["mu_M"]]
             self.assertEqual(missing, ["2", "3", "6", "7"])
-            self.assertIn("4 of 8 points: no mu_M: the run came to none\n  points 2 to 3, 6 to 7\n", done.stdout)
+            self.assertIn("4 of 8 points: no mu_M: the block as a whole did not slide in this run\n  points 2 to 3, 6 to 7\n", done.stdout)
 
     def test_equal_points_are_computed_once(self):
         study = self.study(STUDY.replace("[1, 2]", "[1, 1.0]"))

@@ -16,7 +16,7 @@ AGREE = 0.01
 
 
 def mu_of(row):
-    """mu_M; where no sliding was fast, the steady mu of slow sliding."""
+    """mu_M, of steady sliding where no sliding was fast; the largest mu where it is not steady yet."""
     mu = row["mu_M"]
     return mu if np.isfinite(mu) else row["mu_max"]
 

@@ -123,6 +123,22 @@ static bool leaves_out_mesh(const Study *study, const char *report, int32_t k, d
     return isfinite(error) && json_find_number(report, path, &mesh) && isnan(mesh);
 }
 
+// "no mu_M: the block as a whole did not slide in this run": as run.json says it of mu_M; what else
+// a run has not it has not for the same reason.
+static void why_missing(const StudyRecord *record, const char *report, char text[RUN_WARNING_SIZE])
+{
+    char why[RUN_WARNING_SIZE];
+    const char *reason = why;
+    if (!json_find_text(report, "results.mu_M_is", why, sizeof why)) *why = 0;
+    if (strncmp(why, "none: ", 6) == 0)
+        reason = why + 6;
+    else
+        reason = strcmp(why, "steady sliding") == 0
+                     ? "the block slides steadily, no sliding was fast"
+                     : "this run has none";
+    snprintf(text, RUN_WARNING_SIZE, "no %s: %.300s", record->name, reason);
+}
+
 // report: of a finished point, or NULL.
 static void write_records(TableWriter *writer, int32_t point, const char *report)
 {
@@ -142,9 +158,10 @@ static void write_records(TableWriter *writer, int32_t point, const char *report
             csv_number(writer->csv, number);
         if (adds_error(study, table, k)) csv_number(writer->csv, error);
         if (report) mesh_left_out |= leaves_out_mesh(study, report, k, error);
-        snprintf(text, sizeof text, "no %s: the run came to none", study->records[k].name);
-        if (report && study->records[k].is_shown && !isfinite(number))
+        if (report && study->records[k].is_shown && !isfinite(number)) {
+            why_missing(&study->records[k], report, text);
             warned_add(&table->warned, point, text);
+        }
         table->records[k * study->point_count + point] = number;
         table->errors[k * study->point_count + point] = error;
     }

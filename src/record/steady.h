@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Steady sliding: where friction does not weaken faster than the block damps, the whole contact
+// slides slowly after the rod and the load never drops. What it then holds is F_T/F_N at which it
+// slides. Steady is a state in which every node of the contact slips (or is open), none fast, and
+// mu keeps within STEADY_RANGE while the drive goes as far as the slip that the drop of friction
+// drives. Fed after record/events; read by run/ at the end of a run.
+#ifndef AMONTONS_RECORD_STEADY_H
+#define AMONTONS_RECORD_STEADY_H
+
+#include "record/answers.h"
+
+typedef struct Steady {
+    const Events *events;   // not owned
+    double way;   // of the drive, that it takes to be sure, length
+    bool slides;   // in the step seen last: all of the contact, slowly
+    double from, to;   // of the drive, in which it slid so and mu kept within the range, length
+    double low, high, sum;   // of mu there; sum: integral of mu over the way, length
+    Estimate before;   // of the way before `from`, where mu drifted out of the range; NaN: none
+} Steady;
+
+Steady steady_of(const Events *events, double way);
+bool steady_record(void *self, const Observation *seen, Error *err);   // a Recorder
+
+// The mean of mu since it is steady, and half its range; NaN: the run does not end so.
+Estimate steady_mu(const Steady *steady);
+
+// Where no bulk sliding counts mu_M is that of steady sliding.
+void steady_answer(const Steady *steady, Answers *answers);
+// What mu_M is: "peaks", "steady sliding", or "none: " and why.
+const char *steady_words(const Steady *steady, const Answers *answers);   // static storage
+// Into results: mu_M_is, mu_steady, its error and from where on.
+void steady_write_json(const Steady *steady, const Answers *answers, JsonWriter *json);
+
+void steady_archive(Steady *steady, Archive *archive);
+
+#endif

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// When a block slides steadily: on runs made up step by step. U is a tenth of the step's number.
+#include "record/steady.h"
+
+#include "seen_by_hand.h"
+
+static const double SLIDES[SEEN_NODES] = {1, 1, 1, 1, 1}, STICKS[SEEN_NODES] = {1, 1, 0, 1, 1};
+static const double FAST[SEEN_NODES] = {1, 1, 3, 1, 1};
+
+typedef struct Slide {
+    HandRun run;
+    Steady steady;
+    double now;   // the last mu
+} Slide;
+
+// It takes a way of 0.5: five steps after the first.
+static void begin(Slide *slide)
+{
+    hand_run_begin(&slide->run, 1);
+    slide->steady = steady_of(&slide->run.events, 0.5);
+    recorders_add(&slide->run.recorders, &slide->steady, steady_record);
+}
+
+// `steps` steps in which mu goes to `mu` evenly.
+static void go(Slide *slide, int32_t steps, double mu, const double rate[SEEN_NODES])
+{
+    double from = slide->now;
+    for (int32_t k = 1; k <= steps; k++)
+        hand_run_see(&slide->run, from + (mu - from) * k / steps, rate);
+    slide->now = mu;
+}
+
+static double mu_of(const Slide *slide)
+{
+    return steady_mu(&slide->steady).value;
+}
+
+static void test_steady(void **state)
+{
+    (void)state;
+    Slide slide;
+    begin(&slide);
+    assert_true(isnan(mu_of(&slide)));
+    go(&slide, 30, 0.4, STICKS);   // mu rises, then stays: a node sticks
+    go(&slide, 30, 0.4, STICKS);
+    assert_true(isnan(mu_of(&slide)));
+    go(&slide, 30, 0.3, SLIDES);   // all slips, mu falls
+    assert_true(isnan(mu_of(&slide)));
+    go(&slide, 1, 0.3, SLIDES);
+    double from = slide.steady.from;
+    go(&slide, 3, 0.3, SLIDES);
+    assert_true(isnan(mu_of(&slide)));   // not yet the way
+    go(&slide, 5, 0.3002, SLIDES);
+    Estimate found = steady_mu(&slide.steady);
+    // 0.3 on a way of 0.4, then five steps up.
+    double way = slide.steady.to - slide.steady.from;
+    assert_true(slide.steady.from <= from + 1e-12 && way > 0.85);
+    assert_near("mu", found.value, 0.3 + (0.00004 * 15 * 0.1) / way, 1e-9);
+    assert_near("half the range", found.error, 0.0001, 1e-12);
+    go(&slide, 1, 0.3002, FAST);
+    assert_true(isnan(mu_of(&slide)));   // an event is under way
+    events_destroy(&slide.run.events);
+}
+
+// Slip that stops for a step begins anew; so does mu that leaves the range slowly.
+static void test_begins_anew(void **state)
+{
+    (void)state;
+    Slide slide;
+    begin(&slide);
+    slide.now = 0.3;
+    go(&slide, 20, 0.3, SLIDES);
+    assert_near("mu", mu_of(&slide), 0.3, 1e-12);
+    go(&slide, 1, 0.3, STICKS);
+    go(&slide, 5, 0.3, SLIDES);
+    assert_true(isnan(mu_of(&slide)));
+    go(&slide, 40, 0.32, SLIDES);   // 0.17 % of mu a step
+    assert_true(isnan(mu_of(&slide)));
+    go(&slide, 400, 0.33, SLIDES);   // 0.008 %: within the range over the way
+    assert_near("the mean of the last stretch", mu_of(&slide), 0.33, 0.002 * 0.33);
+    events_destroy(&slide.run.events);
+}
+
+// What mu_M is then, and why there is none.
+static void test_answer(void **state)
+{
+    (void)state;
+    Slide slide;
+    Answers none = {.mu_M = {NAN, NAN}},
+            peaks = {.mu_M = {0.35, 0.01}, .peaks_counted = 3, .peaks = 4};
+    begin(&slide);
+    slide.now = 0.3;
+    go(&slide, 3, 0.3, SLIDES);
+    assert_non_null(strstr(steady_words(&slide.steady, &none), "not steady yet"));
+    go(&slide, 20, 0.3, SLIDES);
+    Answers found = none;
+    steady_answer(&slide.steady, &found);
+    assert_near("mu_M", found.mu_M.value, 0.3, 1e-12);
+    assert_string_equal(steady_words(&slide.steady, &found), "steady sliding");
+    found = peaks;
+    steady_answer(&slide.steady, &found);
+    assert_near("peaks count more", found.mu_M.value, 0.35, 0);
+    assert_string_equal(steady_words(&slide.steady, &found), "peaks");
+    go(&slide, 1, 0.3, STICKS);
+    assert_non_null(
+        strstr(steady_words(&slide.steady, &none), "none: the block as a whole did not"));
+    none.peaks = 1;
+    assert_non_null(strstr(steady_words(&slide.steady, &none), "none: after the start only parts"));
+    events_destroy(&slide.run.events);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_steady),
+                                       cmocka_unit_test(test_begins_anew),
+                                       cmocka_unit_test(test_answer)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
