@@ -62,6 +62,7 @@ class Judge(unittest.TestCase):
         report["results"]["drops"]["period"] = 0
         self.assertAlmostEqual(judge.reading(report, 10)["mu_hold"], 0.43)
         self.assertIsNone(judge.reading(report, 16)["mu_M"])
+        self.assertIsNone(judge.reading(report, 12)["mu_M"])       # three, but none in the last quarter
 
     def test_reference_of_meshes_that_scatter(self):
         truth = judge.reference(runs([[0.3, 0.31, 0.32], [0.32, 0.33, 0.34], [0.31, 0.31, 0.4], [0.31, 0.4, 0.5]]), "mu_hold")

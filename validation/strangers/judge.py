@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy
 
 ANSWERS = ("mu_M", "mu_hold")
-LATE_LEAST = 3          # peaks, or drops, that a reading needs
+LATE_LEAST = 3          # peaks, or drops, that a reading needs, some in each of the last two quarters
 MESHES = 5              # the finest of a reference, that count
 OWN_MAX = 1 / 3         # of a bar: a reference's own error may be so large
 HELD_LEAST, WORST, MEDIAN, UNKNOWN_MOST = 0.91, 3, (0.2, 0.8), 0.10
@@ -33,7 +33,7 @@ def reading(report, end):
         late = [item["mu"] for item in items if item["U"] > end / 2]
         third = [item["mu"] for item in items if end / 2 < item["U"] <= 3 * end / 4]
         fourth = [item["mu"] for item in items if item["U"] > 3 * end / 4]
-        found[name] = of(late) if len(late) >= LATE_LEAST else None
+        found[name] = of(late) if len(late) >= LATE_LEAST and third and fourth else None
         found["drift"][name] = of(fourth) - of(third) if third and fourth else 0
         found["late"][name] = len(late)
     return found
@@ -151,7 +151,7 @@ def count(verdicts):
     bars, known = kinds["held"] + kinds["broken"], len(verdicts) - kinds["no reference"]
     failed = []
     if bars and kinds["held"] < HELD_LEAST * bars:
-        failed.append(f"{kinds['held']} of {bars} bars hold, {100 * kinds['held'] / bars:.0f} %; {100 * HELD_LEAST:g} % are asked for")
+        failed.append(f"{kinds['held']} of {bars} bars hold, {100 * kinds['held'] / bars:.1f} %; {100 * HELD_LEAST:g} % are asked for")
     if worst >= WORST:
         failed.append(f"the worst error is {worst:.1f} bars; below {WORST} is asked for")
     if ratios and not MEDIAN[0] <= median <= MEDIAN[1]:

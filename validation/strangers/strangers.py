@@ -37,6 +37,7 @@ ASK_LIMIT = 600             # s of processor time after which a request is ended
 LADDER = (1.2, 1.45, 1.75, 2.1, 2.5, 3, 3.6, 4.3, 5.2, 6.2, 7.5)     # mesh.set.refine of references, as far as it takes
 WINDOW = (0.995, 1, 1.005)  # of pressure: ends and middle of the program's own window
 LONGER = 3                  # a run with too few drops in its second half is made so many times as long,
+STEADY = 1e-3               # drift, relative, that such a one may have
 MANY = 36                   # one with so many or more, of either kind, so many times as short
 QUIET = ["output.history=false"]
 
@@ -144,6 +145,11 @@ def other_length(row):
     return LONGER if max(late) < judge.LATE_LEAST else 1 / LONGER if min(late) >= MANY else 1
 
 
+def settled(row):
+    """Whether a run that was made shorter has its run-in behind it."""
+    return "late" in row and all(row[name] and abs(row["drift"][name]) <= STEADY * row[name] for name in judge.ANSWERS)
+
+
 def extend(one, scene, kept, limit):
     """Runs of the reference until it is known well enough, or the limit of processor time is met."""
     for refine in LADDER:
@@ -156,8 +162,9 @@ def extend(one, scene, kept, limit):
                 return
             row = reference_run(one, scene, (refine, factor), kept.data["longer"], left)
             if not kept.data["runs"] and kept.data["longer"] == 1 and (longer := other_length(row)) != 1:
-                kept.data["longer"] = longer
-                row = reference_run(one, scene, (refine, factor), longer, left)
+                other = reference_run(one, scene, (refine, factor), longer, left)
+                if longer > 1 or settled(other):
+                    kept.data["longer"], row = longer, other
             kept.data["runs"].append(row)
             kept.save()
 
