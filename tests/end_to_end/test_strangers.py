@@ -20,9 +20,9 @@ import strangers  # noqa: E402
 DRAWN = "839b6b563d77a34dece25a86bf16143b6eab24f9e04729a325ef6870343b1571"
 
 
-def runs(values, answer="mu_hold", drift=0):
+def runs(values, answer="mu_hold", drift=0, late=0):
     """Rows of meshes 1, 2, ... times as fine, each with three values."""
-    return [{"refine": k, "pressure": factor, answer: value, "drift": {answer: drift}}
+    return [{"refine": k, "pressure": factor, answer: value, "drift": {answer: drift}, "late": {answer: late}, "program": {answer: None}}
             for k, some in enumerate(values, 1) for factor, value in zip(strangers.WINDOW, some)]
 
 
@@ -82,6 +82,7 @@ class Judge(unittest.TestCase):
         self.assertIsNone(judge.reference(runs([[0.3] * 3] * 2), "mu_hold"))
         self.assertIsNone(judge.reference(runs([[0.3, 0.3, None]] * 3), "mu_hold"))
         self.assertIsNone(judge.reference(runs([[None] * 3] * 3), "mu_hold").value)
+        self.assertIsNone(judge.reference(runs([[None] * 3] * 3, late=2), "mu_hold"))      # too few drops are not none
 
     def test_verdicts(self):
         truth, rough, none = judge.Reference(0.30, 0.001), judge.Reference(0.30, 0.01), judge.Reference(None)

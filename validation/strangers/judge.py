@@ -68,7 +68,7 @@ def reference(rows, answer):
         return None
     finest = max(meshes)
     there = [value is not None for values in meshes.values() for value in values]
-    if not any(there):
+    if not any(there) and not any(row["late"][answer] or row["program"][answer] for row in rows):
         return Reference(None, 0, len(meshes), finest)
     if not all(there):
         return None

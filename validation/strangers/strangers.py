@@ -141,8 +141,10 @@ def spent(kept):
 
 
 def other_length(row):
-    late = row.get("late", {"none": MANY - 1}).values()
-    return LONGER if max(late) < judge.LATE_LEAST else 1 / LONGER if min(late) >= MANY else 1
+    if "late" not in row:
+        return 1
+    too_few = all(row[name] is None for name in judge.ANSWERS)
+    return LONGER if too_few else 1 / LONGER if min(row["late"].values()) >= MANY else 1
 
 
 def settled(row):
