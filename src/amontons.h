@@ -100,16 +100,17 @@ typedef struct RunSummary {
     double mu_M, mu_hold, mu_max, mu_steady;   // mu_steady: at which it slides at the end; NaN
     double mu_M_error, mu_hold_error;   // bars of 95 %, of the parts that are known; NaN: none is
     double mu_M_parts[3], mu_hold_parts[3];   // of the bars: mesh, branches, drops; NaN: not known
-    // Where the scene asked for an error bar (accuracy.mu): runs, meshes, contact nodes of the
-    // last, and why no more were computed (static storage). 0, NULL: it did not.
+    // Of an error bar (accuracy.mu): runs, meshes, contact nodes of the last, why no more (static).
     int32_t bar_runs, bar_meshes, bar_nodes;
     double bar_wanted, bar_window;   // over mu; of pressures, relative
     const char *bar_ended, *mu_M_is;   // results.mu_M_is of run.json; static storage, both
     double mu_M_spread;   // largest less smallest of the peaks in mu_M; NaN: fewer than two
     int32_t peaks, peaks_counted;   // before bulk sliding: seen; those in mu_M
     int32_t period;   // peaks repeat after so many slidings; 0: they do not
-    int32_t drops, drop_period;   // load drops in mu_hold; they repeat after so many, or 0
-    bool drops_enough;   // they repeat, or the mean of 30 and more is known to 2 %
+    int32_t drops, drop_period;   // load drops in mu_hold; they repeat after so many, 0: not
+    bool drops_enough;   // and repeat, or the mean of 30 and more is known to 2 %
+    const char *run_in;   // why run-in is not over (static storage); NULL: it is
+    double run_in_drift, run_in_drops_left;   // of mu a drop, relative; for so many more; NaN
     int32_t quasi_static, bounded, leading;   // events by kind
     double critical_length;   // l_c / L seen in the dynamics; NaN: none
     // Of the load drops that count, the one with the fewest cells: how much slipped where slow slip

@@ -17,7 +17,8 @@ static inline void hand_drops_begin(HandDrops *hand, int32_t pads)
 {
     Error err = {0};
     hand_run_begin(&hand->run, pads);
-    assert_true(drops_create(&hand->run.events, 1e-2, &hand->drops, &err));
+    assert_true(
+        drops_create(&hand->run.hand.interface, &hand->run.events, 1e-2, &hand->drops, &err));
     recorders_add(&hand->run.recorders, &hand->drops, drops_record);
 }
 

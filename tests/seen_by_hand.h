@@ -62,8 +62,8 @@ static inline void hand_split(HandSeen *hand, int32_t pads)
     hand->interface.pad_count = pads;
 }
 
-// At time t and U = t/10: nodes slip at these rates, 0 means they stick; front and largest rate as
-// record/observation defines them.
+// At time t and U = t/10: nodes slip at these rates and have then moved as far as U, 0 means they
+// stick; front and largest rate as record/observation defines them.
 static inline const Observation *hand_seen(HandSeen *hand, double t, const double rate[SEEN_NODES])
 {
     bool together = true;
@@ -74,6 +74,7 @@ static inline const Observation *hand_seen(HandSeen *hand, double t, const doubl
     hand->seen.max_slip_rate = 0;
     for (int32_t i = 0; i < SEEN_NODES; i++) {
         hand->slip_rate[interface_tangent(i)] = rate[i];
+        if (rate[i] != 0) hand->displacement[interface_tangent(i)] = hand->seen.U;
         hand->status[i] = rate[i] > 0 ? CONTACT_SLIP_FORWARD
                                       : (rate[i] < 0 ? CONTACT_SLIP_BACKWARD : CONTACT_STICK);
         together = together && rate[i] != 0;

@@ -37,6 +37,16 @@ static void print_parts(double error, const double parts[3])
 
 static const char STEADY[] = "steady sliding";   // what mu_M then is
 
+// "none yet: ..." while run-in goes on, with how long it may take.
+static void print_run_in(const RunSummary *summary)
+{
+    say("run-in still going on (%s", summary->run_in);
+    if (!isnan(summary->run_in_drift)) say(", %+.2g %% a drop", 100 * summary->run_in_drift);
+    if (!isnan(summary->run_in_drops_left))
+        say(", over after at most %.0f more", summary->run_in_drops_left);
+    say("): give a later time.until\n");
+}
+
 // The macroscopic static friction coefficient, from how many peaks, and whether they repeat.
 static void print_mu_M(const RunSummary *summary)
 {
@@ -83,7 +93,11 @@ static void print_mu_steady(const RunSummary *summary)
 static void print_mu_hold(const RunSummary *summary)
 {
     if (isnan(summary->mu_hold)) {
-        say("  mu_hold         none: the load did not drop in this run\n");
+        say("  mu_hold         none%s", summary->drops > 0 && summary->run_in ? " yet: " : ": ");
+        if (summary->drops > 0 && summary->run_in)
+            print_run_in(summary);
+        else
+            say("the load did not drop in this run\n");
         return;
     }
     print_estimate("mu_hold", summary->mu_hold, summary->mu_hold_error);
@@ -95,7 +109,10 @@ static void print_mu_hold(const RunSummary *summary)
         say("                  which repeat after %d\n", summary->drop_period);
     else if (summary->drop_period == 0 && summary->drops_enough)
         say("                  which do not repeat\n");
-    else if (!summary->drops_enough)
+    else if (summary->run_in) {
+        say("                  ");
+        print_run_in(summary);
+    } else if (!summary->drops_enough)
         say("                  too few to say: give a later time.until, until they repeat, or "
             "until 30 have\n"
             "                  a mean known to 2 %%\n");

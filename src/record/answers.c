@@ -7,24 +7,12 @@
 #include <math.h>
 #include <stddef.h>
 
-enum { DROPS_ENOUGH = 30 };
 static const double MEAN_ERROR = 0.02;
 
-// The regime, and from which drop of the list on it lasts.
-static SeriesRegime find_regime(const Drops *drops, int32_t *first)
+static bool is_enough(const Regime *regime, const Estimate *mean)
 {
-    int32_t count = drops_series(drops, DROP_LOAD, 0);
-    SeriesRegime regime = series_regime(drops->series, count, drops->tolerance);
-    int32_t before = count - regime.count;
-    for (*first = 0; *first < drops->count; ++*first)
-        if (drops->list[*first].load && before-- == 0) break;
-    return regime;
-}
-
-static bool is_enough(const SeriesRegime *regime, const Estimate *mean)
-{
-    return regime->period > 0 ||
-           (regime->count >= DROPS_ENOUGH && mean->error <= MEAN_ERROR * mean->value);
+    bool known = regime->count >= DROPS_ENOUGH && mean->error <= MEAN_ERROR * mean->value;
+    return regime->run_in == RUN_IN_OVER && (regime->period > 0 || known);
 }
 
 // The lowest of the series and the range of its branch.
@@ -39,6 +27,12 @@ static Estimate lowest_branch(const Drops *drops, int32_t count)
     return (Estimate){lowest.low, (lowest.high - lowest.low) / 2};
 }
 
+// What a trend leaves open beside scatter.
+static void add_ahead(const Regime *regime, Estimate *estimate)
+{
+    estimate->error = hypot(estimate->error, regime->ahead * estimate->value);
+}
+
 static void answer_drops(const Drops *drops, Answers *answers)
 {
     int32_t count = drops_series(drops, DROP_LOAD, answers->first);
@@ -46,21 +40,24 @@ static void answer_drops(const Drops *drops, Answers *answers)
     answers->mu_drops = series_mean(drops->series, count, period > 0 ? period : 1);
     answers->enough = is_enough(&answers->regime, &answers->mu_drops);
     answers->mu_drops.error *= ERROR_BAR;
-    answers->mu_hold = period > 0 ? lowest_branch(drops, count)
-                                  : series_lowest_decile(drops->series, count);
+    answers->mu_hold = answers->regime.run_in == RUN_IN_STUCK ? (Estimate){NAN, NAN}
+                       : period > 0                           ? lowest_branch(drops, count)
+                                    : series_lowest_decile(drops->series, count);
     if (period == 0) answers->mu_hold.error *= ERROR_BAR;
+    add_ahead(&answers->regime, &answers->mu_hold);
     answers->mu_hold_parts = (ErrorParts){NAN, NAN, answers->mu_hold.error};
 }
 
 static void answer_peaks(const Drops *drops, Answers *answers)
 {
     int32_t count = drops_series(drops, DROP_BULK, answers->first);
-    const SeriesRegime *regime = &answers->regime;
+    const Regime *regime = &answers->regime;
     answers->peaks = drops_count(drops, DROP_BULK);
     answers->peaks_counted = count;
     if (regime->period > 0) answers->period = count / (regime->count / regime->period);
     answers->mu_M = series_mean(drops->series, count, answers->period > 0 ? answers->period : 1);
     answers->mu_M.error *= ERROR_BAR;
+    add_ahead(regime, &answers->mu_M);
     answers->mu_M_parts = (ErrorParts){NAN, NAN, answers->mu_M.error};
     for (int32_t k = 0; k < count; k++) {
         answers->mu_M_low = fmin(answers->mu_M_low, drops->series[k].value);
@@ -95,7 +92,8 @@ Answers answers_of(const Drops *drops)
                        .mu_max = drops->mu_max,
                        .critical_length = NAN,
                        .subcritical_length = NAN};
-    answers.regime = find_regime(drops, &answers.first);
+    answers.regime = regime_of(drops);
+    answers.first = answers.regime.first;
     answer_drops(drops, &answers);
     answer_peaks(drops, &answers);
     answer_lengths(drops, &answers);
@@ -182,6 +180,16 @@ static void write_drops(const Answers *answers, const Drops *drops, JsonWriter *
     json_end(json);
 }
 
+static void write_run_in(const Regime *regime, JsonWriter *json)
+{
+    json_begin_object(json, "run_in");
+    json_boolean(json, "over", regime->run_in == RUN_IN_OVER);
+    json_text(json, "state", run_in_name(regime->run_in));
+    json_number(json, "drift", regime->drift);
+    json_number(json, "drops_left", regime->drops_left);
+    json_end(json);
+}
+
 // Of the later half of the pad slidings: what the start left is gone by then.
 static double lowest_pad_sliding(const Drops *drops)
 {
@@ -226,6 +234,7 @@ void answers_write_json(const Answers *answers, const Drops *drops, double lengt
     json_number(json, "l_c_over_L", answers->critical_length / length);
     answers_write_peaks(answers, drops, length, json);
     write_drops(answers, drops, json);
+    write_run_in(&answers->regime, json);
     json_number(json, "mu_first_pad", lowest_pad_sliding(drops));
     write_list(drops, DROP_PADS, "pad_slidings", json);
 }

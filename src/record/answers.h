@@ -14,7 +14,7 @@
 #define AMONTONS_RECORD_ANSWERS_H
 
 #include "io/json_writer.h"
-#include "record/drops.h"
+#include "record/regime.h"
 
 typedef struct ErrorParts {   // NaN: not known
     double mesh, branches, drops;
@@ -24,9 +24,9 @@ typedef struct ErrorParts {   // NaN: not known
 enum { ERROR_BAR = 2 };
 
 typedef struct Answers {
-    SeriesRegime regime;   // of the load drops
+    Regime regime;   // of the load drops
     int32_t first;   // number in drops->list of the first drop that counts
-    bool enough;   // load drops repeat, or 30 and more of them have a mean known to 2 %
+    bool enough;   // run-in is over, and load drops repeat or 30 and more have a mean known to 2 %
     Estimate mu_M;   // error: twice the standard error
     ErrorParts mu_M_parts, mu_hold_parts;   // of the errors
     double mu_M_low, mu_M_high;   // smallest and largest peak that counts; NaN: none

@@ -19,16 +19,27 @@ enum { FIRST_ROOM = 16 };
 static const Drop NOTHING_SEEN = {
     .mu = -INFINITY, .mu_after = INFINITY, .front_uncertified = NAN, .front_growth = NAN};
 
-bool drops_create(const Events *events, double tolerance, Drops *drops, Error *err)
+static int32_t state_size(const Drops *drops)
+{
+    return 2 * drops->stretches.count;
+}
+
+bool drops_create(const Interface *interface, const Events *events, double tolerance, Drops *drops,
+                  Error *err)
 {
     *drops = (Drops){.events = events,
                      .tolerance = tolerance,
                      .room = FIRST_ROOM,
+                     .settled = -1,
+                     .mu_static = NAN,
                      .rising = NOTHING_SEEN,
                      .top = -INFINITY,
                      .mu_max = -INFINITY};
+    TRY(stretches_create(interface, &drops->stretches, err));
     drops->list = NEW_ARRAY(Drop, FIRST_ROOM, err);
     drops->series = NEW_ARRAY(SeriesItem, FIRST_ROOM, err);
+    drops->states = NEW_ARRAY(double, (FIRST_ROOM + 1) * state_size(drops), err);
+cleanup:
     return error_is_clean(err);
 }
 
@@ -36,6 +47,8 @@ void drops_destroy(Drops *drops)
 {
     memory_free(drops->list);
     memory_free(drops->series);
+    memory_free(drops->states);
+    stretches_destroy(&drops->stretches);
     *drops = (Drops){0};
 }
 
@@ -44,14 +57,21 @@ void drops_destroy(Drops *drops)
 // `rising` joins the list, and what follows starts anew. ERROR_MEMORY leaves the list as it was.
 static bool push_drop(Drops *drops, Error *err)
 {
-    int32_t room = drops->room;
+    int32_t room = drops->room, size = state_size(drops);
     SeriesItem *series =
         memory_grow(drops->series, drops->count, &room, sizeof *drops->series, err);
     if (!series) return false;
     drops->series = series;
+    if (room > drops->room) {
+        double *states = memory_resize(drops->states, (int64_t)(drops->room + 1) * size,
+                                       (int64_t)(room + 1) * size, sizeof *drops->states, err);
+        if (!states) return false;
+        drops->states = states;
+    }
     Drop *list = memory_grow(drops->list, drops->count, &drops->room, sizeof *drops->list, err);
     if (!list) return false;
     drops->list = list;
+    drops->rising.state = drops->count;
     list[drops->count++] = drops->rising;
     drops->rising = NOTHING_SEEN;
     return true;
@@ -63,11 +83,14 @@ static bool has_fallen(const Drops *drops)
     return drops->top > 0 && drops->fall >= LEAST_DROP * drops->top;
 }
 
-static void rise(Drop *rising, const Observation *seen)
+static void rise(Drops *drops, const Observation *seen)
 {
+    Drop *rising = &drops->rising;
     if (seen->mu <= rising->mu) return;
     rising->mu = seen->mu;
     rising->U = seen->U;
+    stretches_read(&drops->stretches, seen,
+                   &drops->states[(int64_t)drops->count * state_size(drops)]);
 }
 
 // Across gaps the place of the front is no length of slip.
@@ -81,7 +104,7 @@ static double front_of_slip(const Observation *seen)
 static void follow_rise(Drops *drops, const Observation *seen)
 {
     Drop *rising = &drops->rising;
-    if (!has_fallen(drops)) rise(rising, seen);
+    if (!has_fallen(drops)) rise(drops, seen);
     if (!seen->certified && isnan(rising->front_uncertified))
         rising->front_uncertified = front_of_slip(seen);
     if (seen->grows && isnan(rising->front_growth)) rising->front_growth = front_of_slip(seen);
@@ -100,7 +123,7 @@ static void forget_fall(Drops *drops, const Observation *seen)
     drops->top = seen->mu;
     drops->fall = 0;
     drops->rising.mu_after = INFINITY;
-    rise(&drops->rising, seen);
+    rise(drops, seen);
 }
 
 static int32_t count_slid(const Events *events, const Interface *interface)
@@ -137,6 +160,8 @@ bool drops_record(void *self, const Observation *seen, Error *err)
     bool in_event = events->rapid >= 0 || events->ended;   // the last of the list
     bool sliding = in_event && events->list[events->count - 1].kind == EVENT_LEADING;
     drops->mu_max = fmax(drops->mu_max, seen->mu);
+    stretches_follow(&drops->stretches, seen);
+    if (drops->settled < 0 && drops->stretches.stuck == 0) drops->settled = drops->count;
     if (in_event) follow_fall(drops, seen);
     if (events->crossed) {
         if (seen->grows && isnan(drops->rising.front_growth))
@@ -183,6 +208,7 @@ Drop drops_as(const Drops *drops, DropKind kind, int32_t k)
         if (before->mu >= drop.mu) {
             drop.mu = before->mu;
             drop.U = before->U;
+            drop.state = before->state;
         }
         if (!isnan(before->front_uncertified)) drop.front_uncertified = before->front_uncertified;
         if (!isnan(before->front_growth)) drop.front_growth = before->front_growth;
@@ -196,7 +222,8 @@ int32_t drops_series(const Drops *drops, DropKind kind, int32_t first)
     for (int32_t k = first; k < drops->count; k++) {
         if (!drop_is(&drops->list[k], kind)) continue;
         Drop drop = drops_as(drops, kind, k);
-        drops->series[count++] = (SeriesItem){drop.mu, drop.pads};
+        drops->series[count++] = (SeriesItem){
+            drop.mu, drop.pads, &drops->states[(int64_t)drop.state * state_size(drops)]};
     }
     return count;
 }
@@ -228,14 +255,14 @@ static void drop_archive(Drop *drop, int32_t events, Archive *archive)
     archive_number(archive, &drop->front_growth);
 }
 
-// Work: room for as many as the list has.
-static bool make_series(Drops *drops, Error *err)
+// Work and states: room for as many as the list has.
+static bool make_room(Drops *drops, Error *err)
 {
-    SeriesItem *series = NEW_ARRAY(SeriesItem, drops->room, err);
-    if (!series) return false;
     memory_free(drops->series);
-    drops->series = series;
-    return true;
+    memory_free(drops->states);
+    drops->series = NEW_ARRAY(SeriesItem, drops->room, err);
+    drops->states = NEW_ARRAY(double, (int64_t)(drops->room + 1) * state_size(drops), err);
+    return error_is_clean(err);
 }
 
 bool drops_archive(Drops *drops, Archive *archive, Error *err)
@@ -245,8 +272,14 @@ bool drops_archive(Drops *drops, Archive *archive, Error *err)
     archive_section(archive, "drops");
     TRY(archive_list(archive, &list, &drops->count, &drops->room, sizeof(Drop), err));
     drops->list = list;
-    if (archive_reads(archive)) TRY(make_series(drops, err));
-    for (int32_t k = 0; k < drops->count; k++) drop_archive(&drops->list[k], events, archive);
+    if (archive_reads(archive)) TRY(make_room(drops, err));
+    for (int32_t k = 0; k < drops->count; k++) {
+        drop_archive(&drops->list[k], events, archive);
+        drops->list[k].state = k;
+    }
+    archive_numbers(archive, drops->states, (int64_t)(drops->count + 1) * state_size(drops));
+    stretches_archive(&drops->stretches, archive);
+    archive_index(archive, &drops->settled, -1, drops->count + 1);
     drop_archive(&drops->rising, events + 1, archive);   // it has none yet
     archive_number(archive, &drops->top);
     archive_number(archive, &drops->fall);

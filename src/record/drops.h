@@ -13,6 +13,7 @@
 
 #include "record/events.h"
 #include "record/series.h"
+#include "record/stretches.h"
 
 typedef enum DropKind { DROP_BULK, DROP_LOAD, DROP_PADS } DropKind;
 
@@ -20,6 +21,7 @@ typedef struct Drop {
     double U, mu;   // the largest mu since the drop before, and where it was; length, 1
     double mu_after;   // the smallest mu of the event
     int32_t event;   // its number in the list of events
+    int32_t state;   // the row of drops->states that holds the contact's state at that mu
     int32_t pads;   // that slid over all their length in it
     bool bulk, load;   // of these kinds; every bulk sliding is a load drop
     double critical_length;   // when the event began: l; on several pads how much slipped of the
@@ -35,6 +37,12 @@ typedef struct Drops {
     int32_t count, room;
     Drop *list;   // [count] in order of time; owned
     SeriesItem *series;   // [room] work; owned
+    Stretches stretches;   // of the contact
+    double *states;   // [room + 1][2 stretches.count] a row a drop (stretches_read), the next one's
+        // behind the last; owned
+    int32_t settled;   // drops on the list when the last node of the contact slipped for the first
+        // time; -1: some have not
+    double mu_static;   // no mu can be larger; NaN: not known
     Drop rising;   // what the next drop holds so far
     double top;   // the largest mu of the event under way, or of the step before it
     double fall;   // the largest way down from it
@@ -43,7 +51,8 @@ typedef struct Drops {
 
 extern const double LEAST_DROP;
 
-bool drops_create(const Events *events, double tolerance, Drops *drops, Error *err);
+bool drops_create(const Interface *interface, const Events *events, double tolerance, Drops *drops,
+                  Error *err);
 void drops_destroy(Drops *drops);
 bool drops_record(void *self, const Observation *seen, Error *err);   // a Recorder
 
@@ -56,7 +65,7 @@ int32_t drops_count(const Drops *drops, DropKind kind);
 // one of the same kind before.
 Drop drops_as(const Drops *drops, DropKind kind, int32_t k);
 // mu of the drops of one kind from number `first` of the list on, into drops->series, their kind
-// the number of pads that slid. Returns how many they are.
+// the number of pads that slid, with the contact's state. Returns how many they are.
 int32_t drops_series(const Drops *drops, DropKind kind, int32_t first);
 // Of the load drops from number `first` of the list on, the event before which the fewest cells
 // slipped on the pad where slow slip turned fast; NULL: no such drop.

@@ -98,15 +98,6 @@ static double difference(const Levels *levels, int32_t level, AnswerKind kind)
     return fabs(value_of(&levels->list[level], kind) - value_of(&levels->list[level - 1], kind));
 }
 
-// Of a normal variable's mean, 95 %, by degrees of freedom from SCATTER_LEVELS on.
-static double student(int32_t freedoms)
-{
-    static const double by_freedoms[] = {2.31, 2.26, 2.23, 2.20, 2.18, 2.16};
-    int32_t last = (int32_t)(sizeof by_freedoms / sizeof *by_freedoms) - 1;
-    int32_t more = freedoms - SCATTER_LEVELS;
-    return by_freedoms[more < last ? more : last];
-}
-
 // Contact nodes of the coarsest level that has such an answer; 0: none has.
 static int32_t coarsest_nodes(const Levels *levels, AnswerKind kind)
 {
@@ -242,15 +233,34 @@ void levels_estimate(Levels *levels)
     levels->asked = isnan(last->answer[ANSWER_MU_M].value) ? ANSWER_MU_HOLD : ANSWER_MU_M;
 }
 
+// A trend is part of the error; before all of the contact goes along there is no answer.
+static bool has_answer(RunIn run_in)
+{
+    return run_in == RUN_IN_OVER || run_in == RUN_IN_TREND;
+}
+
+bool levels_run_in(const Levels *levels)
+{
+    const Level *last = &levels->list[levels->count - 1];
+    for (int32_t k = 0; k < last->run_count; k++)
+        if (!has_answer(last->runs[k].run_in)) return true;
+    return false;
+}
+
 void levels_add_run(Levels *levels, double pressure, const Answers *answers, int64_t steps)
 {
     Level *last = &levels->list[levels->count - 1];
-    last->runs[last->run_count++] =
-        (LevelRun){.pressure = pressure,
-                   .answer = {[ANSWER_MU_M] = answers->mu_M, [ANSWER_MU_HOLD] = answers->mu_hold},
-                   .peaks = answers->peaks_counted,
-                   .period = answers->period,
-                   .steps = steps};
+    LevelRun *run = &last->runs[last->run_count++];
+    *run = (LevelRun){.pressure = pressure,
+                      .answer = {{NAN, NAN}, {NAN, NAN}},
+                      .peaks = answers->peaks_counted,
+                      .period = answers->period,
+                      .run_in = answers->regime.run_in,
+                      .steps = steps};
+    if (has_answer(run->run_in)) {
+        run->answer[ANSWER_MU_M] = answers->mu_M;
+        run->answer[ANSWER_MU_HOLD] = answers->mu_hold;
+    }
     levels_estimate(levels);
 }
 
@@ -317,6 +327,7 @@ static void write_runs(const Level *level, JsonWriter *json)
         json_number(json, "mu_hold", run->answer[ANSWER_MU_HOLD].value);
         json_integer(json, "peaks", run->peaks);
         json_integer(json, "period", run->period);
+        json_text(json, "run_in", run_in_name(run->run_in));
         json_integer(json, "steps", run->steps);
         json_end(json);
     }

@@ -33,6 +33,7 @@ typedef struct LevelRun {
     double pressure;   // over the scene's
     Estimate answer[ANSWER_KINDS];   // value NaN: the run has none; error: a bar
     int32_t peaks, period;   // that count; they repeat after so many, 0: they do not
+    RunIn run_in;   // not over, but for a trend whose way is part of the error: it has no answer
     int64_t steps;
 } LevelRun;
 
@@ -81,6 +82,9 @@ int32_t levels_known(const Levels *levels, AnswerKind kind);
 // Slip turned fast on cells enough on the last level, where one contact says so; on pads, at whose
 // edges slip waits, their number tells little.
 bool levels_resolved(const Levels *levels);
+
+// A run of the last level has no answer, as its run-in was not over.
+bool levels_run_in(const Levels *levels);
 
 // Puts value, error and parts of both answers in the place of those of one run.
 void levels_answer_for(const Levels *levels, Answers *answers);

@@ -20,34 +20,66 @@
 #include <stdlib.h>
 
 enum { ROUNDS = 2, REPEATING_PART = 3 };
+enum { NEARER = 2 };   // so many times, for a period above 1
 enum { START_PART = 4 };   // without a period, the first of so many parts is the start's
 static const double LOWEST = 0.1;
 
 // --- repetition ---------------------------------------------------------------------------------
 
-static bool agree(const SeriesItem *item, const SeriesItem *later, double tolerance)
+typedef struct Agreement {
+    double tolerance;
+    int32_t parts;   // of a state
+} Agreement;
+
+// What a load is shared out by can change by twice the tolerance: so much leaves one part and comes
+// to another.
+static bool agree(const SeriesItem *item, const SeriesItem *later, const Agreement *asked)
 {
-    return item->kind == later->kind &&
-           fabs(item->value - later->value) <= tolerance * fabs(later->value);
+    double allowed = asked->tolerance * fabs(later->value), moved = 0;
+    if (item->kind != later->kind || fabs(item->value - later->value) > allowed) return false;
+    for (int32_t j = 0; j < asked->parts; j++) moved += fabs(item->state[j] - later->state[j]);
+    return moved <= 2 * allowed;
 }
 
 // The last items that agree with the last one at their place in a round; at least `period`.
 static int32_t count_agreeing(const SeriesItem *items, int32_t count, int32_t period,
-                              double tolerance)
+                              const Agreement *asked)
 {
     int32_t last = count - 1, agreeing = period;
     for (int32_t k = last - period; k >= 1; k--) {
-        if (!agree(&items[k], &items[last - (last - k) % period], tolerance)) break;
+        if (!agree(&items[k], &items[last - (last - k) % period], asked)) break;
         agreeing++;
     }
     return agreeing;
 }
 
-SeriesRegime series_regime(const SeriesItem *items, int32_t count, double tolerance)
+static double distance(const SeriesItem *a, const SeriesItem *b, int32_t parts)
 {
+    double moved = fabs(a->value - b->value);
+    for (int32_t j = 0; j < parts; j++) moved += fabs(a->state[j] - b->state[j]);
+    return moved;
+}
+
+// A round in which all items are alike within the tolerance repeats by chance: what comes back at
+// its place must be nearer than neighbours are.
+static bool stands_out(const SeriesItem *items, int32_t count, int32_t period, int32_t parts)
+{
+    double back = 0, next = 0;
+    if (period == 1 || parts == 0) return true;
+    for (int32_t k = count - period - 1; k < count; k++) {
+        back += distance(&items[k], &items[k - period], parts);
+        next += distance(&items[k], &items[k - 1], parts);
+    }
+    return NEARER * back <= next;
+}
+
+SeriesRegime series_regime(const SeriesItem *items, int32_t count, double tolerance, int32_t parts)
+{
+    const Agreement asked = {tolerance, parts};
     for (int32_t period = 1; period <= SERIES_PERIOD_MAX; period++) {
-        int32_t agreeing = count_agreeing(items, count, period, tolerance);
-        if (agreeing > ROUNDS * period && REPEATING_PART * agreeing >= count)
+        int32_t agreeing = count_agreeing(items, count, period, &asked);
+        if (agreeing > ROUNDS * period && REPEATING_PART * agreeing >= count &&
+            stands_out(items, count, period, parts))
             return (SeriesRegime){.period = period, .count = agreeing - agreeing % period};
     }
     int32_t start = count / START_PART;
@@ -134,6 +166,81 @@ Estimate series_lowest_decile(const SeriesItem *items, int32_t count)
     double error = mean_of(&(Sample){items, count, decile.value}, 1).error;
     decile.error = (quantile(&sample, LOWEST + error) - quantile(&sample, LOWEST - error)) / 2;
     return decile;
+}
+
+// --- trend --------------------------------------------------------------------------------------
+
+static double mean_of_items(const SeriesItem *items, int32_t count)
+{
+    double sum = 0;
+    for (int32_t k = 0; k < count; k++) sum += items[k].value;
+    return sum / count;
+}
+
+// Sums over the items about the mean of each place in a round: x is the number of the item.
+typedef struct TrendSums {
+    double xx, xy, yy;
+} TrendSums;
+
+// Of the items at one place, or of block means: `count` values, `apart` items from one to the next.
+static void add_place(const double *values, int32_t count, int32_t apart, TrendSums *sums)
+{
+    double mean = 0;
+    for (int32_t k = 0; k < count; k++) mean += values[k] / count;
+    for (int32_t k = 0; k < count; k++) {
+        double x = apart * (k - 0.5 * (count - 1)), y = values[k] - mean;
+        sums->xx += x * x;
+        sums->xy += x * y;
+        sums->yy += y * y;
+    }
+}
+
+enum { TREND_VALUES = 64 };   // the last of them tell a trend
+
+static SeriesTrend trend_of(const TrendSums *sums, int32_t freedoms)
+{
+    double slope = sums->xx > 0 ? sums->xy / sums->xx : 0;
+    double left = fmax(sums->yy - slope * sums->xy, 0);
+    return (SeriesTrend){slope, freedoms > 0 ? sqrt(left / freedoms / sums->xx) : (double)NAN,
+                         freedoms};
+}
+
+SeriesTrend series_trend(const SeriesItem *items, int32_t count, int32_t round, bool blocks)
+{
+    double values[TREND_VALUES];
+    TrendSums sums = {0};
+    if (blocks) {
+        int32_t length = (int32_t)sqrt(count), number = count / length;
+        if (number > TREND_VALUES) number = TREND_VALUES;
+        const SeriesItem *first = items + count - number * length;
+        for (int32_t b = 0; b < number; b++) values[b] = mean_of_items(first + b * length, length);
+        add_place(values, number, length, &sums);
+        return trend_of(&sums, number - 2);
+    }
+    int32_t used = 0;
+    for (int32_t place = 0; place < round; place++) {
+        int32_t found = 0;
+        for (int32_t k = count - 1 - place; k >= 0 && found < TREND_VALUES; k -= round)
+            values[found++] = items[k].value;
+        add_place(values, found, -round, &sums);
+        used += found;
+    }
+    return trend_of(&sums, used - round - 1);
+}
+
+double series_fading(const SeriesItem *items, int32_t third)
+{
+    double first = mean_of_items(items, third), middle = mean_of_items(items + third, third);
+    return (mean_of_items(items + 2 * third, third) - middle) / (middle - first);
+}
+
+double student(int32_t freedoms)
+{
+    static const double by_freedoms[] = {12.71, 4.30, 3.18, 2.78, 2.57, 2.45, 2.36, 2.31, 2.26,
+                                         2.23,  2.20, 2.18, 2.16, 2.14, 2.13, 2.12, 2.11, 2.10};
+    const int32_t known = sizeof by_freedoms / sizeof *by_freedoms;
+    if (freedoms < 1) return INFINITY;
+    return freedoms <= known ? by_freedoms[freedoms - 1] : 1.96 + 2.5 / freedoms;
 }
 
 // --- branches -----------------------------------------------------------------------------------

@@ -11,6 +11,7 @@
 typedef struct SeriesItem {
     double value;
     int32_t kind;   // items of different kinds never agree
+    const double *state;   // what the value is a sum of, [parts]; NULL where nobody asks
 } SeriesItem;
 
 typedef struct SeriesRegime {
@@ -31,8 +32,25 @@ typedef struct SeriesBranch {
 
 enum { SERIES_PERIOD_MAX = 8 };
 
-// Two items agree within `tolerance`, relative to the later one.
-SeriesRegime series_regime(const SeriesItem *items, int32_t count, double tolerance);
+// Two items agree within `tolerance`, relative to the later one, and so do the states, the sum over
+// their parts within twice of it.
+SeriesRegime series_regime(const SeriesItem *items, int32_t count, double tolerance, int32_t parts);
+
+// How values rise from item to item, by least squares about the mean of each place in the round;
+// where they do not repeat (`blocks`), of means over blocks of successive items, whose scatter is
+// theirs whatever the correlation.
+typedef struct SeriesTrend {
+    double slope, error;   // an item; one standard error
+    int32_t freedoms;   // of the error; below 1: there is none
+} SeriesTrend;
+SeriesTrend series_trend(const SeriesItem *items, int32_t count, int32_t round, bool blocks);
+
+// Of the means of three times `third` items, the last difference over the one before.
+double series_fading(const SeriesItem *items, int32_t third);
+
+// What a normal variable's mean is off by, 95 %, in standard errors that are known by so many
+// degrees of freedom; infinite below 1.
+double student(int32_t freedoms);
 
 // Of `count` items in the order in which they came, which are whole rounds of `round` items each;
 // 1: they do not repeat.

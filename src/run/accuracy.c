@@ -9,6 +9,7 @@
 // the scene itself on the last mesh, with all that it asks to be written, and counts too.
 #include "base/clock.h"
 #include "base/memory.h"
+#include "model/step_rule.h"
 #include "run/accuracy_figure.h"
 #include "run/end_wait.h"
 #include "run/simulation_state.h"
@@ -25,7 +26,8 @@ enum {
     COARSER_MAX = 3,   // halvings of the scene's mesh that are tried
 };
 static const double DROPS_SHARE = 0.2;   // of the bar wanted, for the drops of each run
-static const double LONGER = 4;   // than the scene's end, for a run whose answer is not known
+static const double LONGER = 4;   // than the scene's end, for a run whose answer is not known; and
+    // once more as much longer where its run-in is not over
 static const double STEP = 1.4142135623730951;   // of cell size from level to level
 static const double STEP_SPLIT = 2;   // where cells can only be halved: no .geo with `refine`
 static const double GROWTH = 2.5;   // of a level's time, before two levels are known
@@ -102,8 +104,22 @@ static bool is_known(const Accuracy *accuracy, const Answers *answers)
 {
     const Estimate *mu_M = &answers->mu_M;
     double allowed = DROPS_SHARE * accuracy->scene->accuracy.mu;
+    if (answers->regime.run_in != RUN_IN_OVER) return false;
     if (answers->peaks_counted >= PEAKS_MIN) return mu_M->error <= allowed * mu_M->value;
-    return answers->peaks == 0 && answers->enough;
+    return answers->peaks_counted == 0 && answers->enough;
+}
+
+// A run that comes to its end in the middle of its run-in goes on, once.
+static bool goes_on(const Accuracy *accuracy, Simulation *simulation)
+{
+    const Scene *scene = accuracy->scene;
+    bool once = simulation->scene.time.until_U > LONGER * scene->time.until_U ||
+                simulation->scene.time.until_t > LONGER * scene->time.until_t;
+    if (once || regime_of(&simulation->drops).run_in == RUN_IN_OVER) return false;
+    simulation->scene.time.until_U *= LONGER;
+    simulation->scene.time.until_t *= LONGER;
+    simulation->t_end = step_rule_end(&simulation->scene);
+    return true;
 }
 
 // Steps until the answer is known, time is up (never on the first level), or the end.
@@ -116,6 +132,7 @@ static bool step_until_known(Accuracy *accuracy, Simulation *simulation, EndWait
         if (stop && *stop)
             FAIL(err, ERROR_INTERRUPT, "stopped on mesh %d of an error bar",
                  accuracy->levels.count);
+        if (finished && goes_on(accuracy, simulation)) finished = false;
         if (!simulation->events.ended) continue;
         Answers answers = answers_of(&simulation->drops);
         finished = finished || is_known(accuracy, &answers);
@@ -322,7 +339,10 @@ static bool go_on(Accuracy *accuracy, bool *ended, Error *err)
     Level *level = last_level(accuracy);
     double between = hypot(answer->parts.branches, answer->parts.drops);
     bool enough = accuracy->levels.count >= LEVELS_LEAST && levels_resolved(&accuracy->levels);
-    if (isnan(answer->value)) return *ended = end_here(accuracy, "no load drop in any run");
+    if (isnan(answer->value))
+        return *ended = end_here(accuracy, levels_run_in(&accuracy->levels)
+                                               ? "the run-in of a run was not over"
+                                               : "no load drop in any run");
     accuracy->levels.met = is_met(accuracy);
     if (accuracy->levels.met) return *ended = end_here(accuracy, "the error bar is met");
     if (enough && between > answer->parts.mesh && level->run_count + 2 <= LEVEL_RUNS_MAX - 1) {

@@ -168,6 +168,8 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
                             .drops = answers->regime.count,
                             .drop_period = answers->regime.period,
                             .drops_enough = answers->enough,
+                            .run_in_drift = answers->regime.drift,
+                            .run_in_drops_left = answers->regime.drops_left,
                             .quasi_static = kinds[EVENT_QUASI_STATIC],
                             .bounded = kinds[EVENT_BOUNDED],
                             .leading = kinds[EVENT_LEADING],
@@ -182,6 +184,8 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
                             .warnings = simulation->warnings,
                             .field_files = simulation->fields.written,
                             .figures = simulation->figures};
+    if (answers->regime.run_in != RUN_IN_OVER)
+        summary->run_in = run_in_name(answers->regime.run_in);
     note_slip(simulation, answers->first, summary);
     const ErrorParts *mu_M = &answers->mu_M_parts, *mu_hold = &answers->mu_hold_parts;
     memcpy(summary->mu_M_parts, (double[]){mu_M->mesh, mu_M->branches, mu_M->drops},

@@ -61,7 +61,8 @@ static bool open_simulation(Model1dSimulation *simulation, Error *err)
     chain_rest(model, &simulation->chain, &simulation->control.now);
     step_control_restart(&simulation->control);
     TRY(events_create(&simulation->chain.interface, model->velocity, &simulation->events, err));
-    TRY(drops_create(&simulation->events, scene->time.periodic_tolerance, &simulation->drops, err));
+    TRY(drops_create(&simulation->chain.interface, &simulation->events,
+                     scene->time.periodic_tolerance, &simulation->drops, err));
     TRY(contact_arrays_create(&simulation->chain.interface, &simulation->chain.law,
                               &simulation->contact, err));
     if (simulation->options->folder) TRY(open_history(simulation, err));

@@ -247,10 +247,10 @@ static void test_memory_faults(void **state)
     HandDrops hand;
     hand_drops_begin(&hand, 2);
     int64_t live = memory_counters().live;
-    for (int32_t k = 0; k < 2; k++) {
+    for (int32_t k = 0; k < 6; k++) {
         Drops drops;
         memory_fail_after(k);
-        assert_false(drops_create(&hand.run.events, 1e-2, &drops, &err));
+        assert_false(drops_create(&hand.run.hand.interface, &hand.run.events, 1e-2, &drops, &err));
         memory_fail_after(-1);
         assert_int_equal(err.code, ERROR_MEMORY);
         error_clear(&err);
@@ -259,7 +259,7 @@ static void test_memory_faults(void **state)
     }
     while (hand.drops.count < hand.drops.room) drop(&hand, 0.3, 0.1, ACROSS);
     int32_t full = hand.drops.count;
-    for (int32_t k = 0; k < 2; k++) {   // the next drop needs room, twice
+    for (int32_t k = 0; k < 3; k++) {   // the next drop needs room, three times
         see(&hand, 0.3, REST);
         const Observation *seen = hand_seen(&hand.run.hand, hand.run.time++, ACROSS);
         assert_true(events_record(&hand.run.events, seen, &err));

@@ -12,6 +12,11 @@ enum { LONG = 4096 };
 
 static SeriesItem items[LONG];
 
+static void set_values(const double *values, int32_t count)
+{
+    for (int32_t k = 0; k < count; k++) items[k] = (SeriesItem){.value = values[k]};
+}
+
 // --- repetition ---------------------------------------------------------------------------------
 
 // Values are a letter's place in the alphabet, in hundreds: neighbours differ by 1 to 50 per cent.
@@ -19,7 +24,7 @@ static void expect(const char *letters, int32_t period, int32_t counted)
 {
     int32_t count = (int32_t)strlen(letters);
     for (int32_t k = 0; k < count; k++) items[k] = (SeriesItem){.value = 100 * (letters[k] - '`')};
-    SeriesRegime found = series_regime(items, count, 1e-3);
+    SeriesRegime found = series_regime(items, count, 1e-3, 0);
     if (found.period != period || found.count != counted)
         fail_msg("%s: period %d of %d items", letters, found.period, found.count);
 }
@@ -59,9 +64,9 @@ static void test_kinds(void **state)
 {
     (void)state;
     for (int32_t k = 0; k < 8; k++) items[k] = (SeriesItem){.value = 1, .kind = k % 2};
-    assert_int_equal(series_regime(items, 8, 1e-2).period, 2);
+    assert_int_equal(series_regime(items, 8, 1e-2, 0).period, 2);
     for (int32_t k = 0; k < 8; k++) items[k].kind = 0;
-    assert_int_equal(series_regime(items, 8, 1e-2).period, 1);
+    assert_int_equal(series_regime(items, 8, 1e-2, 0).period, 1);
 }
 
 // Every item is judged by the last one at its place: a drift ends the regime, even where each step
@@ -72,11 +77,11 @@ static void test_drift(void **state)
     for (int32_t period = 1; period <= 2; period++) {
         for (int32_t k = 0; k < 12; k++)
             items[k].value = (1 + 0.004 * (k / period)) * (k % period ? 1.2 : 1);
-        SeriesRegime found = series_regime(items, 12, 0.01);
+        SeriesRegime found = series_regime(items, 12, 0.01, 0);
         assert_int_equal(found.period, period == 1 ? 0 : 2);   // 3 of 12, 6 of 12
     }
     for (int32_t k = 0; k < 9; k++) items[k].value = 1 + 0.004 * k;
-    SeriesRegime found = series_regime(items, 9, 0.01);
+    SeriesRegime found = series_regime(items, 9, 0.01, 0);
     assert_true(found.period == 1 && found.count == 3);   // 0.8 % off, 1.2 % is too much
 }
 
@@ -92,20 +97,74 @@ static void test_chance(void **state)
         int32_t found_once = 0, found_twice = 0;
         for (int32_t trial = 0; trial < trials; trial++) {
             for (int32_t k = 0; k < 6; k++) items[k].value = 1 + (int)random_between(&random, 0, n);
-            found_once += series_regime(items, 4, 1e-3).period > 0;
-            found_twice += series_regime(items, 6, 1e-3).period == 2;
+            found_once += series_regime(items, 4, 1e-3, 0).period > 0;
+            found_twice += series_regime(items, 6, 1e-3, 0).period == 2;
         }
         assert_near("one value", found_once / (double)trials, once, 4 * sqrt(once / trials));
         assert_near("two by turns", found_twice / (double)trials, twice, 4 * sqrt(twice / trials));
     }
 }
 
-// --- mean and decile ----------------------------------------------------------------------------
-
-static void set_values(const double *values, int32_t count)
+// States must come back, too, and a period above 1 stands out from what lies between: five items by
+// chance of the same kinds, all within the tolerance, are none.
+static void test_states(void **state)
 {
-    for (int32_t k = 0; k < count; k++) items[k] = (SeriesItem){.value = values[k]};
+    (void)state;
+    static const double parts[][2] = {{0.6, 0.4}, {0.4, 0.6}, {0.504, 0.496}, {0.5, 0.5}};
+    for (int32_t k = 0; k < 8; k++) items[k] = (SeriesItem){.value = 1, .state = parts[k % 2]};
+    assert_int_equal(series_regime(items, 8, 0.01, 2).period, 2);
+    for (int32_t k = 0; k < 8; k++) items[k].state = parts[2 + k % 2];
+    assert_int_equal(series_regime(items, 8, 0.01, 2).period, 1);
+    for (int32_t k = 0; k < 8; k++) items[k].kind = k % 2, items[k].state = parts[2 + k / 2 % 2];
+    assert_int_equal(series_regime(items, 8, 0.01, 2).period, 0);
 }
+
+// --- trend --------------------------------------------------------------------------------------
+
+// By hand; a round of two has the slope of each place.
+static void test_trend(void **state)
+{
+    (void)state;
+    set_values((double[]){1, 3, 2, 5, 4, 6}, 6);
+    SeriesTrend trend = series_trend(items, 6, 1, false);
+    assert_near("slope", trend.slope, 31.0 / 35, 1e-14);
+    assert_near("its error", trend.error, sqrt((17.5 - 31 * 31 / 70.) / 4 / 17.5), 1e-14);
+    assert_int_equal(trend.freedoms, 4);
+    set_values((double[]){1, 7, 2, 8, 3, 9, 4}, 7);
+    trend = series_trend(items, 7, 2, false);
+    assert_near("of each place", trend.slope, 0.5, 1e-14);
+    assert_near("none", trend.error, 0, 1e-7);
+    set_values((double[]){0, 2, 1, 3, 5, 4, 6, 8, 7, 10}, 10);   // of the last nine: 2, 4, 25/3
+    trend = series_trend(items, 10, 1, true);
+    assert_near("of blocks", trend.slope, (25. / 3 - 2) / 6, 1e-14);
+    assert_int_equal(trend.freedoms, 1);
+    set_values((double[]){1, 1, 3, 3, 4, 4}, 6);
+    assert_near("fades", series_fading(items, 2), 0.5, 1e-14);
+}
+
+// Where there is none, one in twenty stands out.
+static void test_no_trend(void **state)
+{
+    (void)state;
+    const int32_t trials = 4000;
+    Random random = {13};
+    int32_t found[3] = {0};
+    for (int32_t trial = 0; trial < trials; trial++) {
+        for (int32_t k = 0; k < 36; k++) {
+            double sum = 0;
+            for (int32_t j = 0; j < 12; j++) sum += random_between(&random, 0, 1);
+            items[k].value = sum + (k % 2);
+        }
+        SeriesTrend trends[] = {series_trend(items, 5, 2, false), series_trend(items, 9, 2, false),
+                                series_trend(items, 36, 1, true)};
+        for (int32_t t = 0; t < 3; t++)
+            found[t] += fabs(trends[t].slope) > student(trends[t].freedoms) * trends[t].error;
+    }
+    for (int32_t t = 0; t < 3; t++)
+        assert_near("by chance", found[t] / (double)trials, 0.05, 4 * sqrt(0.05 * 0.95 / trials));
+}
+
+// --- mean and decile ----------------------------------------------------------------------------
 
 // 0, 1, ..., 10 in any order: quantiles are linear in between.
 static void test_ladder(void **state)
@@ -194,9 +253,9 @@ static void expect_branch(int32_t *from, int32_t kind, int32_t count, double low
 static void test_branches(void **state)
 {
     (void)state;
-    const SeriesItem given[] = {{1.018, 0}, {3, 0},    {1.009, 0}, {2, 1},
-                                {1, 0},     {3.01, 1}, {3.02, 1}};
-    memcpy(items, given, sizeof given);
+    static const double values[] = {1.018, 3, 1.009, 2, 1, 3.01, 3.02};
+    static const int32_t kinds[] = {0, 0, 0, 1, 0, 1, 1};
+    for (int32_t k = 0; k < 7; k++) items[k] = (SeriesItem){.value = values[k], .kind = kinds[k]};
     series_sort(items, 7);
     int32_t k = 0;
     expect_branch(&k, 0, 3, 1, 1.018);
@@ -217,7 +276,8 @@ int main(void)
         cmocka_unit_test(test_chance),      cmocka_unit_test(test_ladder),
         cmocka_unit_test(test_few),         cmocka_unit_test(test_rounds),
         cmocka_unit_test(test_independent), cmocka_unit_test(test_correlated),
-        cmocka_unit_test(test_branches),
+        cmocka_unit_test(test_branches),    cmocka_unit_test(test_states),
+        cmocka_unit_test(test_trend),       cmocka_unit_test(test_no_trend),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
