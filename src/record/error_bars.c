@@ -8,13 +8,16 @@
 
 const char *const ANSWER_NAMES[ANSWER_KINDS] = {"mu_M", "mu_hold"};
 
-// Chosen on 78 of the 160 cases before those of promise.py, by validation/benchmark/priors.py.
-static const double SLOPE = 0.08;   // of mu, over the nodes in contact: the way to cells of no size
-static const double SLOPE_PADS = 0.5;   // the same, of several pads, at whose edges slip waits
-static const double SCATTER = 0.12;   // of mu, over the nodes in contact: of one mesh
-static const double SCATTER_PADS = 0.7;
-static const double SHORTEST = 0.15;   // slip of all cases, over the contact: both grow below
-enum { SCATTER_LEVELS = 8 };   // so many levels would it be worth to know that scatter
+// Of mu, over nodes or cells: scatter of one mesh, and slope on the way to cells of no size.
+// Chosen on 78 of the 160 cases before those of promise.py and on strangers' problems for tuning
+// (validation/benchmark/priors.md). One contact has two lengths: by how much mu rises as slip comes
+// one cell farther goes with the contact's, whether slip is resolved with that which slips.
+static const double SCATTER = 0.12, SLOPE = 0.1;   // over the nodes of one contact
+static const double SCATTER_SLIP = 0.03, SLOPE_SLIP = 0.02;   // over the cells that slip
+static const double SCATTER_WHOLE = 0.2, SLOPE_WHOLE = 0.25;   // over the nodes, where most slips
+static const double SCATTER_PADS = 0.17, SLOPE_PADS = 0.12;   // over the cells of a pad
+static const double MOST = 0.5;   // of the contact, slipped slowly before slip turned fast
+enum { SCATTER_LEVELS = 4 };   // so many levels would it be worth to know that scatter
 static const double END_WAITS = 3;   // mu may rise so many times as much before they let go
 static const double STEPS = 0.002;   // of mu: what tolerances of steps and reduction leave
 static const double BRANCH_WIDTH = 0.005;   // of mu: the next branch is twice as far and more
@@ -39,7 +42,7 @@ static double lowest_of(const Level *level, AnswerKind kind)
 }
 
 // The mean over branches; what the contact holds for sure it holds on the lowest of them.
-static double value_of(const Level *level, AnswerKind kind)
+double level_value(const Level *level, AnswerKind kind)
 {
     return kind == ANSWER_MU_HOLD ? lowest_of(level, kind) : mean_of(level, kind);
 }
@@ -52,7 +55,7 @@ static bool is_known(const Level *level, AnswerKind kind)
 // By its last nodes, by more than the bar that is wanted.
 static bool is_held(const Levels *levels, const Level *level, AnswerKind kind)
 {
-    return END_WAITS * level->end_wait > levels->wanted * value_of(level, kind);
+    return END_WAITS * level->end_wait > levels->wanted * level_value(level, kind);
 }
 
 int32_t levels_known(const Levels *levels, AnswerKind kind)
@@ -95,7 +98,8 @@ static double drops_part(const Level *level, AnswerKind kind)
 static double difference(const Levels *levels, int32_t level, AnswerKind kind)
 {
     if (level < 1) return NAN;
-    return fabs(value_of(&levels->list[level], kind) - value_of(&levels->list[level - 1], kind));
+    return fabs(level_value(&levels->list[level], kind) -
+                level_value(&levels->list[level - 1], kind));
 }
 
 // Contact nodes of the coarsest level that has such an answer; 0: none has.
@@ -114,32 +118,46 @@ static bool is_alone(const Levels *levels, AnswerKind kind)
     return !is_known(last, kind) || last->contact_nodes == coarsest_nodes(levels, kind);
 }
 
-// Cells over those on which slip is resolved, at most 1; of pads, 1.
-static double resolution_of(const Level *level)
+double level_cells(const Level *level)
 {
-    if (level->pads > 1 || isnan(level->slip_cells)) return 1;
-    return fmin(fmax(level->slip_cells, 1) / SLIP_CELLS_ENOUGH, 1);
+    if (level->pads > 1) return (double)level->contact_nodes / level->pads - 1;
+    return isnan(level->slip_cells) ? level->contact_nodes - 1 : level->slip_cells;
 }
 
 bool levels_resolved(const Levels *levels)
 {
-    return resolution_of(&levels->list[levels->count - 1]) == 1;
+    return level_cells(&levels->list[levels->count - 1]) >= SLIP_CELLS_ENOUGH;
 }
 
-// Slip of one contact turns fast on a part of it that is so many times shorter than in the cases
-// from which SCATTER and SLOPE come.
-static double shortness_of(const Level *level)
+// What decides on a level, over its contact nodes, from all levels up to it: of each alone it is
+// counted in whole cells.
+static double deciding_part(const Levels *levels)
 {
-    if (level->pads > 1 || isnan(level->slip_cells)) return 1;
-    return fmax(SHORTEST * level->contact_nodes / fmax(level->slip_cells, 1), 1);
+    double cells = 0, nodes = 0;
+    for (int32_t l = 0; l < levels->count; l++) {
+        cells += fmax(level_cells(&levels->list[l]), 0.5);
+        nodes += levels->list[l].contact_nodes;
+    }
+    return cells / nodes;
 }
 
-// Of a level's value, over `origin`; one that its last nodes hold up says little.
-static double scatter_of(const Level *level, double origin)
+// Of what values scatter by, over 1 / nodes: `pads`, `whole` where most of one contact slips, else
+// the larger of `nodes` and what goes with the cells that slip.
+static double by_nodes(const Level *level, double part, const double constants[4])
 {
-    double per_node = level->pads > 1 ? SCATTER_PADS : SCATTER;
-    double wider = fmax(1 / resolution_of(level), shortness_of(level));
-    return hypot(per_node / level->contact_nodes * wider, level->end_wait / origin);
+    double pads = constants[0], whole = constants[1], nodes = constants[2], slip = constants[3];
+    if (level->pads > 1) return pads / part;
+    return part > MOST ? whole : fmax(nodes, slip / part);
+}
+
+// Of a level's value, over `origin`; on fewer cells than are enough values scatter more, and what
+// its last nodes hold up says little.
+static double scatter_of(const Level *level, double part, double origin)
+{
+    const double constants[] = {SCATTER_PADS, SCATTER_WHOLE, SCATTER, SCATTER_SLIP};
+    double own = by_nodes(level, part, constants) / level->contact_nodes;
+    double few = fmax(SLIP_CELLS_ENOUGH / (part * level->contact_nodes), 1);
+    return hypot(own * few, level->end_wait / origin);
 }
 
 // Of a level's mean, from its spread over branches.
@@ -168,16 +186,17 @@ static void add_level(const Level *level, AnswerKind kind, double weight, double
 static Limit limit_of(const Levels *levels, AnswerKind kind, double spread)
 {
     const Level *last = &levels->list[levels->count - 1];
-    double origin = value_of(last, kind);   // all in parts of it
-    double slope = (last->pads > 1 ? SLOPE_PADS : SLOPE) * shortness_of(last);
+    double origin = level_value(last, kind);   // all in parts of it
+    const double slopes[] = {SLOPE_PADS, SLOPE_WHOLE, SLOPE, SLOPE_SLIP};
+    double part = deciding_part(levels), slope = by_nodes(last, part, slopes);
     double S = 0, Sx = 0, Sxx = 1 / (slope * slope), Sv = 0, Sxv = 0, Svv = 0;
     double weight[LEVELS_MAX] = {0};
     for (int32_t l = 0; l < levels->count; l++) {
         const Level *level = &levels->list[l];
-        double x = 1.0 / level->contact_nodes, v = value_of(level, kind) / origin - 1;
+        double x = 1.0 / level->contact_nodes, v = level_value(level, kind) / origin - 1;
         if (!is_known(level, kind)) continue;
         double runs = variance_of_runs(level, spread) / (origin * origin);
-        double own = scatter_of(level, origin), w = weight[l] = 1 / (own * own + runs);
+        double own = scatter_of(level, part, origin), w = weight[l] = 1 / (own * own + runs);
         S += w, Sx += w * x, Sxx += w * x * x;
         Sv += w * v, Sxv += w * x * v, Svv += w * v * v;
     }
@@ -199,7 +218,7 @@ static Limit limit_of(const Levels *levels, AnswerKind kind, double spread)
 
 static Limit one_level(const Level *level, AnswerKind kind, double spread)
 {
-    Limit limit = {.value = value_of(level, kind), .mesh = NAN};
+    Limit limit = {.value = level_value(level, kind), .mesh = NAN};
     add_level(level, kind, 1, spread, &limit);
     return limit;
 }
@@ -213,15 +232,19 @@ static ErrorBar bar_of(const Levels *levels, AnswerKind kind)
 {
     const Level *last = &levels->list[levels->count - 1];
     double spread = spread_of_runs(levels, kind);
-    if (isnan(value_of(last, kind))) return (ErrorBar){NAN, NAN, {NAN, NAN, NAN}};
-    bool alone = is_alone(levels, kind);
+    if (isnan(level_value(last, kind))) return (ErrorBar){NAN, NAN, {NAN, NAN, NAN}, false};
+    bool alone = is_alone(levels, kind), unknown = alone || !levels_resolved(levels);
     Limit limit = alone ? one_level(last, kind, spread) : limit_of(levels, kind, spread);
     double mesh = fmax(hypot(limit.mesh, END_WAITS * last->end_wait), STEPS * limit.value);
     ErrorBar bar = {.value = limit.value,
-                    .parts = {.mesh = alone ? NAN : mesh,
+                    .parts = {.mesh = unknown ? NAN : mesh,
                               .branches = isnan(spread) ? NAN : ERROR_BAR * sqrt(limit.runs),
                               .drops = limit.drops}};
-    bar.bar = hypot(hypot(bar.parts.mesh, known(bar.parts.branches)), bar.parts.drops);
+    double others = hypot(known(bar.parts.branches), bar.parts.drops);
+    bar.apart = fabs(limit.value - level_value(last, kind)) > hypot(mesh, others);
+    if (bar.apart && !unknown)
+        bar.parts.mesh = sqrt(pow(limit.value - level_value(last, kind), 2) - others * others);
+    bar.bar = hypot(bar.parts.mesh, others);
     return bar;
 }
 
@@ -370,6 +393,7 @@ void levels_write_json(const Levels *levels, JsonWriter *json)
         json_number(json, "seconds", level->seconds);
         json_boolean(json, "undamped", level->undamped);
         json_number(json, "slip_cells", level->slip_cells);
+        json_number(json, "cells", level_cells(level));
         json_number(json, "end_wait", level->end_wait);
         write_bars(level->answer, json);
         write_runs(level, json);

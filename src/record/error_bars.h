@@ -41,6 +41,7 @@ typedef struct LevelRun {
 typedef struct ErrorBar {
     double value, bar;
     ErrorParts parts;
+    bool apart;   // the last level's own value was outside the bar, which was widened to hold it
 } ErrorBar;
 
 typedef struct Level {
@@ -79,8 +80,13 @@ const ErrorBar *levels_answer(const Levels *levels, AnswerKind kind);   // of th
 // block up by more than is wanted.
 int32_t levels_known(const Levels *levels, AnswerKind kind);
 
-// Slip turned fast on cells enough on the last level, where one contact says so; on pads, at whose
-// edges slip waits, their number tells little.
+// Of its own runs, mu_M their mean, mu_hold their lowest; NaN: a run has none.
+double level_value(const Level *level, AnswerKind kind);
+
+// Cells that decide on a level: those that slipped where slow slip turned fast; where pads divide
+// the contact those of a pad, as slip waits at its edges and the pad then slides as a whole. The
+// mesh's part of a bar is known only where there are SLIP_CELLS_ENOUGH on the last level.
+double level_cells(const Level *level);
 bool levels_resolved(const Levels *levels);
 
 // A run of the last level has no answer, as its run-in was not over.

@@ -72,6 +72,11 @@ static double drops_left(const Drops *drops, double mu, double fading, const Reg
     return ceil(left);
 }
 
+static bool stands_out(const SeriesTrend *trend)
+{
+    return fabs(trend->slope) > student(trend->freedoms) * trend->error;   // false of NaN
+}
+
 static SeriesTrend trend_of_last(const SeriesItem *last, int32_t count, const Regime *regime)
 {
     bool blocks = regime->period == 0 && regime->run_in != RUN_IN_STUCK;
@@ -83,27 +88,29 @@ static void note_trend(const Drops *drops, const SeriesItem *last, int32_t count
 {
     int32_t round = regime->period > 0 ? regime->period : 1;
     SeriesTrend trend = trend_of_last(last, count, regime);
-    if (!(fabs(trend.slope) > student(trend.freedoms) * trend.error)) return;
+    if (!stands_out(&trend)) return;
     regime->drift = trend.slope / last->value;
     regime->ahead = fabs(regime->drift) * DROPS_ENOUGH * round;
     regime->drops_left =
         drops_left(drops, last->value, fading_drops(last + 1 - count, count, round), regime);
 }
 
-// As long as the later half of them shows for certain that the trend has become less, what came
-// before belongs to the run-in.
-static void find_trend(const Drops *drops, const SeriesItem *last, Regime *regime)
+// Over all load drops since every node has slipped, `count` of them, also those that agree with the
+// last no more: a slow rise is seen best from afar. As long as the later half of them shows for
+// certain that the trend has become less, what came before belongs to the run-in.
+static void find_trend(const Drops *drops, const SeriesItem *last, int32_t count, Regime *regime)
 {
     int32_t round = regime->period > 0 ? regime->period : 1;
-    for (int32_t half = regime->count; half > round;) {
-        SeriesTrend all = trend_of_last(last, regime->count, regime);
-        half = (regime->count / 2 + round - 1) / round * round;
+    for (int32_t half = count; half > round; count = half) {
+        SeriesTrend all = trend_of_last(last, count, regime);
+        if (!stands_out(&all)) break;
+        half = (count / 2 + round - 1) / round * round;
         SeriesTrend later = trend_of_last(last, half, regime);
         double most = fabs(later.slope) + student(later.freedoms) * later.error;
         if (!(most < fabs(all.slope))) break;
-        regime->count = half;
     }
-    note_trend(drops, last, regime->count, regime);
+    note_trend(drops, last, count, regime);
+    if (count < regime->count) regime->count = count;
     if (regime->ahead > drops->tolerance && regime->run_in == RUN_IN_OVER)
         regime->run_in = RUN_IN_TREND;
 }
@@ -135,7 +142,7 @@ Regime regime_of(const Drops *drops)
         regime.period = found.period;
         regime.run_in = lags(drops, last + 1 - looked, looked, found.period > 0) ? RUN_IN_LAGS
                                                                                  : RUN_IN_OVER;
-        if (found.count > 2) find_trend(drops, last, &regime);
+        if (found.count > 2) find_trend(drops, last, count - 1, &regime);
         if (regime.run_in != RUN_IN_OVER) regime.period = 0;
     }
     regime.first = find_first(drops, all - regime.count);

@@ -8,12 +8,14 @@
 // items, a cycle of stick and slip each. In a long series a few items agree by chance sooner or
 // later: hence the third.
 //
-// Errors by batch means: sqrt(N) blocks of sqrt(N) successive rounds each. As N grows blocks get
-// longer than any memory of the series and more numerous, so the spread of their means, over the
-// root of their number, tends to the standard error of the mean whatever the correlation
-// (Flegal & Jones, Ann. Stat. 38, 2010). With few blocks it is itself uncertain; it is never taken
-// smaller than that of independent rounds. Quantiles are interpolated between order statistics;
-// the error of a quantile is that of the share of items below it, read off the same curve.
+// Errors: that of independent rounds with Student's factor, lengthened by the correlation r of
+// neighbours, sqrt((1 + r) / (1 - r)) of a series of first order; and by batch means, which tend to
+// the error whatever the correlation as N grows: sqrt(N) blocks of sqrt(N) successive rounds
+// (Flegal & Jones, Ann. Stat. 38, 2010). The larger of both. Of 30 items of a series with r = 0.5
+// bars by batch means alone hold in 86 of 100, by both in 92 (of independent ones in 96 and 97);
+// Student's factor for blocks would hold in 93, and be 1.4 times as long for independent items, 6
+// times for 8 of them. Quantiles are interpolated between order statistics; the error of a quantile
+// is that of the share of items below it, read off the same curve.
 #include "record/series.h"
 
 #include <math.h>
@@ -23,6 +25,8 @@ enum { ROUNDS = 2, REPEATING_PART = 3 };
 enum { NEARER = 2 };   // so many times, for a period above 1
 enum { START_PART = 4 };   // without a period, the first of so many parts is the start's
 static const double LOWEST = 0.1;
+enum { CORRELATED = 5 };   // so few rounds tell nothing of how they go along
+static const double CORRELATION_MAX = 0.95;
 
 // --- repetition ---------------------------------------------------------------------------------
 
@@ -89,6 +93,15 @@ SeriesRegime series_regime(const SeriesItem *items, int32_t count, double tolera
 
 // --- mean and decile ----------------------------------------------------------------------------
 
+double student(int32_t freedoms)
+{
+    static const double by_freedoms[] = {12.71, 4.30, 3.18, 2.78, 2.57, 2.45, 2.36, 2.31, 2.26,
+                                         2.23,  2.20, 2.18, 2.16, 2.14, 2.13, 2.12, 2.11, 2.10};
+    const int32_t known = sizeof by_freedoms / sizeof *by_freedoms;
+    if (freedoms < 1) return INFINITY;
+    return freedoms <= known ? by_freedoms[freedoms - 1] : 1.96 + 2.5 / freedoms;
+}
+
 typedef struct Sample {
     const SeriesItem *items;
     int32_t count;
@@ -117,10 +130,32 @@ static Estimate block_mean(const Sample *sample, int32_t blocks, int32_t length)
     return (Estimate){mean, blocks > 1 ? sqrt(square / (blocks - 1) / blocks) : (double)NAN};
 }
 
+// How far each of `rounds` means goes along with the one before, at least 0: the correlation of
+// neighbours, with what few of them leave it too small by.
+static double correlation(const Sample *sample, int32_t rounds, int32_t length, double mean)
+{
+    double before = 0, square = 0, product = 0;
+    for (int32_t b = 0; b < rounds; b++) {
+        Sample until = *sample;
+        until.count -= (rounds - 1 - b) * length;
+        double off = block_mean(&until, 1, length).value - mean;
+        square += off * off;
+        product += off * before;
+        before = off;
+    }
+    if (rounds < CORRELATED || square == 0) return 0;
+    double found = (rounds * product / square + 1) / (rounds - 3);
+    return fmin(fmax(found, 0), CORRELATION_MAX);
+}
+
+// A round tells its scatter at each of its places: so many degrees of freedom.
 static Estimate mean_of(const Sample *sample, int32_t round)
 {
     int32_t rounds = sample->count / round, blocks = (int32_t)sqrt(rounds);
     Estimate mean = block_mean(sample, rounds, round);
+    if (rounds < 2) return mean;
+    double along = correlation(sample, rounds, round, mean.value);
+    mean.error *= sqrt((1 + along) / (1 - along)) * student(sample->count - round) / 2;
     if (blocks > 1)
         mean.error = fmax(mean.error, block_mean(sample, blocks, rounds / blocks * round).error);
     return mean;
@@ -232,15 +267,6 @@ double series_fading(const SeriesItem *items, int32_t third)
 {
     double first = mean_of_items(items, third), middle = mean_of_items(items + third, third);
     return (mean_of_items(items + 2 * third, third) - middle) / (middle - first);
-}
-
-double student(int32_t freedoms)
-{
-    static const double by_freedoms[] = {12.71, 4.30, 3.18, 2.78, 2.57, 2.45, 2.36, 2.31, 2.26,
-                                         2.23,  2.20, 2.18, 2.16, 2.14, 2.13, 2.12, 2.11, 2.10};
-    const int32_t known = sizeof by_freedoms / sizeof *by_freedoms;
-    if (freedoms < 1) return INFINITY;
-    return freedoms <= known ? by_freedoms[freedoms - 1] : 1.96 + 2.5 / freedoms;
 }
 
 // --- branches -----------------------------------------------------------------------------------

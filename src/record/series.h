@@ -21,7 +21,7 @@ typedef struct SeriesRegime {
 
 typedef struct Estimate {
     double value;   // NaN: no item
-    double error;   // one standard error; NaN: it takes two items, or two rounds of a period
+    double error;   // half of what it is off by at most, 95 %; NaN: it takes two items, or rounds
 } Estimate;
 
 // Items that agree; those of one kind whose values lie closer together than a tolerance.

@@ -29,7 +29,8 @@ static const double DROPS_SHARE = 0.2;   // of the bar wanted, for the drops of 
 static const double LONGER = 4;   // than the scene's end, for a run whose answer is not known; and
     // once more as much longer where its run-in is not over
 static const double STEP = 1.4142135623730951;   // of cell size from level to level
-static const double STEP_SPLIT = 2;   // where cells can only be halved: no .geo with `refine`
+static const double STEP_SPLIT = 2;   // where cells can only be halved: no .geo with `refine`; and
+    // at most, where the last mesh does not resolve slip
 static const double GROWTH = 2.5;   // of a level's time, before two levels are known
 
 typedef struct Accuracy {
@@ -250,11 +251,21 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Of cell size to the next level: from the third on one that resolves slip, by what the last tells.
+static double next_step(const Accuracy *accuracy)
+{
+    const Levels *levels = &accuracy->levels;
+    double cells = level_cells(&levels->list[levels->count - 1]);
+    if (levels->count < LEVELS_LEAST - 1) return accuracy->step;
+    double lacks = SLIP_CELLS_ENOUGH / fmax(cells, 0.5);
+    return fmin(fmax(accuracy->step, 1.1 * lacks), STEP_SPLIT);
+}
+
 // The first run of a new level. A mesh that can only be split refuses the first step (ERROR_INPUT),
 // and is halved from then on.
 static bool try_level(Accuracy *accuracy, double refine, bool *coarse, Error *err)
 {
-    begin_level(accuracy, refine * accuracy->step);
+    begin_level(accuracy, refine * next_step(accuracy));
     if (!run_member(accuracy, pressure_of(accuracy, 0), coarse, err) && err->code == ERROR_INPUT &&
         accuracy->step < STEP_SPLIT) {
         *err = (Error){0};
@@ -305,7 +316,8 @@ static double next_seconds(const Accuracy *accuracy)
     int32_t last = accuracy->levels.count - 1;
     const Level *level = &accuracy->levels.list[last];
     double growth = last > 0 ? level[0].seconds / level[-1].seconds : GROWTH;
-    return level->seconds * fmax(growth, 1.5) * RUNS_FIRST / level->run_count;
+    double steps = log(next_step(accuracy)) / log(accuracy->step);
+    return level->seconds * pow(fmax(growth, 1.5), steps) * RUNS_FIRST / level->run_count;
 }
 
 static void show_level(const Accuracy *accuracy)
@@ -407,6 +419,7 @@ static bool run_in_full(Accuracy *accuracy, RunSummary *summary, Error *err)
     if (levels->met && !is_met(accuracy)) levels->ended = "the run in full widened it";
     levels->met = is_met(accuracy);
     if (!levels->met) warnings_of_bar(levels, &simulation->warnings);
+    warnings_of_last_mesh(levels, &simulation->warnings);
     simulation->started = accuracy->started;
     simulation->levels = levels;
     TRY(amontons_simulation_finish(simulation, summary, err));

@@ -151,7 +151,8 @@ void warnings_of_slip(const Scene *scene, const Interface *interface, const Even
 static const char *why_unknown(const Levels *levels)
 {
     const Level *last = &levels->list[levels->count - 1];
-    return last->undamped ? "cells are too long for slip" : "one mesh";
+    if (last->undamped) return "cells are too long for slip";
+    return levels_resolved(levels) ? "one mesh" : "too few cells where slip turns fast";
 }
 
 static const char *why_not_sure(const Levels *levels)
@@ -172,6 +173,17 @@ void warnings_of_bar(const Levels *levels, RunWarnings *warnings)
                      "error bar not met: %s is known to %.1f %%%s, asked for %.1f %% (%s)",
                      ANSWER_NAMES[levels->asked], 100 * answer->bar / answer->value,
                      why_not_sure(levels), 100 * levels->wanted, levels->ended);
+}
+
+void warnings_of_last_mesh(const Levels *levels, RunWarnings *warnings)
+{
+    const Level *last = &levels->list[levels->count - 1];
+    for (AnswerKind kind = 0; kind < ANSWER_KINDS; kind++)
+        if (last->answer[kind].apart)
+            warnings_add(warnings,
+                         "the last mesh and all meshes together disagree: %s is %.4f there and "
+                         "%.4f by all, so the error bar is as long as they are apart",
+                         ANSWER_NAMES[kind], level_value(last, kind), last->answer[kind].value);
 }
 
 static bool gives_parameter(const Scene *scene, const char *name)

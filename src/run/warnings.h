@@ -41,6 +41,9 @@ void warnings_of_slip(const Scene *scene, const Interface *interface, const Even
 // An error bar that was asked for and is not met: how far the answer is known, and why no farther.
 void warnings_of_bar(const Levels *levels, RunWarnings *warnings);
 
+// Of answers of the last mesh that lay outside the bar of all.
+void warnings_of_last_mesh(const Levels *levels, RunWarnings *warnings);
+
 void warnings_add(RunWarnings *warnings, const char *format, ...)
     __attribute__((format(printf, 2, 3)));   // what does not fit is left out
 

@@ -90,19 +90,23 @@ class PadsStudy(unittest.TestCase):
         self.assertLess(mu["0.004"], 5 / 6 * mu["0.0005"])
 
     def test_drops_that_do_not_repeat(self):
-        """Mean, decile and errors of a real run's load drops, by numpy (errors: two standard errors); too few are said to be."""
+        """Mean, decile and errors of a real run's load drops, by numpy (errors: Student's factor); too few are said to be."""
         run = self.run_program("run", "pads-b.yaml", "run.json", P=1.5e-5, n=8, **{
             "mesh.set.size_contact": 5e-4, "time.until.U": 0.4 * 1.5e-5})["results"]
         drops = run["drops"]
         every = np.array([drop["mu"] for drop in drops["list"]])
-        mu = every[len(every) // 4:]
-        self.assertGreater(len(mu), 8)
-        self.assertEqual((drops["period"], drops["counted"], drops["enough"]), (0, len(mu), False))
+        mu = every[-drops["counted"]:]                  # those after the run-in, but for a quarter
+        self.assertTrue(8 < len(mu) <= len(every) - len(every) // 4)
+        self.assertEqual((drops["period"], drops["counted"], drops["enough"]), (0, 15, False))
         blocks = int(len(mu) ** 0.5)
 
         def error(x):
             means = [part.mean() for part in np.split(x[len(x) % blocks:], blocks)]
-            return max(np.std(x, ddof=1) / len(x) ** 0.5, np.std(means, ddof=1) / blocks ** 0.5)
+            off, student = x - x.mean(), 2.14           # 95 %, of 15
+            along = (len(x) * (off[1:] * off[:-1]).sum() / (off ** 2).sum() + 1) / (len(x) - 3)
+            along = min(max(along, 0), 0.95)
+            own = np.std(x, ddof=1) / len(x) ** 0.5 * ((1 + along) / (1 - along)) ** 0.5 * student / 2
+            return max(own, np.std(means, ddof=1) / blocks ** 0.5)
 
         low = np.quantile(mu, 0.1)
         share = error((mu <= low).astype(float))

@@ -43,7 +43,7 @@ static void test_settling(void **state)
     Answers found = answers_of(&hand.drops);
     assert_int_equal(found.first, 1);
     assert_near("mu_M", found.mu_M.value, 0.301, 1e-15);
-    assert_near("its error", found.mu_M.error, 2 * 0.001 / sqrt(3), 1e-15);
+    assert_near("its error", found.mu_M.error, 4.30 * 0.001 / sqrt(3), 1e-15);
     assert_near("spread", found.mu_M_spread, 0.002, 1e-15);
     assert_near("holds", found.mu_hold.value, 0.3, 0);
     assert_near("its error", found.mu_hold.error, 0.001, 1e-15);
@@ -178,10 +178,10 @@ static void test_without_period(void **state)
     Answers found = answers_of(&hand.drops);
     assert_true(found.regime.period == 0 && found.regime.count == 30 && found.peaks_counted == 10);
     assert_near("mu_M", found.mu_M.value, sum / 10, 1e-12);
-    // Errors: two standard errors.
-    // By numpy: mean, std(ddof=1), quantile(0.1) of these 30, and five blocks of six.
+    // By numpy: mean, std(ddof=1), quantile(0.1) of these 30. Errors: 2.046 standard errors, by
+    // Student for 30, with a correlation of neighbours of 0.198; blocks of six say less.
     assert_near("of all", found.mu_drops.value, 0.375, 1e-9);
-    assert_near("its error", found.mu_drops.error, 2 * 0.00818956442781, 1e-9);
+    assert_near("its error", found.mu_drops.error, 2 * 0.0102449823287769, 1e-9);
     assert_near("holds", found.mu_hold.value, 0.327, 1e-9);
     assert_near("its error", found.mu_hold.error, 2 * 0.015, 1e-9);
     assert_false(found.enough);   // 30 of them, but the mean is known to 2.2 % only
@@ -201,8 +201,8 @@ static void test_block_of_period_two(void **state)
         "rod.height=1",
         "rod.width=0.2",
         "load.pressure=0.0022",
-        "time.periodic_tolerance=0.05",
-        "time.until={U: 0.4, periodic: true}",
+        "time.periodic_tolerance=0.02",
+        "time.until={U: 0.8, periodic: true}",
         "output={history: false, fields: none, figures: []}",
     };
     Error err = {0};
