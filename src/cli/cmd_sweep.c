@@ -38,7 +38,7 @@ static const CommandText text = {
         "period, low, high, peaks, l_c, l_sc, slip_cells, steps, unsolved, solve_s, total_s, "
         "energy_error, contact_error, moment_error, "
         "reduction_error, mu_max, mu_hold, mu_hold_error, mu_drops, mu_drops_error, "
-        "drops, drops_period, drops_enough, mu_steady, mu_first_pad, first_mu, "
+        "drops, drops_period, drops_enough, run_in_over, mu_steady, mu_first_pad, first_mu, "
         "contact_nodes, reduced_dofs.\n\n"
         "`rank` prints the best points at the end, and writes DIR/ranking.csv and "
         "DIR/figures/ranking.png: `by` is a name as in `record`, `order` is highest or lowest, "

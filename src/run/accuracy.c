@@ -12,11 +12,11 @@
 #include "model/step_rule.h"
 #include "run/accuracy_figure.h"
 #include "run/end_wait.h"
+#include "run/level_scene.h"
 #include "run/simulation_state.h"
 #include "run/warnings.h"
 
 #include <math.h>
-#include <string.h>
 
 enum {
     CONTACT_NODES_MIN = 21,   // of the first level
@@ -53,35 +53,6 @@ static double seconds_left(const Accuracy *accuracy)
     return within > 0 ? within - (clock_seconds() - accuracy->started) : INFINITY;
 }
 
-// The parameter `refine` of every mesh, times what the scene may have set it to. ERROR_INPUT: there
-// is no room for it.
-static bool set_refine(Scene *scene, double refine, Error *err)
-{
-    int32_t k = 0, count = scene->mesh.parameter_count;
-    while (k < count && strcmp(scene->mesh.parameters[k].name, "refine") != 0) k++;
-    if (refine == 1) return true;
-    if (k < count) {
-        scene->mesh.parameters[k].value *= refine;
-        return true;
-    }
-    if (k == SCENE_LIST_MAX)
-        FAIL(err, ERROR_INPUT, "%s: mesh.set: no room for `refine` beside %d parameters",
-             scene->path, k);
-    scene->mesh.parameters[k] = (MeshParameter){.name = "refine", .value = refine};
-    scene->mesh.parameter_count++;
-cleanup:
-    return error_is_clean(err);
-}
-
-static void scale_loads(Scene *scene, double factor)
-{
-    scene->load.pressure *= factor;
-    for (int32_t k = 0; k < scene->load.traction_count; k++) {
-        scene->load.tractions[k].x *= factor;
-        scene->load.tractions[k].z *= factor;
-    }
-}
-
 // The scene of a run that writes nothing; owned by the caller.
 static Scene *scene_of_run(const Accuracy *accuracy, double refine, double pressure, Error *err)
 {
@@ -94,8 +65,8 @@ static Scene *scene_of_run(const Accuracy *accuracy, double refine, double press
     scene->time.until_t *= LONGER;
     scene->time.until_periodic = false;
     scene->time.until_slidings = scene->time.until_mu_below = 0;   // its answer ends it
-    scale_loads(scene, pressure);
-    if (set_refine(scene, refine, err)) return scene;
+    scene_scale_loads(scene, pressure);
+    if (scene_refine(scene, refine, err)) return scene;
     memory_free(scene);
     return NULL;
 }
@@ -408,7 +379,7 @@ static bool run_in_full(Accuracy *accuracy, RunSummary *summary, Error *err)
     Scene *scene = NEW_ARRAY(Scene, 1, err);
     TRY(scene);
     *scene = *accuracy->scene;
-    TRY(set_refine(scene, last_level(accuracy)->refine, err));
+    TRY(scene_refine(scene, last_level(accuracy)->refine, err));
     TRY(amontons_simulation_create(scene, accuracy->options, &simulation, err));
     TRY(simulation_loop(simulation, err));
     Answers answers = answers_of(&simulation->drops);

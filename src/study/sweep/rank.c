@@ -180,7 +180,7 @@ static bool row_notes(const Sweep *sweep, const Ranking *ranking, const RankRow 
     PointStatus status = sweep->points[row->point].status;
     char *report = status == POINT_DONE ? point_report(sweep, row->point, err) : NULL;
     char text[60], warning[8];
-    double enough = 1, period = report ? period_of(&sweep->study, report) : (double)NAN;
+    double enough = 1, over = 1, period = report ? period_of(&sweep->study, report) : (double)NAN;
     *note = 0;
     TRY(error_is_clean(err));
     if (status != POINT_DONE) add_note(note, point_status_name(status));
@@ -193,6 +193,8 @@ static bool row_notes(const Sweep *sweep, const Ranking *ranking, const RankRow 
     if (report && strcmp(ranked_by(&sweep->study)->path, "results.mu_hold") == 0 &&
         json_find_number(report, "results.drops.enough", &enough) && enough == 0)
         add_note(note, "too few drops");
+    if (report && json_find_number(report, "results.run_in.over", &over) && over == 0)
+        add_note(note, "run-in not over");
     if (period > 1) add_note(note, "by turns");
     if (report && json_find_text(report, "warnings.0", warning, sizeof warning))
         add_note(note, "warned");

@@ -31,6 +31,7 @@
     X("drops", "results.drops.counted", false, "load drops in mu_hold")                            \
     X("drops_period", "results.drops.period", false, "they repeat after so many; 0: not")          \
     X("drops_enough", "results.drops.enough", false, "1: they repeat, or mean known to 2 %")       \
+    X("run_in_over", "results.run_in.over", false, "1: the whole contact has come to a regime")    \
     X("mu_steady", "results.mu_steady", false, "mu at which the block slides at the end")          \
     X("mu_first_pad", "results.mu_first_pad", false, "lowest mu at which a whole pad slides")      \
     X("first_mu", "results.peaks.0.mu", false, "first peak, from the start state")                 \
