@@ -105,8 +105,7 @@ typedef struct RunSummary {
     double bar_wanted, bar_window;   // over mu; of pressures, relative
     const char *bar_ended, *mu_M_is;   // results.mu_M_is of run.json; static storage, both
     double mu_M_spread;   // largest less smallest of the peaks in mu_M; NaN: fewer than two
-    int32_t peaks, peaks_counted;   // before bulk sliding: seen; those in mu_M
-    int32_t period;   // peaks repeat after so many slidings; 0: they do not
+    int32_t peaks, peaks_counted, period;   // seen; in mu_M; they repeat after so many, or 0
     int32_t drops, drop_period;   // load drops in mu_hold; they repeat after so many, 0: not
     bool drops_enough;   // and repeat, or the mean of 30 and more is known to 2 %
     const char *run_in;   // why run-in is not over (static storage); NULL: it is

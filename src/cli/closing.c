@@ -51,7 +51,11 @@ static void print_run_in(const RunSummary *summary)
 static void print_mu_M(const RunSummary *summary)
 {
     if (isnan(summary->mu_M)) {
-        say("  mu_M            %s\n", summary->mu_M_is);
+        // Of several meshes the last may well have one.
+        bool some = summary->bar_runs > 0 && summary->peaks > 0;
+        say("  mu_M            %s\n",
+            some ? "none: not every run of the error bar came to slide as a whole"
+                 : summary->mu_M_is);
         return;
     }
     if (strcmp(summary->mu_M_is, STEADY) == 0) {
