@@ -273,6 +273,7 @@ NOT_A_CHOICE = {
         "BRANCH_WIDTH": "of branches: the next is twice as far",
         "STEPS": "of error bars: what this table's tolerances move"},
     "record/error_bars.h": {"LEVELS_MAX": SIZE, "LEVEL_RUNS_MAX": SIZE, "LEVELS_LEAST": "two agree by chance"},
+    "record/steady.c": {"STEADY_RANGE": "twice what the steps of a standard run move mu by"},
     "record/history.c": {"FLUSH_EVERY": "seconds of a run that a kill may cost"},
     "record/window.h": {"WINDOW_SLIDINGS_MAX": "slidings that a scene may ask for as the last: room for their states"},
     "record/observation.h": {"RECORDERS_MAX": SIZE},
