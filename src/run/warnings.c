@@ -86,7 +86,7 @@ void warnings_of_strain(const Model *model, double mu, RunWarnings *warnings)
     const Materials *materials = &model->materials;
     double largest = GRADIENT_SMALL, push = fmax(mu, 0);
     int32_t worst = -1;
-    if (!(model->scales.load > 0)) return;   // the run did not come so far
+    if (model->system.dof_count == 0) return;   // the run failed before there was a block to step
     Schedule program = scene_schedule(&model->scene->load.program);
     double load = model->scales.load * schedule_largest(&program);
     for (int32_t k = 0; k < materials->count; k++) {
