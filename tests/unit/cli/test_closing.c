@@ -29,6 +29,8 @@ static void assert_says(const char *said, const char *words)
 static RunSummary no_answers(void)
 {
     return (RunSummary){.mu_M = NAN,
+                        .mu_M_is = "none: it stands",
+                        .mu_steady = NAN,
                         .mu_hold = NAN,
                         .mu_M_error = NAN,
                         .mu_hold_error = NAN,
@@ -45,17 +47,22 @@ static void test_static_friction(void **state)
     RunSummary summary = no_answers();
     const char *said = closing("", &summary);
     assert_true(strncmp(said, "done\n", 5) == 0);
-    assert_says(said, "mu_M            none: the block as a whole did not slide in this run");
+    assert_says(said, "mu_M            none: it stands");   // the words of record/steady
     assert_says(said, "critical length not reached");
     assert_null(strstr(said, "Results in"));
     summary.peaks = 3;
-    assert_says(closing("A", &summary), "after the start only parts of the block slid");
-    summary.peaks = 0;
+    summary.bar_runs = 4;
+    assert_says(closing("A", &summary), "not every run of the error bar came to slide as a whole");
+    summary.bar_runs = 0;
     summary.leading = 1;
-    assert_says(closing("A", &summary), "the block slid from the start on, and not once from rest");
     assert_says(closing("A", &summary), "as a whole did not slide from rest");
-    summary.peaks = 3;
+    summary.mu_M_is = "steady sliding";
+    summary.mu_M = summary.mu_steady = 0.375;
+    assert_says(closing("A", &summary), "mu_M            0.3750: F_T/F_N of steady sliding");
+    summary.mu_M_is = "peaks";
     summary.mu_M = 0.25;
+    assert_says(closing("A", &summary), "mu_steady       0.3750: at the end the block slides");
+    summary.mu_steady = NAN;
     summary.peaks_counted = 1;
     said = closing("A", &summary);
     assert_true(strncmp(said, "A: done\n", 8) == 0);

@@ -104,6 +104,8 @@ static void test_answer(void **state)
     go(&slide, 1, 0.3, STICKS);
     assert_non_null(
         strstr(steady_words(&slide.steady, &none), "none: the block as a whole did not"));
+    slide.run.events.kinds[EVENT_LEADING] = 1;
+    assert_non_null(strstr(steady_words(&slide.steady, &none), "slid from the start on"));
     none.peaks = 1;
     assert_non_null(strstr(steady_words(&slide.steady, &none), "none: after the start only parts"));
     events_destroy(&slide.run.events);
