@@ -144,7 +144,7 @@ amontons_render_film(const char *folder, const FilmRequest *request, Error *err)
     FilmPageDef def = {
         folder, &view, &clock, film.width, film.height, film.of, film.magnification, film.dark};
     TRY(page = film_page_create(&def, err));
-    FilmSinkDef file = {film.path, film.width, film.height, film.rate, view.title};
+    FilmSinkDef file = {film.path, film.width, film.height, film.rate, view.title, film.overwrite};
     TRY(sink = film_sink_create(&file, err));
     TRY(shoot(&film, page, sink, frames, err));
     TRY(film_sink_finish(sink, err));

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "io/folder.h"
+#include "io/own_mark.h"
 #include "io/part_file.h"
 #include "io/video_file.h"
 #include "render/color.h"
@@ -132,8 +133,9 @@ static bool frames_begin(FilmSink *sink, Error *err)
         TRY(folder_make(folder, err));
     }
     frame_path(pattern, 1, first);
-    if (access(first, F_OK) == 0)
-        FAIL(err, ERROR_INPUT, "%s is there already: remove those frames, or name another folder",
+    if (access(first, F_OK) == 0 && !sink->def.overwrite)
+        FAIL(err, ERROR_INPUT,
+             "%s is there already: name another folder, say --overwrite, or remove those frames",
              first);
 cleanup:
     return error_is_clean(err);
@@ -164,7 +166,7 @@ static bool png_write(const FilmSink *sink, const uint8_t *pixels, int32_t frame
                           .pixels_per_metre = DENSITY,
                           .title = sink->def.title};
     frame_path(&sink->pattern, frame, path);
-    TRY(part_file_create(&target.part, path, err));
+    TRY(part_file_replace(&target.part, path, sink->def.overwrite, err));
     TRY(png_encode(&picture, bytes_add, &target, err));
     TRY(part_file_commit(&target.part, err));
 cleanup:
@@ -221,7 +223,8 @@ static void palette_fill(uint8_t palette[3 * PALETTE_SIZE])
 FilmSink *film_sink_create(const FilmSinkDef *def, Error *err)
 {
     uint8_t palette[3 * PALETTE_SIZE];
-    VideoDef video = {def->path, def->width, def->height, def->rate, def->title, palette};
+    VideoDef video = {def->path,  def->width, def->height,   def->rate,
+                      def->title, palette,    def->overwrite};
     FilmSink *sink = NULL;
     TRY(film_sink_check(def->path, err));
     TRY(sink = NEW_ARRAY(FilmSink, 1, err));
@@ -274,11 +277,24 @@ static void thread_end(FilmSink *sink)
     sink->running = false;
 }
 
+// Frames of a longer film of ours would seem to be of this one.
+static void remove_rest(const FilmSink *sink)
+{
+    char path[2 * PATH_MAX];
+    for (int32_t frame = sink->filled + 1;; ++frame) {
+        frame_path(&sink->pattern, frame, path);
+        if (!own_mark_is_in(path) || unlink(path) != 0) return;
+    }
+}
+
 bool film_sink_finish(FilmSink *sink, Error *err)
 {
     thread_end(sink);
     *err = sink->failure;
-    return error_is_clean(err) && (!sink->video || video_file_finish(sink->video, err));
+    if (!error_is_clean(err)) return false;
+    if (sink->video) return video_file_finish(sink->video, err);
+    if (sink->def.overwrite) remove_rest(sink);
+    return true;
 }
 
 void film_sink_destroy(FilmSink *sink)

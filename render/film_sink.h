@@ -13,6 +13,7 @@ typedef struct FilmSinkDef {
     const char *path;
     int32_t width, height, rate;   // pixels; frames a second
     const char *title;
+    bool overwrite;   // also files that are not ours; frames of PNG that are there
 } FilmSinkDef;
 
 // ERROR_INPUT lists the endings there are.

@@ -68,7 +68,7 @@ bool page_begin(Page *page, const PageDef *page_def, Error *err)
     const char *title = page_def->title;
     CanvasDef def = {.dpi = style->dpi > 0 ? style->dpi : DPI_DEFAULT, .dark = style->dark};
     double width = width_in_mm(style) / INCH * def.dpi;
-    *page = (Page){.point = def.dpi / POINTS_AN_INCH};
+    *page = (Page){.point = def.dpi / POINTS_AN_INCH, .overwrite = style->overwrite};
     page->foot = round(page_def->foot * page->point);
     page->head = title && title[0] ? round(TITLE_HEIGHT * page->point) : 0;
     if (style->format && !find_format(style->format, &def.format))
@@ -85,7 +85,7 @@ cleanup:
 
 bool page_finish(Page *page, const char *path, const char *title, Error *err)
 {
-    return canvas_write(page->canvas, path, title, err);
+    return canvas_write(page->canvas, path, title, page->overwrite, err);
 }
 
 void page_destroy(Page *page)

@@ -14,6 +14,7 @@ typedef struct Page {
     Text *text;   // owned
     double point;   // pixels in a printed point
     double head, foot;   // pixels kept free above and below the figure, whole numbers
+    bool overwrite;   // as its style has it
 } Page;
 
 typedef struct PageDef {

@@ -19,6 +19,7 @@ typedef struct PictureStyle {
     double width;   // mm; 0: 86, the column of a journal
     double dpi;   // dots per inch, of a PNG and of maps in the others; 0: 508
     bool dark;   // light lines on dark paper
+    bool overwrite;   // a file that is there and is not ours goes; else it is refused
 } PictureStyle;
 
 // What the figures of the block show; zeroed is fine.
@@ -50,8 +51,10 @@ bool amontons_render_sweep(const char *folder, const char *plot, const PictureSt
                            Error *err);
 
 // Writes one page about results (count folders) into `file`, an .html that needs nothing else: of a
-// run, of a sweep, or of several runs side by side.
-bool amontons_report(const char *const *results, int32_t count, const char *file, Error *err);
+// run, of a sweep, or of several runs side by side. overwrite: a file that is there and is not ours
+// goes; else it is refused.
+bool amontons_report(const char *const *results, int32_t count, const char *file, bool overwrite,
+                     Error *err);
 
 // Called after each frame of a film that is drawn, `frame` from 1.
 typedef void (*FrameCallback)(int32_t frame, int32_t frames, void *context);
@@ -68,6 +71,7 @@ typedef struct FilmRequest {
     const char *of;   // field of the block, as FieldChoice has it; without fields not asked
     double magnification;   // of the deformation; 0: chosen
     bool dark;   // light lines on dark paper
+    bool overwrite;   // a file that is there and is not ours goes; else it is refused
     FrameCallback on_frame;   // NULL: none
     void *context;   // handed to it
     const volatile sig_atomic_t *stop;   // non-zero: ERROR_INTERRUPT, and no file; NULL: never

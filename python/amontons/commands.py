@@ -194,7 +194,7 @@ def render(result: Any, figures: Sequence[str] = (), of: str | None = None, at: 
            **style: Any) -> list[Path]:
     """Draws pictures of a stored result again: `amontons render`. figures: their names; (): all. of, at, edges: what "field"
     shows ("stress_xz"), when ("U=0.0117"), and whether with the elements' edges. style: format ("png", "pdf", "svg"), width
-    (mm), dpi, dark. The files, in the folder figures/ of the result."""
+    (mm), dpi, dark, overwrite (also files that amontons did not write). The files, in the folder figures/ of the result."""
     folder = result.folder if isinstance(result, Result) else Path(result)
     request = c.PictureRequest(figures=words(figures), figure_count=len(figures), style=_picture_style(style),
                                field=c.FieldChoice(of=c_text_or_none(of), at=c_text_or_none(at), edges=edges))
@@ -219,7 +219,7 @@ def render_sweep(folder: Any, plot: str | None = None, **style: Any) -> None:
 def film(result: Any, path: Any, **options: Any) -> Path:
     """A film of a stored result: `amontons film`. path: its ending (.mp4, .webm, .gif) says what is made; a folder gets
     PNG frames. options: seconds, rate (frames a second), width and height (pixels), begin and end ("U=0.0117"),
-    last_cycle, of (field), magnification, dark. Ctrl-C stops; there is then no film."""
+    last_cycle, of (field), magnification, dark, overwrite. Ctrl-C stops; there is then no film."""
     stop = ctypes.c_int(0)
     folder = result.folder if isinstance(result, Result) else Path(result)
     words_of = {name: c_text(value) if isinstance(value, str) else value for name, value in options.items()}
@@ -228,11 +228,12 @@ def film(result: Any, path: Any, **options: Any) -> Path:
     return Path(path)
 
 
-def info(path: Any, settings: Settings | None = None, picture: Any = None) -> str:
+def info(path: Any, settings: Settings | None = None, picture: Any = None, *, overwrite: bool = False) -> str:
     """What a mesh (.msh, .geo), a scene or a result folder holds, in words: `amontons info`. picture: a PNG of the mesh
-    and the rod to be drawn."""
+    and the rod to be drawn; overwrite: also over a file that amontons did not write."""
     overrides, count = setting_words(settings)
-    options = c.InfoOptions(overrides=overrides, override_count=count, picture=c_text_or_none(picture))
+    options = c.InfoOptions(overrides=overrides, override_count=count, picture=c_text_or_none(picture),
+                            overwrite=overwrite)
     return printed(lib.amontons_info, c_text(path), ctypes.byref(options))
 
 

@@ -109,6 +109,7 @@ int command_film(int argc, char **argv)
         {"magnification", 0, "N", "Of the block's deformation; chosen by default",
          .word = &magnification},
         {"dark", 0, NULL, "Light lines on dark paper", .flag = &film.dark},
+        option_overwrite(&film.overwrite),
         {"quiet", 'q', NULL, "Print nothing but errors", .flag = &quiet},
         {0}};
     int status = options_read(&text, options, argc, argv, &result);
@@ -116,6 +117,7 @@ int command_film(int argc, char **argv)
     if (status == 0) status = read_number("--magnification", magnification, &film.magnification);
     if (status == 0 && rate) status = option_count("--fps", rate, 1, RATE_MAX, &film.rate);
     if (status == 0) status = read_size(size, &film);
+    if (status == 0) status = option_may_write(film.path, film.overwrite);
     if (status != 0) return status;
     name_film(result, name, sizeof name);
     if (!film.path) film.path = name;

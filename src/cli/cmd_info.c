@@ -27,7 +27,7 @@ int command_info(int argc, char **argv)
 {
     const char *file = NULL, *picture = NULL;
     OptionWords settings = {0};
-    bool trusted = false;
+    bool trusted = false, overwrite = false;
     Error err = {0};
     const Option options[] = {
         {"set", 0, "KEY=VALUE",
@@ -36,13 +36,17 @@ int command_info(int argc, char **argv)
          .words = &settings},
         {"picture", 0, "FILE.png",
          "Draw the mesh, and for a scene where the rod is. Also .pdf, .svg", .word = &picture},
+        option_overwrite(&overwrite),
         option_trust(&trusted),
         {0}};
     int status = options_read(&text, options, argc, argv, &file);
+    if (status == 0) status = option_may_write(picture, overwrite);
     if (status != 0) return status;
     if (trusted) trust_meshes();
-    InfoOptions wanted = {
-        .overrides = settings.list, .override_count = settings.count, .picture = picture};
+    InfoOptions wanted = {.overrides = settings.list,
+                          .override_count = settings.count,
+                          .picture = picture,
+                          .overwrite = overwrite};
     char *said = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&said, &size);

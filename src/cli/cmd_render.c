@@ -106,6 +106,7 @@ int command_render(int argc, char **argv)
          .word = &request.field.at},
         {"edges", 0, NULL, "Draw the elements' edges in `field`", .flag = &request.field.edges},
         {"dark", 0, NULL, "Light lines on dark paper", .flag = &request.style.dark},
+        option_overwrite(&request.style.overwrite),
         {0}};
     int status = options_read(&text, options, argc, argv, &from);
     if (status == 0) status = read_size(width, dpi, &request.style);

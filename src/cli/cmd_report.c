@@ -42,19 +42,22 @@ int command_report(int argc, char **argv)
     char path[AMONTONS_PATH_SIZE];
     OptionWords results = {0};
     CommandText taken = text;
+    bool overwrite = false;
     Error err = {0};
     const Option options[] = {
         {"output", 'o', "FILE.html",
          "The page (default: RESULT/report.html; of several runs comparison.html, in the current "
          "folder)",
          .word = &file},
+        option_overwrite(&overwrite),
         {0}};
     taken.all = &results;
     int status = options_read(&taken, options, argc, argv, &first);
     if (status != 0) return status;
     if (file && !*file) return report_misuse("-o: the file has no name");
+    if ((status = option_may_write(file, overwrite)) != 0) return status;
     if (!file) default_file(&results, path, sizeof path);
-    if (!amontons_report(results.list, results.count, file ? file : path, &err))
+    if (!amontons_report(results.list, results.count, file ? file : path, overwrite, &err))
         return report_error(&err);
     say("report written: %s\n", file ? file : path);
     return 0;

@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 enum { KEY_FIRST = 1000, OPTIONS_MAX = 20 };   // keys of argp without a letter: from KEY_FIRST on
@@ -139,6 +140,20 @@ int option_count(const char *name, const char *word, int32_t low, int32_t high, 
 }
 
 // --- reports ------------------------------------------------------------------------------------
+
+Option option_overwrite(bool *overwrite)
+{
+    return (Option){"overwrite", 0, NULL, "Replace what lies there, whoever wrote it",
+                    .flag = overwrite};
+}
+
+// A folder takes files; whether these may be written is asked of each.
+int option_may_write(const char *named, bool overwrite)
+{
+    struct stat status;
+    if (!named || overwrite || lstat(named, &status) != 0 || S_ISDIR(status.st_mode)) return 0;
+    return report_misuse("%s is there already: name another file, or say --overwrite", named);
+}
 
 Option option_trust(bool *trusted)
 {

@@ -47,6 +47,11 @@ void default_folder(const char *file, const char *ending, char *folder, size_t s
 // The value `word` of an option called `name`, a whole number from low to high. Status 0 or 2.
 int option_count(const char *name, const char *word, int32_t low, int32_t high, int32_t *count);
 
+// `--overwrite`, of every command that writes one file; and the refusal of a file that is there and
+// was named by -o, as `named`: it may be anybody's. Status 0 or 2.
+Option option_overwrite(bool *overwrite);
+int option_may_write(const char *named, bool overwrite);
+
 // `--trust`, of every command that reads meshes; and what it means, for this process and those that
 // it starts: a .geo may run commands.
 Option option_trust(bool *trusted);

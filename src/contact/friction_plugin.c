@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/friction_plugin.h"
 
+#include "io/open_file.h"
+
 #include <dlfcn.h>
 #include <limits.h>
 #include <stdio.h>
@@ -27,6 +29,7 @@ bool friction_plugin_open(const char *path, FrictionPlugin *plugin, Error *err)
              "%s is a program that would be run: give --trust, or set AMONTONS_TRUST=yes, if you "
              "know where it comes from",
              path);
+    TRY(open_check(path, err));   // the loader would wait for a pipe
     snprintf(name, sizeof name, "%s%s", strchr(path, '/') ? "" : "./", path);
     void *handle = dlopen(name, RTLD_NOW | RTLD_LOCAL);
     if (!handle) FAIL(err, ERROR_INPUT, "cannot be opened: %s", dlerror());

@@ -4,6 +4,7 @@
 #include "io/array_journal.h"
 
 #include "base/memory.h"
+#include "io/open_file.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -76,6 +77,11 @@ static bool find_name(ArrayJournal *journal, const char *path)
 int array_journal_create(ArrayJournal *journal, const char *path)
 {
     if (!find_name(journal, path)) return ENAMETOOLONG;
+    char why[OPEN_WHY_SIZE];
+    if (!open_is_there(journal->path)) return 0;
+    int left = open_to_write(journal->path, OPEN_PART, why);
+    if (left < 0) return errno;
+    close(left);
     return unlink(journal->path) != 0 && errno != ENOENT ? errno : 0;
 }
 
@@ -84,7 +90,8 @@ static int begin(ArrayJournal *journal)
 {
     const Head none = {0};
     if (!journal->open) {
-        journal->descriptor = open(journal->path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        char why[OPEN_WHY_SIZE];
+        journal->descriptor = open_to_write(journal->path, OPEN_PART, why);
         if (journal->descriptor < 0) return errno;
         journal->open = true;
     }
@@ -203,8 +210,9 @@ int array_journal_find(ArrayJournal *journal, const char *path)
 {
     Head head = {0};
     if (!find_name(journal, path)) return ENAMETOOLONG;
-    journal->descriptor = open(journal->path, O_RDONLY | O_CLOEXEC);
-    if (journal->descriptor < 0) return errno == ENOENT ? 0 : errno;
+    Error unseen = {0};
+    journal->descriptor = open_to_read(journal->path, &unseen);
+    if (journal->descriptor < 0) return open_is_there(journal->path) ? EINVAL : 0;
     journal->open = true;
     int cause = read_copy(journal, &head);
     journal->holds = cause == 0 && journal->copy && is_sealed(journal, &head);

@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "io/cache_folder.h"
 #include "io/folder.h"
+#include "io/open_file.h"
 #include "io/part_file.h"
 
 #include <fcntl.h>
@@ -109,7 +110,8 @@ static bool read_bytes(const char *path, void **bytes, int64_t *size, Error *err
     *bytes = NULL;
     *size = 0;
     struct stat what;
-    int descriptor = open(path, O_RDONLY | O_CLOEXEC);
+    Error unseen = {0};
+    int descriptor = open_to_read(path, &unseen);
     if (descriptor < 0) return true;
     if (fstat(descriptor, &what) == 0 && S_ISREG(what.st_mode)) {
         // Read now: io/cache_folder removes what was not for the longest time.

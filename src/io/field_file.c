@@ -142,7 +142,6 @@ static void put_collection(FILE *out, const FieldSeriesEntry *entries, int32_t c
 bool field_file_write_pvd(const char *path, const FieldSeriesEntry *entries, int32_t count,
                           Error *err)
 {
-    PartFile file = {0};
     char *text = NULL;
     size_t size = 0;
     FILE *out = NULL;
@@ -154,11 +153,8 @@ bool field_file_write_pvd(const char *path, const FieldSeriesEntry *entries, int
     bool is_whole = ferror(out) == 0;
     is_whole = fclose(out) == 0 && is_whole;
     if (!is_whole) FAIL(err, ERROR_MEMORY, "no memory for %s", path);
-    TRY(part_file_create(&file, path, err));
-    TRY(part_file_write(&file, text, (int64_t)size, err));
-    TRY(part_file_commit(&file, err));
+    TRY(part_file_put(path, text, (int64_t)size, err));
 cleanup:
-    part_file_discard(&file);
     free(text);
     memory_free(first);
     return error_is_clean(err);

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "base/module.h"
 #include "io/field_file_module.h"
+#include "io/open_file.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -32,11 +33,11 @@ bool field_times_read(const char *folder, FieldTime **times, int32_t *count, Err
     *times = NULL;
     *count = 0;
     snprintf(path, sizeof path, "%s/fields.pvd", folder);
-    list = fopen(path, "r");
-    if (!list)
+    if (!open_is_there(path))
         FAIL(err, ERROR_INPUT,
              "%s has no fields of the block (%s): a scene stores them with output.fields", folder,
              strerror(errno));
+    TRY(list = open_stream(path, err));
     while (fgets(line, sizeof line, list)) {
         FieldTime time;
         if (!read_entry(line, &time)) continue;
@@ -149,6 +150,7 @@ cleanup:
 bool field_frame_read(const char *path, FieldFrame *frame, Error *err)
 {
     *frame = (FieldFrame){0};
+    if (!open_check(path, err)) goto cleanup;   // VTK opens it by its name
     FieldDecodeFunction decode =
         (FieldDecodeFunction)module_function("vtk", "amontons_vtk_decode", err);
     TRY(decode);

@@ -4,9 +4,9 @@
 #include "io/file_lock.h"
 
 #include "base/clock.h"
+#include "io/open_file.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>
@@ -35,7 +35,7 @@ static void exchange_held(FileLock *from, FileLock *to)
 bool file_is_named(const char *name, int descriptor)
 {
     struct stat named, opened;
-    return stat(name, &named) == 0 && fstat(descriptor, &opened) == 0 &&
+    return lstat(name, &named) == 0 && fstat(descriptor, &opened) == 0 &&
            named.st_dev == opened.st_dev && named.st_ino == opened.st_ino;
 }
 
@@ -52,8 +52,9 @@ static void hold_signals(sigset_t *before)
 static int try_once(FileLock *lock, const char *path)
 {
     sigset_t before;
+    char why[OPEN_WHY_SIZE];
     hold_signals(&before);
-    lock->descriptor = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    lock->descriptor = open_to_write(path, OPEN_PART, why);
     int cause = lock->descriptor < 0 || flock(lock->descriptor, LOCK_EX | LOCK_NB) != 0 ? errno : 0;
     lock->held = cause == 0 && file_is_named(path, lock->descriptor);
     if (lock->held) {

@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "io/open_file.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -30,8 +31,8 @@ void geo_parameters_destroy(GeoParameters *known)
 static char *read_text(const char *path, Error *err)
 {
     char *text = NULL;
-    FILE *file = fopen(path, "rb");
-    if (!file) FAIL(err, ERROR_INPUT, "%s: cannot be read: %s", path, strerror(errno));
+    FILE *file = open_stream(path, err);
+    TRY(file);
     if (fseek(file, 0, SEEK_END) != 0)
         FAIL(err, ERROR_INPUT, "%s: cannot be read: %s", path, strerror(errno));
     long size = ftell(file);

@@ -21,11 +21,11 @@ struct HtmlWriter {
     char buffer[BUFFER_SIZE];
 };
 
-HtmlWriter *html_create(const char *path, Error *err)
+HtmlWriter *html_create(const char *path, bool any, Error *err)
 {
     HtmlWriter *html = NEW_ARRAY(HtmlWriter, 1, err);
     if (!html) return NULL;
-    if (part_file_create(&html->file, path, err)) return html;
+    if (part_file_replace(&html->file, path, any, err)) return html;
     memory_free(html);
     return NULL;
 }

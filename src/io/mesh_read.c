@@ -11,6 +11,7 @@
 #include "io/geo_parameters.h"
 #include "io/mesh_apart.h"
 #include "io/mesh_cache.h"
+#include "io/open_file.h"
 
 #include <errno.h>
 #include <math.h>
@@ -85,8 +86,8 @@ static bool file_holds(FILE *file, const char *mark, char *chunk)
 static bool check_msh(const char *path, double *version, Error *err)
 {
     char *chunk = NULL;
-    FILE *file = fopen(path, "rb");
-    if (!file) FAIL(err, ERROR_INPUT, "%s: cannot be read: %s", path, strerror(errno));
+    FILE *file = open_stream(path, err);
+    TRY(file);
     TRY(check_begin(file, path, err));
     TRY(read_version(file, path, version, err));
     if (!(chunk = NEW_ARRAY(char, CHUNK_SIZE, err))) goto cleanup;

@@ -5,9 +5,10 @@
 
 #include "base/clock.h"
 #include "io/file_lock.h"
+#include "io/open_file.h"
+#include "io/own_mark.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/file.h>
@@ -27,15 +28,15 @@ bool part_file_name(const char *path, char *part)
 }
 
 // Opens the part and locks it, and checks that the name is still that of what was locked (another
-// writer may have renamed it meanwhile); else again. flags: O_CREAT or none. Not emptied when
-// opened (O_TRUNC): only the holder of the lock may do that.
-static bool open_part(PartFile *file, const char *path, int flags, double wait, Error *err)
+// writer may have renamed it meanwhile); else again. Not emptied when opened: only the holder of
+// the lock may do that.
+static bool open_part(PartFile *file, const char *path, OpenAs as, double wait, Error *err)
 {
+    char why[OPEN_WHY_SIZE];
     double until = clock_seconds() + wait;
     while (!file->open) {
-        file->descriptor = open(file->part, O_RDWR | O_CLOEXEC | flags, 0666);
-        if (file->descriptor < 0)
-            FAIL(err, ERROR_FILE, "cannot write %s: %s", path, strerror(errno));
+        file->descriptor = open_to_write(file->part, as, why);
+        if (file->descriptor < 0) FAIL(err, ERROR_FILE, "cannot write %s: %s", path, why);
         file->open = true;
         // Not every file system can lock; only a lock that another process holds is an error.
         if (flock(file->descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
@@ -63,8 +64,7 @@ cleanup:
 
 static bool create_part(PartFile *file, const char *path, double wait, Error *err)
 {
-    TRY(name_part(file, path, err));
-    TRY(open_part(file, path, O_CREAT, wait, err));
+    TRY(open_part(file, path, OPEN_PART, wait, err));
     if (ftruncate(file->descriptor, 0) != 0) {
         int cause = errno;
         part_file_leave(file);
@@ -76,12 +76,19 @@ cleanup:
 
 bool part_file_create(PartFile *file, const char *path, Error *err)
 {
-    return create_part(file, path, LOCK_WAIT, err);
+    return part_file_replace(file, path, false, err);
+}
+
+bool part_file_replace(PartFile *file, const char *path, bool any, Error *err)
+{
+    return name_part(file, path, err) && (any || own_mark_check(path, err)) &&
+           create_part(file, path, LOCK_WAIT, err);
 }
 
 bool part_file_try(PartFile *file, const char *path, Error *err)
 {
-    return create_part(file, path, 0, err);
+    return name_part(file, path, err) && own_mark_check(path, err) &&
+           create_part(file, path, 0, err);
 }
 
 bool part_file_reopen(PartFile *file, const char *path, Error *err)
@@ -89,7 +96,7 @@ bool part_file_reopen(PartFile *file, const char *path, Error *err)
     TRY(name_part(file, path, err));
     if (rename(path, file->part) != 0 && errno != ENOENT)
         FAIL(err, ERROR_FILE, "cannot go on with %s: %s", path, strerror(errno));
-    TRY(open_part(file, path, 0, LOCK_WAIT, err));
+    TRY(open_part(file, path, OPEN_THERE, LOCK_WAIT, err));
 cleanup:
     return error_is_clean(err);
 }
@@ -98,8 +105,7 @@ bool part_file_look(PartFile *file, const char *path, bool finished, Error *err)
 {
     TRY(name_part(file, path, err));
     const char *name = finished ? path : file->part;
-    file->descriptor = open(name, O_RDONLY | O_CLOEXEC);
-    if (file->descriptor < 0) FAIL(err, ERROR_FILE, "cannot read %s: %s", name, strerror(errno));
+    TRY((file->descriptor = open_to_read(name, err)) >= 0);
     file->open = true;
 cleanup:
     return error_is_clean(err);
@@ -130,8 +136,20 @@ bool part_file_commit(PartFile *file, Error *err)
     if (rename(file->part, file->path) != 0)
         FAIL(err, ERROR_FILE, "cannot rename %s to %s: %s", file->part, file->path,
              strerror(errno));
+    open_part_is_whole(file->descriptor);   // behind: until then another writer sees a part
     part_file_leave(file);   // there is no part any more: this only closes
 cleanup:
+    return error_is_clean(err);
+}
+
+bool part_file_put(const char *path, const void *bytes, int64_t size, Error *err)
+{
+    PartFile file = {0};
+    TRY(part_file_create(&file, path, err));
+    TRY(part_file_write(&file, bytes, size, err));
+    TRY(part_file_commit(&file, err));
+cleanup:
+    part_file_discard(&file);
     return error_is_clean(err);
 }
 

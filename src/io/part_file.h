@@ -26,8 +26,10 @@ bool part_file_name(const char *path, char *part);
 
 // Opens an empty `path`.part and locks it against other writers; what a killed process left there
 // is overwritten, and its lock waited for, for a second. ERROR_FILE names the path and the cause,
-// here and below.
+// here and below: also a link, a pipe or somebody's file in the part's place (io/open_file).
+// ERROR_INPUT: `path` is there and is not ours (io/own_mark).
 bool part_file_create(PartFile *file, const char *path, Error *err);
+bool part_file_replace(PartFile *file, const char *path, bool any, Error *err);   // any: of anybody
 bool part_file_try(PartFile *file, const char *path, Error *err);   // the same without waiting
 // Opens what there is of `path` to be gone on with: its .part, or the finished file, which is
 // called .part again until it is committed. ERROR_FILE where there is neither.
@@ -36,6 +38,9 @@ bool part_file_reopen(PartFile *file, const char *path, Error *err);
 // writes it; to leave.
 bool part_file_look(PartFile *file, const char *path, bool finished, Error *err);
 bool part_file_write(PartFile *file, const void *bytes, int64_t size, Error *err);
+
+// All of the above: a small file at once.
+bool part_file_put(const char *path, const void *bytes, int64_t size, Error *err);
 
 // Onto the disk (fsync), then under the final name. A failure leaves it open, to discard or leave.
 bool part_file_commit(PartFile *file, Error *err);

@@ -4,6 +4,7 @@
 #include "io/text_file.h"
 
 #include "base/memory.h"
+#include "io/open_file.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -60,8 +61,7 @@ bool text_file_read(const char *path, int32_t size_max, char **bytes, int32_t *s
     *size = 0;
     FILE *stream = NULL;
     TRY(check_kind(path, size_max, err));
-    stream = fopen(path, "rb");
-    if (!stream) FAIL(err, ERROR_FILE, "cannot read %s: %s", path, strerror(errno));
+    TRY(stream = open_stream(path, err));
     TRY(read_stream(stream, path, size_max, bytes, size, err));
     if (*size >= 3 && memcmp(*bytes, "\xEF\xBB\xBF", 3) == 0) {
         *size -= 3;

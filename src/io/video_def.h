@@ -3,6 +3,7 @@
 #ifndef AMONTONS_IO_VIDEO_DEF_H
 #define AMONTONS_IO_VIDEO_DEF_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 typedef struct VideoDef {
@@ -13,6 +14,7 @@ typedef struct VideoDef {
     // A GIF's colours, [256 * 3] red, green, blue; the last one is kept for what does not change.
     // Others: not asked.
     const uint8_t *palette;
+    bool overwrite;   // also a file that is not ours
 } VideoDef;
 
 #endif

@@ -40,7 +40,7 @@ VideoFile *video_file_create(const VideoDef *def, Error *err)
     TRY(module);
     TRY(file = NEW_ARRAY(VideoFile, 1, err));
     file->module = module();
-    TRY(part_file_create(&file->part, def->path, err));
+    TRY(part_file_replace(&file->part, def->path, def->overwrite, err));
     VideoTarget target = {file->part.descriptor, file->part.part};
     TRY(file->stream = file->module->create(def, &target, err));
     return file;

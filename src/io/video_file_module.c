@@ -4,6 +4,7 @@
 #include "io/video_file_module.h"
 
 #include "base/memory.h"
+#include "io/own_mark.h"
 
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
@@ -195,6 +196,7 @@ static bool track_open(VideoStream *stream, const VideoDef *def, Error *err)
     TRY(check(stream, avcodec_parameters_from_context(stream->track->codecpar, stream->codec),
               "describes no stream", err));
     av_dict_set(&options, "movflags", "+faststart", 0);   // others do not know it
+    av_dict_set(&stream->format->metadata, "comment", OWN_FILM, 0);
     if (def->title && def->title[0]) av_dict_set(&stream->format->metadata, "title", def->title, 0);
     TRY(check(stream, avformat_write_header(stream->format, &options), "writes no header", err));
 cleanup:
@@ -313,12 +315,23 @@ cleanup:
     return error_is_clean(err);
 }
 
+// GIF89a, 24: a comment before the last byte; libav has none.
+static void gif_sign(VideoStream *stream)
+{
+    uint8_t words[] = OWN_FILM, head[] = {'!', 0xfe, sizeof words - 1}, tail[] = {0, ';'};
+    lseek(stream->descriptor, -1, SEEK_END);
+    bytes_write(stream, head, sizeof head);
+    bytes_write(stream, words, sizeof words - 1);
+    bytes_write(stream, tail, sizeof tail);
+}
+
 static bool stream_finish(VideoStream *stream, Error *err)
 {
     TRY(check(stream, avcodec_send_frame(stream->codec, NULL), "cannot end the film", err));
     TRY(packets_write(stream, err));
     TRY(check(stream, av_write_trailer(stream->format), "cannot end the file", err));
     avio_flush(stream->io);
+    if (strcmp(stream->format->oformat->name, "gif") == 0) gif_sign(stream);
     TRY(check(stream, stream->io->error, "cannot end the file", err));
 cleanup:
     return error_is_clean(err);

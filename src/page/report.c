@@ -18,6 +18,7 @@ typedef struct ReportRequest {
     const char *const *results;   // [count]
     int32_t count;
     const char *file;
+    bool overwrite;
 } ReportRequest;
 
 static bool check_folders(const ReportRequest *request, Error *err)
@@ -51,7 +52,7 @@ static bool write_file(void *context, FILE *reply, Error *err)
     HtmlWriter *html = NULL;
     (void)reply;   // the page is a file
     TRY(check_folders(request, err));
-    TRY(html = html_create(request->file, err));
+    TRY(html = html_create(request->file, request->overwrite, err));
     TRY(write_page(request, html, err));
     return html_finish(html, err);
 cleanup:
@@ -71,9 +72,10 @@ static void drop_part(const char *file)
 }
 
 // A stranger's history may crash HDF5, or keep it busy for ever.
-bool amontons_report(const char *const *results, int32_t count, const char *file, Error *err)
+bool amontons_report(const char *const *results, int32_t count, const char *file, bool overwrite,
+                     Error *err)
 {
-    ReportRequest request = {results, count, file};
+    ReportRequest request = {results, count, file, overwrite};
     ApartWork work = {.path = count > 0 ? results[0] : "",
                       .reader = "HDF5 or VTK",
                       .seconds = SECONDS_MAX,

@@ -22,7 +22,7 @@ static void find_path(const char *folder, char path[PATH_SIZE])
 // Runs on several meshes do not go on from one state.
 bool checkpoint_is_kept(const Simulation *simulation)
 {
-    return result_folder_is_ours(&simulation->folder) && !(simulation->scene.accuracy.mu > 0) &&
+    return result_folder_is_settled(&simulation->folder) && !(simulation->scene.accuracy.mu > 0) &&
            simulation->options.checkpoint_every >= 0;
 }
 
@@ -60,7 +60,7 @@ void checkpoint_when_due(Simulation *simulation)
 bool checkpoint_at_end(Simulation *simulation, Error *err)
 {
     char path[PATH_SIZE];
-    if (!result_folder_is_ours(&simulation->folder)) return true;
+    if (!result_folder_is_settled(&simulation->folder)) return true;
     if (checkpoint_is_kept(simulation) && simulation->history.file)
         return checkpoint_now(simulation, err);
     find_path(simulation->folder.path, path);

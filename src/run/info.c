@@ -13,7 +13,7 @@
 #include <sys/stat.h>
 
 // The mesh that the scene names, with its parameters, and where the rod stands.
-static bool info_scene_mesh(const Scene *scene, const char *picture, FILE *out, Error *err)
+static bool info_scene_mesh(const Scene *scene, const InfoOptions *options, FILE *out, Error *err)
 {
     MeshFile file = {0};
     Mesh mesh = {0};
@@ -25,7 +25,7 @@ static bool info_scene_mesh(const Scene *scene, const char *picture, FILE *out, 
     model_rod_strip(scene, mesh.z_max - mesh.z_min, &middle, &width);
     double strip[2] = {middle - 0.5 * width, middle + 0.5 * width};
     const char *unit = scene->units == UNITS_SI ? "m" : "~{L}_{0}";
-    TRY(info_draw_mesh(&mesh, scene->rod.kind == ROD_NONE ? NULL : strip, unit, picture, err));
+    TRY(info_draw_mesh(&mesh, scene->rod.kind == ROD_NONE ? NULL : strip, unit, options, err));
 cleanup:
     mesh_file_destroy(&file);
     mesh_destroy(&mesh);
@@ -54,7 +54,7 @@ static bool info_scene(const char *path, const InfoOptions *options, FILE *out, 
                 scene->friction.mu_static, scene->friction.mu_kinetic,
                 scene->friction.critical_velocity);
     fprintf(out, "\nThe mesh file is %s\n", scene->mesh.file);
-    if (options->picture) TRY(info_scene_mesh(scene, options->picture, out, err));
+    if (options->picture) TRY(info_scene_mesh(scene, options, out, err));
 cleanup:
     amontons_scene_destroy(scene);
     return error_is_clean(err);

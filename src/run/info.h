@@ -12,7 +12,7 @@ bool info_result(const char *folder, FILE *out, Error *err);   // a result folde
 
 // The mesh as a picture; strip: the rod's, z from and to, NULL: none. unit: of lengths, as
 // RenderMesh has it.
-bool info_draw_mesh(const Mesh *mesh, const double strip[2], const char *unit, const char *picture,
-                    Error *err);
+bool info_draw_mesh(const Mesh *mesh, const double strip[2], const char *unit,
+                    const InfoOptions *options, Error *err);
 
 #endif

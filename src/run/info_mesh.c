@@ -106,7 +106,7 @@ bool info_mesh(const char *path, const InfoOptions *options, FILE *out, Error *e
     TRY(mesh_file_read(path, parameters, options->override_count, &file, err));
     TRY(mesh_build(&file, path, &mesh, err));
     info_write_mesh(&mesh, out);
-    if (options->picture) TRY(info_draw_mesh(&mesh, NULL, NULL, options->picture, err));
+    if (options->picture) TRY(info_draw_mesh(&mesh, NULL, NULL, options, err));
 cleanup:
     mesh_file_destroy(&file);
     mesh_destroy(&mesh);
@@ -115,8 +115,8 @@ cleanup:
 }
 
 // strip: the rod's lowest and highest z, length, or NULL. Drawn by the module `render`.
-bool info_draw_mesh(const Mesh *mesh, const double strip[2], const char *unit, const char *picture,
-                    Error *err)
+bool info_draw_mesh(const Mesh *mesh, const double strip[2], const char *unit,
+                    const InfoOptions *options, Error *err)
 {
     char note[200];
     const char *name = strrchr(mesh->path, '/');
@@ -143,11 +143,12 @@ bool info_draw_mesh(const Mesh *mesh, const double strip[2], const char *unit, c
                           .group_count = mesh->group_count,
                           .groups = mesh->groups,
                           .rod_low = strip ? strip[0] : NAN,
-                          .rod_high = strip ? strip[1] : NAN};
+                          .rod_high = strip ? strip[1] : NAN,
+                          .style = {.overwrite = options->overwrite}};
     RenderMeshFunction render =
         (RenderMeshFunction)module_function("render", "amontons_render_mesh", err);
     TRY(render);
-    TRY(render(&request, picture, err));
+    TRY(render(&request, options->picture, err));
 cleanup:
     return error_is_clean(err);
 }

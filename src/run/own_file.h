@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Which files in a result folder are ours: by name, and by what every file of that kind of ours
-// holds. Whatever else lies there belongs to somebody. Called by run/result_folder and study/sweep.
+// Which names a result of ours has in its folder; io/own_mark says whether a file of such a name is
+// ours. Whatever else lies there belongs to somebody. Called by run/result_folder.
 #ifndef AMONTONS_RUN_OWN_FILE_H
 #define AMONTONS_RUN_OWN_FILE_H
 
@@ -15,8 +15,5 @@ const char *own_file_name(int32_t k);
 
 bool own_file_is_figure(const char *name);   // in figures/: force.png
 bool own_file_is_field(const char *name);   // in fields/: bulk_000012.vtu (record/field_files)
-
-// Whether the file `path`, with such a name, was written by us. An empty one has nothing to lose.
-bool own_file_is_ours(const char *path);
 
 #endif

@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Of an earlier result go the files that run/own_file knows to be ours: those that prove a result,
-// the numbered ones in fields/, and the figures. Where a file of such a name is somebody's, a run,
-// which would write over it, is refused. A link in the place of fields/ or figures/ is not followed
-// when files are removed. run.json and the checkpoint go first, so that a run that is killed from
-// here on leaves neither a report of the one before nor half of it to go on with; the history goes
-// last, as the proof.
+// Of an earlier result go the files that run/own_file names and io/own_mark knows to be ours: those
+// that prove a result, the numbered ones in fields/, and the figures. Where a file of such a name
+// is somebody's, a run, which would write over it, is refused. A link in the place of fields/ or
+// figures/ is not followed.
+//
+// They go in two steps: clear moves them into a folder of their own, settle removes that once the
+// new result has begun; without it, release puts them back. Whatever moment a kill meets, the name
+// of that folder says what is to be done by the next who claims the place:
+//   amontons.aside     files were on their way, there or back: back
+//   amontons.earlier   all were there: what the new run left goes, then back
+//   amontons.gone      the new run had begun: they go
 #include "run/result_folder.h"
 
 #include "io/folder.h"
+#include "io/open_file.h"
+#include "io/own_mark.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -24,6 +31,8 @@ enum { PATH_SIZE = PATH_MAX + 300 };
 // moment, with its lock; s.
 static const double LOCK_WAIT = 1;
 static const char LOCK_NAME[] = "amontons.lock", PART[] = ".part";
+static const char ASIDE[] = "amontons.aside", EARLIER[] = "amontons.earlier",
+                  GONE[] = "amontons.gone";
 
 // A file in its place or a folder that cannot be written to is told at once.
 static bool make_folder(const char *folder, Error *err)
@@ -47,22 +56,37 @@ static void strip_part(const char *name, char *bare)
     snprintf(bare, NAME_MAX + 1, "%.*s", (int)length, name);
 }
 
-// The own files of folder/name, told by `is_own`. A folder that is not there, or a link, is left.
-static bool empty_folder(const char *folder, const char *name, bool (*is_own)(const char *),
-                         Error *err)
+// Where the own files of a folder go: `to` is another, or empty: they are removed.
+static bool move_file(const char *from, const char *to, Error *err)
+{
+    int failed = *to ? rename(from, to) : unlink(from);
+    if (failed && errno != ENOENT)
+        FAIL(err, ERROR_FILE, "cannot remove the earlier result %s: %s", from, strerror(errno));
+cleanup:
+    return error_is_clean(err);
+}
+
+// Those of folder/name, told by `is_own`. A folder that is not there, or a link, is left.
+static bool move_folder(const char *folder, const char *to, const char *name,
+                        bool (*is_own)(const char *), Error *err)
 {
     char path[PATH_SIZE], file[PATH_SIZE + NAME_MAX + 1], bare[NAME_MAX + 1];
+    char target[PATH_SIZE + NAME_MAX + 1] = "";
     snprintf(path, sizeof path, "%s/%s", folder, name);
     int opened = open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
     DIR *directory = opened < 0 ? NULL : fdopendir(opened);
     if (!directory) return true;
+    if (*to) {
+        snprintf(target, sizeof target, "%s/%s", to, name);
+        mkdir(target, 0777);   // a failure shows at the first file
+    }
     for (struct dirent *entry = readdir(directory); entry; entry = readdir(directory)) {
         strip_part(entry->d_name, bare);
         snprintf(file, sizeof file, "%s/%s", path, entry->d_name);
         bool part = strcmp(bare, entry->d_name) != 0;
-        if (is_own(bare) && (part || own_file_is_ours(file)) &&
-            unlinkat(opened, entry->d_name, 0) != 0 && errno != ENOENT)
-            FAIL(err, ERROR_FILE, "cannot remove the earlier result %s: %s", file, strerror(errno));
+        if (!is_own(bare) || !(part || own_mark_is_in(file))) continue;
+        if (*to) snprintf(target, sizeof target, "%s/%s/%s", to, name, entry->d_name);
+        TRY(move_file(file, target, err));
     }
 cleanup:
     closedir(directory);
@@ -81,7 +105,7 @@ static bool refuse_taken(const char *folder, const char *name, bool (*is_own)(co
     for (struct dirent *entry = readdir(directory); entry; entry = readdir(directory)) {
         bool may_go = ours_may_go || strncmp(entry->d_name, "accuracy.", 9) == 0;
         snprintf(file, sizeof file, "%s/%s", path, entry->d_name);
-        if (is_own(entry->d_name) && !(may_go && own_file_is_ours(file)))
+        if (is_own(entry->d_name) && !(may_go && own_mark_is_in(file)))
             FAIL(err, ERROR_INPUT,
                  "%s is there, and nothing says that a run wrote it: choose another folder (-o), "
                  "or move it away",
@@ -107,8 +131,8 @@ static bool find_earlier(ResultFolder *folder, char found[PATH_SIZE], Error *err
 {
     char path[PATH_SIZE];
     for (int32_t k = 0; own_path(folder->path, k, path); k++) {
-        if (access(path, F_OK) != 0) continue;
-        if (k % 3 == 0 && !own_file_is_ours(path))
+        if (!open_is_there(path)) continue;
+        if (k % 3 == 0 && !own_mark_is_in(path))
             FAIL(err, ERROR_INPUT,
                  "%s is there, and is none that a run wrote: choose another folder (-o), or move "
                  "it away",
@@ -124,14 +148,17 @@ cleanup:
 static bool take_lock(ResultFolder *folder, Error *err)
 {
     char path[PATH_SIZE], host[65] = "", holder[128] = "";
+    Error ignored = {0};
     snprintf(path, sizeof path, "%s/%s", folder->path, LOCK_NAME);
     if (file_lock_take(&folder->lock, path, LOCK_WAIT)) {
         gethostname(host, sizeof host - 1);
         dprintf(folder->lock.descriptor, "process %ld on %s\n", (long)getpid(), host);
         return true;
     }
-    if (!folder->lock.busy) return true;   // a file system without locks
-    FILE *file = fopen(path, "r");
+    if (!folder->lock.busy && !open_is_there(path)) return true;   // a file system without locks
+    if (!folder->lock.busy)
+        FAIL(err, ERROR_INPUT, "%s is there, and is no lock of ours: move it away", path);
+    FILE *file = open_stream(path, &ignored);
     if (file) {
         if (!fgets(holder, sizeof holder, file)) *holder = 0;
         fclose(file);
@@ -149,14 +176,76 @@ cleanup:
 static bool may_go_on(const char *folder)
 {
     char path[PATH_SIZE], start[128] = "";
+    Error ignored = {0};
     snprintf(path, sizeof path, "%s/%s", folder, CHECKPOINT_FILE);
     if (access(path, F_OK) != 0) return false;
     snprintf(path, sizeof path, "%s/run.json", folder);
-    FILE *report = fopen(path, "r");
+    FILE *report = open_stream(path, &ignored);
     if (!report) return true;
     start[fread(start, 1, sizeof start - 1, report)] = 0;
     fclose(report);
     return !strstr(start, "\"done\"");
+}
+
+// All own files of `folder`, the history last, as the proof.
+static bool move_all(const char *folder, const char *to, Error *err)
+{
+    char path[PATH_SIZE], target[PATH_SIZE] = "";
+    TRY(move_folder(folder, to, "fields", own_file_is_field, err));
+    TRY(move_folder(folder, to, "figures", own_file_is_figure, err));
+    for (int32_t k = 0; own_path(folder, k, path); k++) {
+        if (*to) own_path(to, k, target);
+        TRY(move_file(path, target, err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool rename_aside(const char *folder, const char *from, const char *to, Error *err)
+{
+    char path[PATH_SIZE], target[PATH_SIZE];
+    snprintf(path, sizeof path, "%s/%s", folder, from);
+    snprintf(target, sizeof target, "%s/%s", folder, to);
+    TRY(move_file(path, target, err));
+cleanup:
+    return error_is_clean(err);
+}
+
+// Empties folder/name into `to`, or for good, and removes it.
+static bool end_aside(const char *folder, const char *name, const char *to, Error *err)
+{
+    static const char *const inner[] = {"fields", "figures"};
+    char path[PATH_SIZE], sub[PATH_SIZE + 16];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    TRY(move_all(path, to, err));
+    for (size_t k = 0; k < sizeof inner / sizeof *inner; k++) {
+        snprintf(sub, sizeof sub, "%s/%s", path, inner[k]);
+        rmdir(sub);
+    }
+    rmdir(path);
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool is_folder(const char *folder, const char *name)
+{
+    char path[PATH_SIZE];
+    struct stat what;
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return lstat(path, &what) == 0 && S_ISDIR(what.st_mode);
+}
+
+// What a computation that failed, or was killed, has left aside: see above.
+static bool put_back(const char *folder, Error *err)
+{
+    if (is_folder(folder, GONE)) TRY(end_aside(folder, GONE, "", err));
+    if (is_folder(folder, EARLIER)) {
+        TRY(move_all(folder, "", err));
+        TRY(rename_aside(folder, EARLIER, ASIDE, err));
+    }
+    if (is_folder(folder, ASIDE)) TRY(end_aside(folder, ASIDE, folder, err));
+cleanup:
+    return error_is_clean(err);
 }
 
 bool result_folder_claim(const char *path, bool overwrite, ResultFolder *folder, Error *err)
@@ -171,6 +260,7 @@ bool result_folder_claim(const char *path, bool overwrite, ResultFolder *folder,
     snprintf(found, sizeof found, "%s/%s", path, LOCK_NAME);
     folder->ours_may_go = overwrite || access(found, F_OK) == 0;
     TRY(take_lock(folder, err));
+    TRY(put_back(path, err));
     TRY(find_earlier(folder, found, err));
     if (folder->has_earlier && !overwrite && may_go_on(path))
         FAIL(err, ERROR_INPUT,
@@ -188,27 +278,30 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The own files from number `from` up to number `end`.
-static bool remove_files(const char *folder, int32_t from, int32_t end, Error *err)
+// Also without an earlier result: figures and fields of ours may lie there alone.
+bool result_folder_clear(ResultFolder *folder, Error *err)
 {
     char path[PATH_SIZE];
-    for (int32_t k = 3 * from; k < 3 * end && own_path(folder, k, path); k++)
-        if (unlink(path) != 0 && errno != ENOENT)
-            FAIL(err, ERROR_FILE, "cannot remove the earlier result %s: %s", path, strerror(errno));
+    bool any = folder->has_earlier || is_folder(folder->path, "fields") ||
+               is_folder(folder->path, "figures");
+    if (!folder->ours_may_go || !any) return true;
+    snprintf(path, sizeof path, "%s/%s", folder->path, ASIDE);
+    if (mkdir(path, 0777) != 0)
+        FAIL(err, ERROR_FILE, "cannot make %s for the earlier result: %s", path, strerror(errno));
+    folder->aside = true;
+    TRY(move_all(folder->path, path, err));
+    TRY(rename_aside(folder->path, ASIDE, EARLIER, err));
+    folder->has_earlier = false;
 cleanup:
     return error_is_clean(err);
 }
 
-// Also without an earlier result: figures and fields of ours may lie there alone.
-bool result_folder_clear(ResultFolder *folder, Error *err)
+bool result_folder_settle(ResultFolder *folder, Error *err)
 {
-    enum { STATUS_FILES = 2, FILES_MAX = 1000 };   // report and checkpoint
-    if (!folder->ours_may_go) return true;
-    TRY(remove_files(folder->path, 0, STATUS_FILES, err));
-    TRY(empty_folder(folder->path, "fields", own_file_is_field, err));
-    TRY(empty_folder(folder->path, "figures", own_file_is_figure, err));
-    TRY(remove_files(folder->path, STATUS_FILES, FILES_MAX, err));
-    folder->has_earlier = false;
+    if (!folder->aside) return true;
+    TRY(rename_aside(folder->path, EARLIER, GONE, err));
+    folder->aside = false;
+    TRY(end_aside(folder->path, GONE, "", err));
 cleanup:
     return error_is_clean(err);
 }
@@ -229,6 +322,11 @@ bool result_folder_is_ours(const ResultFolder *folder)
     return folder->path[0] && !folder->has_earlier;
 }
 
+bool result_folder_is_settled(const ResultFolder *folder)
+{
+    return result_folder_is_ours(folder) && !folder->aside;
+}
+
 void amontons_let_go(void)
 {
     file_locks_let_go();
@@ -236,6 +334,8 @@ void amontons_let_go(void)
 
 void result_folder_release(ResultFolder *folder)
 {
+    Error unseen = {0};   // the next who claims the folder tries again
+    if (folder->aside) put_back(folder->path, &unseen);
     file_lock_release(&folder->lock);
     *folder = (ResultFolder){0};
 }

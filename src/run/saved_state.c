@@ -13,11 +13,11 @@
 #include "base/clock.h"
 #include "base/computation.h"
 #include "base/memory.h"
+#include "io/open_file.h"
 #include "io/part_file.h"
 #include "scene/keys.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -319,10 +319,10 @@ bool amontons_state_read(const char *path, SavedState *state, Error *err)
     struct stat status;
     int64_t at = 0;
     *state = (SavedState){0};
-    int descriptor = open(path, O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0 || fstat(descriptor, &status) != 0)
+    int descriptor = open_to_read(path, err);
+    TRY(descriptor >= 0);
+    if (fstat(descriptor, &status) != 0)
         FAIL(err, ERROR_FILE, "cannot read %s: %s", path, strerror(errno));
-    if (!S_ISREG(status.st_mode)) FAIL(err, ERROR_INPUT, "%s is no file", path);
     state->size = status.st_size;
     TRY((state->bytes = memory_bytes(state->size, err)));
     while (at < state->size) {

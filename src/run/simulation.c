@@ -133,15 +133,15 @@ static void tell_stage(void *self, const char *stage)
         simulation->options.on_stage(stage, simulation->options.context);
 }
 
-// From the scene: an earlier result goes, the block relaxes, t = 0 is recorded.
+// From the scene: the block relaxes, an earlier result is set aside, t = 0 is recorded.
 static bool begin_anew(Simulation *simulation, Error *err)
 {
-    TRY(result_folder_clear(&simulation->folder, err));   // the scene can be computed
     tell_stage(simulation, "relaxing");
     double begun = clock_processor_seconds();
     TRY(start_relax(simulation, err));
     simulation->timing.outside -= clock_processor_seconds() - begun;
     TRY(explicit_loop_prepare(simulation, err));
+    TRY(result_folder_clear(&simulation->folder, err));
     TRY(open_recorders(simulation, err));
     TRY(record_step(simulation, err));
     simulation->allocations_before = memory_counters().allocations;
@@ -274,6 +274,15 @@ cleanup:
     return error_is_clean(err);
 }
 
+// With the first step, and what was recorded so far on the disk, an earlier result may go.
+static bool begin_result(Simulation *simulation, Error *err)
+{
+    if (simulation->folder.aside) TRY(history_sync(&simulation->history, err));
+    TRY(result_folder_settle(&simulation->folder, err));
+cleanup:
+    return error_is_clean(err);
+}
+
 // An explicit `step` is one record of many small ones. *finished: the end of the scene, or the
 // periodic regime where the scene asks for it.
 bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *finished, Error *err)
@@ -287,6 +296,7 @@ bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *fini
         TRY(advance_implicit(simulation, err));
     simulation->timing.solve += clock_seconds() - started;
     TRY(record_step(simulation, err));
+    TRY(begin_result(simulation, err));
     bool implicit = simulation->scene.time.scheme != SCHEME_EXPLICIT;
     bool ends = isfinite(simulation->t_end);
     if (implicit && ends) TRY(step_control_gets_on(control, simulation->t_end, err));
@@ -312,7 +322,7 @@ static bool hand_out_report(const Simulation *simulation, const RunReport *repor
     const RunOptions *options = &simulation->options;
     char *text = NULL;
     bool refused = report->failure && report->failure->code == ERROR_INPUT;   // leaves nothing
-    if (writes_results(simulation) && !refused)
+    if (result_folder_is_settled(&simulation->folder) && !refused)
         TRY(report_write(simulation->folder.path, report, err));
     if (!options->on_report) goto cleanup;
     TRY((text = report_text(options->folder ? options->folder : ".", report, err)));
@@ -331,7 +341,8 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
     if (failure)
         fields_flush(&simulation->fields, &second);   // what was computed is written all the same
     else
-        TRY(fields_flush(&simulation->fields, err) && checkpoint_at_end(simulation, err));
+        TRY(begin_result(simulation, err) && fields_flush(&simulation->fields, err) &&
+            checkpoint_at_end(simulation, err));
     simulation->closed = true;
     if (!failure) output_warn_of_window(simulation);
     events_close(&simulation->events, &simulation->seen);
@@ -342,7 +353,7 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
                      &simulation->warnings);
     warnings_of_strain(&simulation->model, answers.mu_max, &simulation->warnings);
     RunCounters counters = summary_count(simulation);
-    if (simulation->history.file) {
+    if (simulation->history.file && !simulation->folder.aside) {
         TRY(output_store_warnings(simulation, err));
         TRY(history_finish(&simulation->history, &simulation->drops, &answers, err));
         TRY(output_draw_figures(simulation, err));

@@ -285,6 +285,7 @@ bool amontons_static(const Scene *scene, const char *folder, bool overwrite, Sta
     *summary = static_summarise(&model, &solution);
     TRY(result_folder_clear(&place, err));
     if (folder) TRY(static_report_write(folder, &model, &solution, summary, err));
+    TRY(result_folder_settle(&place, err));
 cleanup:
     static_solution_destroy(&solution);
     model_destroy(&model);

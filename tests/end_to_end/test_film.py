@@ -193,7 +193,7 @@ class Films(OfHistory):
 class Ends(OfHistory):
     def start(self, path):
         running = subprocess.Popen([PROGRAM, "film", self.result, "-o", path, "--size", "640x360", "--fps", "30", "--seconds",
-                                    "60"], stderr=subprocess.PIPE, text=True, start_new_session=True)
+                                    "60", "--overwrite"], stderr=subprocess.PIPE, text=True, start_new_session=True)
         part = Path(f"{path}.part")
         while running.poll() is None and not part.exists():
             time.sleep(0.01)

@@ -93,6 +93,9 @@ HABITS = [
      r"\b(setlocale|uselocale|signal|sigaction|setenv|unsetenv|putenv|chdir|fchdir|umask|srand)\("),
     ("allocates by itself", r"src/base/memory\.c",
      r"\b(malloc|calloc|realloc|aligned_alloc|strdup|strndup|asprintf)\("),
+    ("opens a file by itself", r"src/io/open_file\.c",   # HDF5, libav, VTK and Cairo get what is open already
+     r'(?<![>.])\b(fopen|freopen|creat|mkstemp|mkostemp|open|openat)\((?!"/dev/null"|"/proc/|[^;]*O_DIRECTORY)'
+     r"|\b(avio_open2?|cairo_surface_write_to_png|cairo_(pdf|svg)_surface_create)\(|\bstd::[io]?fstream|\bO_CREAT\b"),
     ("keeps state in a function", None, r"(?m)^[ \t]+static (?!const )[^(]*?[;=]"),
 ]
 
@@ -128,6 +131,10 @@ class Style(unittest.TestCase):
                 ("    static int32_t calls = 0;", "src/io/a.c", 1),
                 ("    static char buffer[9];", "src/io/a.c", 1),
                 ("    static const double a[] = {1};", "src/io/a.c", 0),
+                ('    file = fopen(path, "w");', "render/a.c", 1), ("    creat(path, 0666);", "src/io/a.c", 1),
+                ("    std::ofstream out(path);", "src/io/a.cc", 1),
+                ("    int file = open(path, O_RDWR | O_CREAT, 0666);", "src/io/open_file.c", 0),
+                ("    open_to_write(path, OPEN_KEPT, why);", "src/io/a.c", 0),
                 ("static Module *opened;", "src/base/module.c", 0)]:
             with self.subTest(line):
                 self.assertEqual(len(bad_habits(place, f"int a;\n\n{line}\n")), count)

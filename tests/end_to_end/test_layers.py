@@ -40,7 +40,7 @@ def allowed(folder, include):
         return include.startswith(("base/", "amontons"))   # the public header and its parts
     if folder == "render":
         return include.startswith(("base/", "render/")) or include in (
-            "io/array_file.h", "io/mesh_file.h", "io/field_read.h", "io/folder.h", "io/part_file.h", "io/html_writer.h", "io/result_file.h",
+            "io/array_file.h", "io/mesh_file.h", "io/field_read.h", "io/folder.h", "io/own_mark.h", "io/part_file.h", "io/html_writer.h", "io/result_file.h",
             "io/video_file.h", "io/yaml_document.h", "io/shape.h")   # fields inside an element
     if folder == "cli":
         return include in PUBLIC or include.startswith("cli/")

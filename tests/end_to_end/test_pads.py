@@ -109,7 +109,7 @@ class Pads(unittest.TestCase):
         strips = []
         for height in (0.2, 0.4):
             code, out, err = amontons("info", self.scene, "--set", "mesh.set.n=3", "--set",
-                                      f"rod.height={height}", "--picture", self.path("mesh.png"))
+                                      f"rod.height={height}", "--picture", self.path("mesh.png"), "--overwrite")
             self.assertEqual((code, err), (0, ""))
             self.assertIn("contact_3", out)
             self.assertNotIn("contact_4 ", out)

@@ -121,7 +121,7 @@ static bool report(Error *err)
 {
     char page[PLACE_SIZE + 20];
     snprintf(page, sizeof page, "%s/page.html", place);
-    return amontons_report((const char *const[]){result}, 1, page, err);
+    return amontons_report((const char *const[]){result}, 1, page, false, err);
 }
 
 static bool draw_sweep(Error *err)
@@ -179,7 +179,7 @@ static bool compare(Error *err)
 {
     char page[PLACE_SIZE + 20];
     snprintf(page, sizeof page, "%s/page.html", place);
-    return amontons_report((const char *const[]){result, result}, 2, page, err);
+    return amontons_report((const char *const[]){result, result}, 2, page, false, err);
 }
 
 // --- and how it may end -------------------------------------------------------------------------

@@ -290,6 +290,7 @@ bool amontons_model1d(const Scene *scene, const Model1dOptions *options, Model1d
         snprintf(summary->folder, sizeof summary->folder, "%s", options->folder);
         TRY(model1d_write(&simulation, summary, err));
     }
+    TRY(result_folder_settle(&folder, err));
     for (int32_t k = 0; options->on_point && k < simulation.point_count; k++)
         options->on_point(&simulation.points[k], options->context);
 cleanup:

@@ -328,6 +328,7 @@ bool amontons_stability(const Scene *scene, const StabilityOptions *options,
         snprintf(summary->folder, sizeof summary->folder, "%s", options->folder);
         TRY(stability_write(&path, summary, err));
     }
+    TRY(result_folder_settle(&folder, err));
 cleanup:
     path_destroy(&path);
     result_folder_release(&folder);

@@ -6,6 +6,8 @@
 
 #include "base/hash.h"
 #include "base/memory.h"
+#include "io/open_file.h"
+#include "io/own_mark.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -19,9 +21,17 @@ enum { HASH_LENGTH = HASH_TEXT_SIZE - 1, HEAD_LENGTH = 2 * (HASH_LENGTH + 1) };
 
 bool reports_open(Reports *reports, const char *path, bool anew, Error *err)
 {
+    char why[OPEN_WHY_SIZE];
     *reports = (Reports){0};
-    int file = open(path, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | (anew ? O_TRUNC : 0), 0666);
-    if (file < 0) FAIL(err, ERROR_FILE, "cannot write %s: %s", path, strerror(errno));
+    TRY(own_mark_check(path, err));
+    int file = open_to_write(path, OPEN_KEPT, why);
+    if (file < 0) FAIL(err, ERROR_FILE, "cannot write %s: %s", path, why);
+    fcntl(file, F_SETFL, O_APPEND);
+    if (anew && ftruncate(file, 0) != 0) {
+        int cause = errno;
+        close(file);
+        FAIL(err, ERROR_FILE, "cannot write %s: %s", path, strerror(cause));
+    }
     *reports = (Reports){.open = true, .file = file};
 cleanup:
     return error_is_clean(err);

@@ -4,6 +4,7 @@
 #include "study/sweep/share.h"
 
 #include "base/memory.h"
+#include "io/part_file.h"
 #include "io/text_file.h"
 #include "study/sweep/pool.h"
 
@@ -24,15 +25,18 @@ static void share_path(const Sweep *sweep, int32_t share, const char *what,
 bool share_write(const Sweep *sweep, int32_t share, const int32_t *points, int32_t count,
                  int32_t step, Error *err)
 {
-    char path[SHARE_PATH_SIZE];
+    char path[SHARE_PATH_SIZE], *text = NULL;
+    size_t size = 0;
+    FILE *file = open_memstream(&text, &size);
     share_path(sweep, share, "points", path);
-    FILE *file = fopen(path, "w");
-    if (!file) FAIL(err, ERROR_FILE, "cannot write %s: %s", path, strerror(errno));
+    if (!file) FAIL(err, ERROR_MEMORY, "no memory for %s", path);
     for (int32_t k = share; k < count; k += step)
         fprintf(file, "%d %s %d\n", points[k], sweep->points[points[k]].hash,
                 sweep->points[points[k]].runs);
-    if (fclose(file) != 0) FAIL(err, ERROR_FILE, "cannot write %s: %s", path, strerror(errno));
+    if (fclose(file) != 0) FAIL(err, ERROR_MEMORY, "no memory for %s", path);
+    TRY(part_file_put(path, text, (int64_t)size, err));
 cleanup:
+    free(text);
     return error_is_clean(err);
 }
 

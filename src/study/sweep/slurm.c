@@ -11,6 +11,7 @@
 #include "base/memory.h"
 #include "io/folder.h"
 #include "io/json_reader.h"
+#include "io/open_file.h"
 #include "io/text_file.h"
 #include "study/sweep/element.h"
 #include "study/sweep/pool.h"
@@ -19,7 +20,6 @@
 #include "study/sweep/tally.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <math.h>
 #include <string.h>
 #include <unistd.h>
@@ -261,12 +261,12 @@ static void end(SlurmRun *run)
 // The file `running` exists as long as jobs may be in the queue.
 static bool mark_running(const SlurmRun *run, Error *err)
 {
-    char path[POINT_PATH_SIZE];
+    char path[POINT_PATH_SIZE], why[OPEN_WHY_SIZE];
     slurm_path(&run->jobs, "", path, sizeof path);
     TRY(folder_make(path, err));
     slurm_path(&run->jobs, "running", path, sizeof path);
-    int file = open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-    if (file < 0) FAIL(err, ERROR_FILE, "cannot write %s: %s", path, strerror(errno));
+    int file = open_to_write(path, OPEN_KEPT, why);
+    if (file < 0) FAIL(err, ERROR_FILE, "cannot write %s: %s", path, why);
     close(file);
 cleanup:
     return error_is_clean(err);

@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/place.h"
 #include "base/program.h"
+#include "io/part_file.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -132,18 +133,20 @@ cleanup:
 
 bool slurm_write_script(const char *path, const char *list, Error *err)
 {
-    char program[PATH_MAX] = "";
-    FILE *file = NULL;
+    char program[PATH_MAX] = "", *text = NULL;
+    size_t size = 0;
     TRY(find_program(program, err));
-    if (!(file = fopen(path, "w")))
-        FAIL(err, ERROR_FILE, "cannot write %s: %s", path, strerror(errno));
+    FILE *file = open_memstream(&text, &size);
+    if (!file) FAIL(err, ERROR_MEMORY, "no memory for %s", path);
     fprintf(file, "#!/bin/sh\n#SBATCH --ntasks=1\n#SBATCH --cpus-per-task=1\nexec ");
     print_quoted(file, program);
     fprintf(file, " sweep --element ");
     print_quoted(file, list);
     fprintf(file, "\n");
-    if (fclose(file) != 0) FAIL(err, ERROR_FILE, "cannot write %s: %s", path, strerror(errno));
+    if (fclose(file) != 0) FAIL(err, ERROR_MEMORY, "no memory for %s", path);
+    TRY(part_file_put(path, text, (int64_t)size, err));
 cleanup:
+    free(text);
     return error_is_clean(err);
 }
 

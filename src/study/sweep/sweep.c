@@ -5,7 +5,8 @@
 #include "base/dense.h"
 #include "base/memory.h"
 #include "io/folder.h"
-#include "run/own_file.h"
+#include "io/open_file.h"
+#include "io/own_mark.h"
 #include "study/sweep/figure_plot.h"
 #include "study/sweep/figure_ranking.h"
 #include "study/sweep/pool.h"
@@ -18,7 +19,6 @@
 #include "study/sweep/tally.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <string.h>
 #include <sys/file.h>
 #include <time.h>
@@ -38,19 +38,31 @@ static bool take_lock(int descriptor)
     return true;
 }
 
-// What has the name of one of the sweep's tables and is none is not written over.
-static bool refuse_taken(const char *folder, Error *err)
+static bool refuse_taken_figure(const char *folder, const char *name, Error *err)
+{
+    static const char *const endings[] = {"json", "h5", "png"};
+    char path[POINT_PATH_SIZE];
+    for (size_t k = 0; k < sizeof endings / sizeof endings[0]; k++) {
+        snprintf(path, sizeof path, "%s/figures/%.200s.%s", folder, name, endings[k]);
+        TRY(own_mark_check(path, err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// What has the name of one of the sweep's tables or figures and is none is told before hours of
+// computing, not behind them.
+static bool refuse_taken(const Sweep *sweep, Error *err)
 {
     static const char *const tables[] = {"sweep.csv", "sweep.h5", "ranking.csv"};
     char path[POINT_PATH_SIZE];
     for (size_t k = 0; k < sizeof tables / sizeof tables[0]; k++) {
-        snprintf(path, sizeof path, "%s/%s", folder, tables[k]);
-        if (access(path, F_OK) == 0 && !own_file_is_ours(path))
-            FAIL(err, ERROR_INPUT,
-                 "%s is there, and is none that a sweep wrote: choose another folder (-o), or move "
-                 "it away",
-                 path);
+        snprintf(path, sizeof path, "%s/%s", sweep->folder, tables[k]);
+        TRY(own_mark_check(path, err));
     }
+    if (sweep->study.rank.wanted) TRY(refuse_taken_figure(sweep->folder, "ranking", err));
+    for (int32_t k = 0; k < sweep->study.plot_count; k++)
+        TRY(refuse_taken_figure(sweep->folder, sweep->study.plots[k].name, err));
 cleanup:
     return error_is_clean(err);
 }
@@ -58,22 +70,21 @@ cleanup:
 // The system removes the lock when the process ends, however it ends.
 static bool take_folder(Sweep *sweep, Error *err)
 {
-    char path[POINT_PATH_SIZE];
+    char path[POINT_PATH_SIZE], why[OPEN_WHY_SIZE];
     if (snprintf(sweep->folder, sizeof sweep->folder, "%s", sweep->options->folder) >=
         (int)sizeof sweep->folder)
         FAIL(err, ERROR_INPUT, "the path of the sweep's folder is too long");
     snprintf(path, sizeof path, "%s%s", sweep->folder, sweep->study.keep_table ? "" : "/points");
     TRY(folder_make(path, err));
     snprintf(path, sizeof path, "%s/lock", sweep->folder);
-    sweep->lock = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (sweep->lock < 0)
-        FAIL(err, ERROR_FILE, "cannot write into %s: %s", sweep->folder, strerror(errno));
+    sweep->lock = open_to_write(path, OPEN_KEPT, why);
+    if (sweep->lock < 0) FAIL(err, ERROR_FILE, "cannot write into %s: %s", sweep->folder, why);
     if (!take_lock(sweep->lock))
         FAIL(err, ERROR_FILE,
              "another sweep is running in %s: wait for it, or choose another "
              "folder (-o)",
              sweep->folder);
-    TRY(refuse_taken(sweep->folder, err));
+    TRY(refuse_taken(sweep, err));
 cleanup:
     return error_is_clean(err);
 }

@@ -23,7 +23,7 @@ static char *written(void (*write)(HtmlWriter *html))
     Error err = {0};
     char *text = NULL;
     int32_t size = 0;
-    HtmlWriter *html = html_create(PATH, &err);
+    HtmlWriter *html = html_create(PATH, false, &err);
     assert_non_null(html);
     write(html);
     assert_int_not_equal(access(PATH, F_OK), 0);   // no half file under the final name
@@ -125,7 +125,7 @@ static void a_failure_leaves_no_file(void **state)
 {
     Error err = {0};
     (void)state;
-    HtmlWriter *html = html_create(PATH, &err);
+    HtmlWriter *html = html_create(PATH, false, &err);
     assert_non_null(html);
     write_too_much(html);
     assert_false(html_finish(html, &err));

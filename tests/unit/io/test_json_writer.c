@@ -28,7 +28,7 @@ static int make_folder(void **state)
     (void)state;
     snprintf(folder, sizeof folder, "/tmp/amontons_json_XXXXXX");
     if (!mkdtemp(folder)) return -1;
-    snprintf(path, sizeof path, "%s/run.json", folder);
+    snprintf(path, sizeof path, "%s/document", folder);
     snprintf(part, sizeof part, "%s.part", path);
     return 0;
 }
@@ -208,7 +208,7 @@ static void assert_refused(JsonWriter *json, ErrorCode code, const char *words)
     Error err = {0};
     assert_false(json_finish(json, &err));
     assert_int_equal(err.code, code);
-    if (!strstr(err.message, words) || !strstr(err.message, "run.json"))
+    if (!strstr(err.message, words) || !strstr(err.message, "document"))
         fail_msg("not the error expected (%s): %s", words, err.message);
     assert_false(exists(part));
 }

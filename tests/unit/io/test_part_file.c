@@ -119,6 +119,34 @@ static void a_writer_that_ends_is_waited_for(void **state)
     close(ends[1]);
 }
 
+// Through none of these may anything be written: a link, a pipe that nobody reads, a second name,
+// somebody's file.
+static void what_stands_in_the_place_of_the_part(void **state)
+{
+    (void)state;
+    char mine[140];
+    Error err = {0};
+    PartFile file;
+    snprintf(mine, sizeof mine, "%s/mine", folder);
+    FILE *stream = fopen(mine, "w");
+    assert_true(stream && fputs("mine", stream) >= 0 && fclose(stream) == 0);
+    static const char *const words[] = {"a symbolic link", "a pipe (FIFO)", "a second name",
+                                        "nothing says that amontons left it"};
+    for (int k = 0; k < 4; k++) {
+        if (k == 0) assert_int_equal(symlink(mine, part), 0);
+        if (k == 1) assert_int_equal(mkfifo(part, 0600), 0);
+        if (k == 2) assert_int_equal(link(mine, part), 0);
+        if (k == 3) assert_int_equal(rename(mine, part), 0);
+        error_clear(&err);
+        assert_false(part_file_create(&file, path, &err));
+        assert_int_equal(err.code, ERROR_FILE);
+        if (!strstr(err.message, words[k])) fail_msg("%s", err.message);
+        part_file_discard(&file);
+        assert_content(k < 3 ? mine : part, "mine");
+        unlink(part);
+    }
+}
+
 static void two_writers_do_not_meet(void **state)
 {
     (void)state;
@@ -216,6 +244,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(commit_gives_the_name_and_leave_does_not, forget_files),
         cmocka_unit_test(a_writer_that_ends_is_waited_for),
+        cmocka_unit_test_teardown(what_stands_in_the_place_of_the_part, forget_files),
         cmocka_unit_test_teardown(two_writers_do_not_meet, forget_files),
         cmocka_unit_test_teardown(a_reader_keeps_the_file_it_opened, forget_files),
         cmocka_unit_test_teardown(a_failed_commit_keeps_what_was_written, forget_files),

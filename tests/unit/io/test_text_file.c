@@ -64,7 +64,8 @@ static void test_byte_order_mark(void **state)
     memory_free(bytes);
 }
 
-// A pipe says 0 bytes and has more: refused when they have come, like a file that is too long.
+// A pipe of the shell, <(command), says 0 bytes and has more: refused when they have come, like a
+// file that is too long.
 static void test_pipe(void **state)
 {
     (void)state;
@@ -72,14 +73,21 @@ static void test_pipe(void **state)
         Error err = {0};
         char *bytes = NULL;
         int32_t size = 0;
-        unlink(path);
-        assert_int_equal(mkfifo(path, 0600), 0);
+        int ends[2];
+        char name[32];
+        assert_int_equal(pipe(ends), 0);
+        snprintf(name, sizeof name, "/dev/fd/%d", ends[0]);
+        write_bytes(5000);
         pid_t writer = fork();
         if (writer == 0) {
-            write_bytes(5000);
-            _exit(0);
+            char all[5000];
+            FILE *file = fopen(path, "rb");
+            bool whole = fread(all, 1, sizeof all, file) == sizeof all;
+            _exit(whole && write(ends[1], all, sizeof all) == sizeof all ? 0 : 1);
         }
-        bool read = text_file_read(path, most, &bytes, &size, &err);
+        close(ends[1]);
+        bool read = text_file_read(name, most, &bytes, &size, &err);
+        close(ends[0]);
         waitpid(writer, NULL, 0);
         assert_int_equal(read, most == 5000);
         if (read) check_bytes(bytes, size, 5000);
@@ -87,6 +95,21 @@ static void test_pipe(void **state)
         memory_free(bytes);
         unlink(path);
     }
+}
+
+// Nobody may ever write into it.
+static void test_named_pipe(void **state)
+{
+    (void)state;
+    Error err = {0};
+    char *bytes = NULL;
+    int32_t size = 0;
+    unlink(path);
+    assert_int_equal(mkfifo(path, 0600), 0);
+    assert_false(text_file_read(path, 100, &bytes, &size, &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+    assert_non_null(strstr(err.message, "is a pipe (FIFO), not a file"));
+    unlink(path);
 }
 
 static void expect_refused(const char *name, int32_t most, const char *words)
@@ -146,7 +169,8 @@ static int remove_folder(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sizes), cmocka_unit_test(test_byte_order_mark),
-        cmocka_unit_test(test_pipe), cmocka_unit_test(test_refused), cmocka_unit_test(test_memory)};
+        cmocka_unit_test(test_sizes),   cmocka_unit_test(test_byte_order_mark),
+        cmocka_unit_test(test_pipe),    cmocka_unit_test(test_named_pipe),
+        cmocka_unit_test(test_refused), cmocka_unit_test(test_memory)};
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -279,7 +279,7 @@ static void vector_files_run_out_of_memory(void **state)
             memory_fail_after(k);
             Canvas *page = canvas_create(&def, &err);
             if (page) shape_disc(page, BLACK, (Point){100, 100}, 50);
-            done = page && canvas_write(page, path, "a disc", &err);
+            done = page && canvas_write(page, path, "a disc", false, &err);
             memory_fail_after(-1);
             canvas_destroy(page);
             unlink(path);

@@ -15,7 +15,7 @@ static bool prepare(const char *path, bool overwrite, Error *err)
 {
     ResultFolder folder = {0};
     bool done = result_folder_claim(path, overwrite, &folder, err) &&
-                result_folder_clear(&folder, err);
+                result_folder_clear(&folder, err) && result_folder_settle(&folder, err);
     result_folder_release(&folder);
     return done;
 }
@@ -34,20 +34,28 @@ static const char *ours(const char *name)
     static const char *const held[][2] = {{".json", "{\n  \"status\": \"done\",\n"},
                                           {"checkpoint.bin", "amontons-state 1\n"},
                                           {".h5", "\x89HDF\r\n nodes series contact"},
-                                          {".pvd", "<DataSet file=\"fields/b.vtu\"/>"},
+                                          {".pvd", "  <Collection>\n  </Collection>\n"},
                                           {".vtu", "<DataArray Name=\"stress_elastic\"/>"},
                                           {".vtp", "<DataArray Name=\"slip_rate\"/>"}};
     if (strcmp(name, "figures/accuracy.json") == 0) return "{\"x\": {\"label\": \"contact nodes\"";
     for (size_t k = 0; k < sizeof held / sizeof *held; k++)
         if (text_ends_with(name, held[k][0])) return held[k][1];
-    return "Software amontons 0.2.0";
+    if (text_ends_with(name, ".html")) return "<meta name='generator' content='amontons 0.2.0'>";
+    if (text_ends_with(name, ".svg")) return "<svg/><!-- amontons 0.2.0 -->";
+    return "/Creator (amontons 0.2.0)";
 }
 
 static void write_ours(const char *const *names, size_t count)
 {
     mkdir(place_path(place, "fields"), 0777);
     mkdir(place_path(place, "figures"), 0777);
-    for (size_t k = 0; k < count; k++) place_write(place, names[k], ours(names[k]));
+    for (size_t k = 0; k < count; k++) {
+        static const char png[] = "Software\0amontons 0.2.0";
+        place_write(place, names[k], ours(names[k]));
+        if (!text_ends_with(names[k], ".png")) continue;
+        FILE *file = fopen(place_path(place, names[k]), "wb");
+        assert_true(fwrite(png, sizeof png, 1, file) == 1 && fclose(file) == 0);
+    }
 }
 
 static void write_theirs(const char *const *names, size_t count)
@@ -210,7 +218,7 @@ static void test_cleared_late_and_not_through_links(void **state)
     ResultFolder folder;
     char elsewhere[PLACE_SIZE];
     place_make(elsewhere);
-    place_write(elsewhere, "force.png", ours("force.png"));
+    place_write(elsewhere, "force.svg", ours("force.svg"));
     place_write(place, "run.json", ours("run.json"));
     assert_int_equal(symlink(elsewhere, place_path(place, "figures")), 0);
     assert_true(result_folder_claim(place, true, &folder, &err));
@@ -219,9 +227,43 @@ static void test_cleared_late_and_not_through_links(void **state)
     assert_true(result_folder_clear(&folder, &err));
     assert_true(result_folder_is_ours(&folder));
     assert_false(place_has(place, "run.json"));
-    assert_true(place_has(elsewhere, "force.png"));
+    assert_true(place_has(elsewhere, "force.svg"));
     result_folder_release(&folder);
     place_remove(elsewhere);
+}
+
+// What was cleared is back where the new computation did not come to its first step, also where it
+// was killed: `moment` is the name that its folder has then.
+static void test_back_until_settled(void **state)
+{
+    (void)state;
+    Error err = {0};
+    ResultFolder folder;
+    static const char *const moments[] = {"amontons.aside", "amontons.earlier", "amontons.gone"};
+    for (size_t k = 0; k < 4; k++) {
+        write_ours(OWN, OWN_COUNT);
+        assert_true(result_folder_claim(place, true, &folder, &err));
+        assert_true(result_folder_clear(&folder, &err));
+        expect_all(OWN, OWN_COUNT, false);
+        assert_false(result_folder_is_settled(&folder));
+        place_write(place, "history.h5.journal", "new");
+        char now[PLACE_SIZE + 40];
+        snprintf(now, sizeof now, "%s", place_path(place, "amontons.earlier"));
+        if (k < 3) {
+            folder.aside = false;   // killed
+            assert_int_equal(rename(now, place_path(place, moments[k])), 0);
+        }
+        result_folder_release(&folder);
+        if (k < 3) expect_all(OWN, OWN_COUNT, false);
+        if (k < 3) assert_true(result_folder_claim(place, true, &folder, &err));
+        result_folder_release(&folder);
+        expect_all(OWN, OWN_COUNT, k != 2);
+        assert_int_equal(place_has(place, "history.h5.journal"), k == 0 || k == 2);
+        assert_false(place_has(place, "amontons.earlier") || place_has(place, "amontons.aside") ||
+                     place_has(place, "amontons.gone"));
+        assert_true(prepare(place, true, &err));
+        expect_all(OWN, OWN_COUNT, false);
+    }
 }
 
 // The second of two is told who holds the folder; when that has let go, it may.
@@ -291,6 +333,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_pictures_of_ours_alone, begin, end),
         cmocka_unit_test_setup_teardown(test_a_stopped_search_may_begin_anew, begin, end),
         cmocka_unit_test_setup_teardown(test_cleared_late_and_not_through_links, begin, end),
+        cmocka_unit_test_setup_teardown(test_back_until_settled, begin, end),
         cmocka_unit_test_setup_teardown(test_one_computation_at_a_time, begin, end),
         cmocka_unit_test_setup_teardown(test_locks, begin, end),
         cmocka_unit_test_setup_teardown(test_impossible_folders, begin, end),

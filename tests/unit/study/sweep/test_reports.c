@@ -35,7 +35,7 @@ static void open_here(const char *place, bool anew, Reports *reports, Found *fou
 {
     Error err = {0};
     *found = (Found){0};
-    assert_true(reports_open(reports, place_path(place, "reports"), anew, &err));
+    assert_true(reports_open(reports, place_path(place, "lines"), anew, &err));
     if (!reports_list(reports, take, found, &err)) fail_msg("%s", err.message);
 }
 
@@ -79,7 +79,7 @@ static void test_lines(void **state)
     assert_report(&reports, first, "{\"x\": 1}");
     reports_close(&reports);
 
-    FILE *file = fopen(place_path(place, "reports"), "a");
+    FILE *file = fopen(place_path(place, "lines"), "a");
     fprintf(file, "somebody's own line\n%s \n%s {\"cut o", a, a);
     fclose(file);
     open_here(place, false, &reports, &found);
