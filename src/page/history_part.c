@@ -4,6 +4,8 @@
 #include "base/memory.h"
 #include "base/module.h"
 #include "base/text.h"
+#include "io/file_lock.h"
+#include "io/open_file.h"
 #include "io/result_file.h"
 
 #include <dirent.h>
@@ -213,10 +215,15 @@ bool events_write(HtmlWriter *html, const RunSource *run, const RenderFrames *fr
 
 // --- film ----------------------------------------------------------------------------------------
 
-// What browsers play first.
-static const struct {
-    const char *ending, *type;
-} FILMS[] = {{".mp4", "video/mp4"}, {".webm", "video/webm"}, {".gif", "image/gif"}};
+// What browsers play first; how each kind begins, `at` so many bytes.
+typedef struct FilmKind {
+    const char *ending, *type, *begins;
+    int32_t at;
+} FilmKind;
+
+static const FilmKind FILMS[] = {{".mp4", "video/mp4", "ftyp", 4},
+                                 {".webm", "video/webm", "\x1a\x45\xdf\xa3", 0},
+                                 {".gif", "image/gif", "GIF8", 0}};
 enum { FILM_KINDS = sizeof FILMS / sizeof *FILMS };
 
 bool film_find(const char *folder, char *name)
@@ -236,19 +243,29 @@ bool film_find(const char *folder, char *name)
     return best < FILM_KINDS;
 }
 
-static const char *type_of(const char *name)
+static const FilmKind *kind_of(const char *name)
 {
-    for (int32_t k = 0; k < FILM_KINDS; ++k)
-        if (text_ends_with(name, FILMS[k].ending)) return FILMS[k].type;
-    return "application/octet-stream";
+    const FilmKind *kind = FILMS;
+    while (kind < FILMS + FILM_KINDS - 1 && !text_ends_with(name, kind->ending)) ++kind;
+    return kind;
 }
 
-// *bytes: NULL where the film is too large to be inside of the page; else owned by the caller.
-static bool read_film(const char *path, uint8_t **bytes, int64_t *size, Error *err)
+// *bytes: NULL where the film is too large to be inside of the page; else owned by the caller. The
+// page may be sent to somebody: of a stranger's result nothing goes into it but a film that lies
+// there, no file of ours that a link of that name leads to.
+static bool read_film(const char *path, const FilmKind *kind, uint8_t **bytes, int64_t *size,
+                      Error *err)
 {
-    FILE *file = fopen(path, "rb");
+    char head[8] = "";
+    FILE *file = open_stream(path, err);
     *bytes = NULL;
-    if (!file || fseek(file, 0, SEEK_END) != 0 || (*size = ftell(file)) < 0)
+    TRY(file);
+    if (!file_is_named(path, fileno(file)))
+        FAIL(err, ERROR_INPUT, "%s is a link: what it leads to is not put into a page", path);
+    if (fread(head, 1, sizeof head, file) < sizeof head ||
+        memcmp(head + kind->at, kind->begins, strlen(kind->begins)) != 0)
+        FAIL(err, ERROR_INPUT, "%s does not begin as %s does", path, kind->type);
+    if (fseek(file, 0, SEEK_END) != 0 || (*size = ftell(file)) < 0)
         FAIL(err, ERROR_FILE, "cannot read %s: %s", path, strerror(errno));
     if (*size > FILM_MOST) goto cleanup;
     rewind(file);
@@ -275,14 +292,14 @@ bool film_write(HtmlWriter *html, const char *folder, const char *name, Error *e
     char path[PATH_MAX];
     uint8_t *bytes = NULL;
     int64_t size = 0;
-    const char *type = type_of(name);
+    const FilmKind *kind = kind_of(name);
     if (!folder_holds(folder, name, path)) return true;
-    TRY(read_film(path, &bytes, &size, err));
+    TRY(read_film(path, kind, &bytes, &size, err));
     if (bytes) {
-        bool moves = strncmp(type, "video", 5) == 0;
+        bool moves = strncmp(kind->type, "video", 5) == 0;
         html_markup(html, moves ? "<video controls preload='metadata' src='"
                                 : "<img class='paper' alt='The run as a film' src='");
-        html_data(html, type, bytes, size);
+        html_data(html, kind->type, bytes, size);
         html_markup(html, moves ? "'></video>\n" : "'>\n");
     }
     html_markup(html, "<p class='note'>%s <a href='./",

@@ -16,7 +16,7 @@ static char *page_of(const char *const *results, int32_t count)
     Error err = {0};
     int64_t live = memory_counters().live;
     snprintf(file, sizeof file, "%s/page.html", place);
-    if (!amontons_report(results, count, file, &err)) fail_msg("%s", err.message);
+    if (!amontons_report(results, count, file, false, &err)) fail_msg("%s", err.message);
     assert_int_equal(memory_counters().live, live);
     place_read(place, "page.html", text, sizeof text);
     unlink(file);
@@ -49,7 +49,7 @@ static void refuse(const char *const *results, int32_t count, const char *words)
     char file[PLACE_SIZE + 20];
     Error err = {0};
     snprintf(file, sizeof file, "%s/page.html", place);
-    assert_false(amontons_report(results, count, file, &err));
+    assert_false(amontons_report(results, count, file, false, &err));
     assert_int_equal(err.code, ERROR_INPUT);
     if (!strstr(err.message, words)) fail_msg("%s", err.message);
     assert_false(place_has(place, "page.html") || place_has(place, "page.html.part"));
@@ -68,6 +68,7 @@ static void test_refused(void **state)
     place_write(place, "sweep.csv", "status,b\ndone,2\n");
     refuse(results, 1, "is no table of a sweep");
     place_write(place, "page.html.part", "of a process that crashed");
+    assert_int_equal(chmod(place_path(place, "page.html.part"), 01644), 0);   // as ours are
     refuse(results, 1, "is no table of a sweep");
 }
 
@@ -81,17 +82,36 @@ static void test_run_of_a_report_alone(void **state)
                 "\"none\": []},\n    \"friction\": {\"law\": \"coulomb\", \"mu_static\": 0.5},\n"
                 "    \"output\": {\"history\": false, \"end\": null}\n  },\n"
                 "  \"results\": {\"mu_M\": -0.25, \"mu_M_error\": 0.003}\n}\n");
-    place_write(place, "b.webm", "film");
+    place_write(place, "b.webm", "\x1a\x45\xdf\xa3 a film");   // EBML's first bytes (RFC 8794)
     place_write(place, "c.gif", "GIF89a");
     const char *page = page_here();
     expect(page, "By &lt;hand&gt;");
     expect_not(page, "<hand>");
     expect(page, "<video controls");
-    expect(page, "data:video/webm;base64,ZmlsbQ==");   // coreutils' base64 of "film"
+    expect(page, "data:video/webm;base64,GkXfoyBhIGZpbG0=");   // coreutils' base64 of it
     expect(page, "\u22120.250");
     expect(page, "the mesh\u2019s error is not known");
     expect(page, "[&quot;a&quot;, &quot;b&quot;]");   // of a list of several lines one
     expect_not(page, "id='events'");
+}
+
+// The page is meant to be sent.
+static void test_films_that_are_none(void **state)
+{
+    (void)state;
+    char link[2 * PLACE_SIZE];
+    place_write(place, "run.json", "{\"status\": \"done\"}");
+    place_write(place, "secret", "GIF89a but mine");
+    snprintf(link, sizeof link, "%s", place_path(place, "film.gif"));
+    assert_int_equal(symlink(place_path(place, "secret"), link), 0);
+    const char *page = page_here();
+    expect(page, "is a link");
+    expect_not(page, "data:image/gif");
+    assert_int_equal(unlink(link), 0);
+    place_write(place, "film.gif", "my diary");
+    page = page_here();
+    expect(page, "does not begin as image/gif does");
+    expect_not(page, "data:image/gif");
 }
 
 static void test_run_that_failed(void **state)
@@ -255,6 +275,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_refused, begin, end),
         cmocka_unit_test_setup_teardown(test_run_of_a_report_alone, begin, end),
+        cmocka_unit_test_setup_teardown(test_films_that_are_none, begin, end),
         cmocka_unit_test_setup_teardown(test_run_that_failed, begin, end),
         cmocka_unit_test_setup_teardown(test_sweep_that_has_not_begun, begin, end),
         cmocka_unit_test_setup_teardown(test_sweep_that_is_done, begin, end),
