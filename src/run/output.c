@@ -160,3 +160,11 @@ bool output_draw_figures(Simulation *simulation, Error *err)
     simulation->figures_seconds = clock_seconds() - started;
     return true;
 }
+
+bool output_begin_result(Simulation *simulation, Error *err)
+{
+    if (simulation->folder.aside) TRY(history_sync(&simulation->history, err));
+    TRY(result_folder_settle(&simulation->folder, err));
+cleanup:
+    return error_is_clean(err);
+}

@@ -11,4 +11,7 @@ void output_warn_of_window(Simulation *simulation);   // where nothing lay in it
 bool output_store_warnings(Simulation *simulation, Error *err);   // before the history's finish
 bool output_draw_figures(Simulation *simulation, Error *err);   // from the finished history
 
+// With the first step, and what was recorded so far on the disk, an earlier result may go.
+bool output_begin_result(Simulation *simulation, Error *err);
+
 #endif

@@ -25,12 +25,6 @@
 // lie this many times (crossing time + viscous time) back.
 static const double QUIET_TIME = 20;
 
-// A caller who steps by himself may want no files at all (RunOptions.folder NULL).
-static bool writes_results(const Simulation *simulation)
-{
-    return result_folder_is_ours(&simulation->folder);
-}
-
 // A Recorder, the last one: the caller sees a step when everything else has.
 static bool report_step(void *self, const Observation *seen, Error *err)
 {
@@ -61,7 +55,7 @@ static bool open_recorders(Simulation *simulation, Error *err)
     TRY(contact_arrays_create(&simulation->model.interface, &simulation->model.law,
                               &simulation->contact, err));
     recorders_add(&simulation->recorders, &simulation->contact, contact_arrays_record);
-    if (writes_results(simulation)) TRY(output_open(simulation, err));
+    if (result_folder_is_ours(&simulation->folder)) TRY(output_open(simulation, err));
     bool in_part = simulation->window.def.given;
     recorders_add(in_part ? &simulation->window.outside : &simulation->recorders, simulation,
                   report_step);
@@ -274,15 +268,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// With the first step, and what was recorded so far on the disk, an earlier result may go.
-static bool begin_result(Simulation *simulation, Error *err)
-{
-    if (simulation->folder.aside) TRY(history_sync(&simulation->history, err));
-    TRY(result_folder_settle(&simulation->folder, err));
-cleanup:
-    return error_is_clean(err);
-}
-
 // An explicit `step` is one record of many small ones. *finished: the end of the scene, or the
 // periodic regime where the scene asks for it.
 bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *finished, Error *err)
@@ -296,7 +281,7 @@ bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *fini
         TRY(advance_implicit(simulation, err));
     simulation->timing.solve += clock_seconds() - started;
     TRY(record_step(simulation, err));
-    TRY(begin_result(simulation, err));
+    TRY(output_begin_result(simulation, err));
     bool implicit = simulation->scene.time.scheme != SCHEME_EXPLICIT;
     bool ends = isfinite(simulation->t_end);
     if (implicit && ends) TRY(step_control_gets_on(control, simulation->t_end, err));
@@ -341,7 +326,7 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
     if (failure)
         fields_flush(&simulation->fields, &second);   // what was computed is written all the same
     else
-        TRY(begin_result(simulation, err) && fields_flush(&simulation->fields, err) &&
+        TRY(output_begin_result(simulation, err) && fields_flush(&simulation->fields, err) &&
             checkpoint_at_end(simulation, err));
     simulation->closed = true;
     if (!failure) output_warn_of_window(simulation);
@@ -361,7 +346,7 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
     simulation->timing.output += clock_seconds() - started;
     simulation->timing.total = clock_seconds() - simulation->started;
     simulation->timing.outside += clock_processor_seconds();
-    if (writes_results(simulation) || simulation->options.on_report) {
+    if (result_folder_is_ours(&simulation->folder) || simulation->options.on_report) {
         RunReport report = {.scene = &simulation->scene,
                             .failure = failure,
                             .counters = &counters,

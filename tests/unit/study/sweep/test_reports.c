@@ -94,7 +94,7 @@ static void test_lines(void **state)
     assert_int_equal(found.count, 3);
     assert_int_equal(found.place[2].at, first.at);
 
-    change_byte(place_path(place, "reports"), found.place[0].at + 6);   // {"x": 1} becomes {"x": 0}
+    change_byte(place_path(place, "lines"), found.place[0].at + 6);   // {"x": 1} becomes {"x": 0}
     reports_close(&reports);
     open_here(place, false, &reports, &found);
     assert_int_equal(found.count, 2);

@@ -1,0 +1,231 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Every file that any command writes or reads, as src/io/own_mark.h lists them: what somebody has put in its place, a file, a
+link or a pipe, is neither lost nor waited for. A command whose files the list lacks fails here."""
+import fnmatch
+import os
+import re
+import shutil
+import stat
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+SOURCE = Path(os.environ["AMONTONS_SOURCE"])
+sys.path.insert(0, str(SOURCE / "validation/hostile"))
+import cases  # noqa: E402
+
+PROGRAM = Path(os.environ["AMONTONS_BIN"], "amontons")
+PATIENCE = 60 * float(os.environ.get("AMONTONS_PATIENCE", 1))
+STUDY = cases.STUDY.replace("scene: scene.yaml", "scene: plain.yaml")
+FILM = ["--seconds", "0.1", "--size", "640x360", "--quiet"]
+INPUTS = {
+    "scene.yaml": cases.SCENE.replace("figures: []", "figures: [force]\n  fields: {every_U: 4e-4}"),
+    "plain.yaml": cases.SCENE.replace("history: true", "history: false").replace("block.geo, set: {nx: 6, nz: 4}", "block.msh"),
+    "study.yaml": STUDY + "rank: {by: results.mu_max}\nplot: {x: load.pressure, y: results.mu_max}\n",
+    "table.yaml": STUDY + "keep: table\n", "plot.yaml": cases.PLOT,
+    "block.geo": cases.ROOT / "meshes/block.geo", "block.msh": cases.square()}
+# What each writes without being told a name; those behind a result need it.
+COMMANDS = {
+    "run": ["run", "scene.yaml", "-o", "out", "--quiet"],
+    "static": ["static", "plain.yaml", "-o", "static", "--quiet"],
+    "model1d": ["model1d", "plain.yaml", "-o", "line", "--quiet"],
+    "stability": ["stability", "scene.yaml", "-o", "rates", "--quiet", "--from", "end", "--set", "time.until={U: 0.005}",
+                  "output.fields=none", "output.figures=[]"],
+    "sweep": ["sweep", "study.yaml", "-o", "many", "--quiet"],
+    "table": ["sweep", "table.yaml", "-o", "table", "--quiet"],
+    "accuracy": ["run", "plain.yaml", "-o", "bar", "--to", "50%", "--quiet", "--set", "mesh={file: block.geo}",
+                 "time.until={U: 0.008}", "output.history=true", "output.figures=[force]"],
+    "cache": ["cache", "--measure"],
+    "plot": ["render", "plot.yaml"],
+    "pdf": ["render", "out", "--format", "pdf", "--figure", "force"],
+    "svg": ["render", "out", "--format", "svg", "--figure", "force"],
+    "report": ["report", "out"],
+    "mp4": ["film", "out", *FILM],
+    "webm": ["film", "out", "-o", "film.webm", *FILM],
+    "gif": ["film", "out", "-o", "film.gif", "--fps", "20", *FILM],
+}
+NOT_HERE = ("array-", "share-", "running")   # of Slurm: end_to_end.slurm
+READERS = [["info", "out"], ["render", "out"], ["report", "out"], ["film", "out", *FILM], [*COMMANDS["run"], "--resume"],
+           [*COMMANDS["run"], "--overwrite"], ["info", "many"], COMMANDS["sweep"], ["render", "many"], ["report", "many"]]
+STANDARD = b"somebody's, and long enough to be worth something\n"
+
+
+def rows():
+    """(pattern, mark) of each row of the list."""
+    text = (SOURCE / "src/io/own_mark.h").read_text()
+    words = dict(re.findall(r'#define (OWN_\w+) "((?:[^"\\]|\\.)*)"', text))
+    found = re.findall(r'X\("([^"]+)", (?:"((?:[^"\\]|\\.)*)"|(OWN_\w+))\)', text)
+    return [(pattern, (words[word] if word else mark).encode().decode("unicode_escape").encode())
+            for pattern, mark, word in found]
+
+
+def row_of(path):
+    """The row of a file, as fnmatch has it, but for @(a|b)."""
+    for pattern, mark in rows():
+        some = re.fullmatch(r"\*\.@\((.*)\)", pattern)
+        names = [f"*.{ending}" for ending in some[1].split("|")] if some else [pattern]
+        name = "/".join(path.parts[-1 - pattern.count("/"):])
+        if any(fnmatch.fnmatchcase(name, one) for one in names):
+            return pattern, mark
+    return None
+
+
+def call(folder, words):
+    """Status and words; a status of None: it did not end."""
+    env = os.environ | {"AMONTONS_CACHE": str(folder / "cache")}
+    try:
+        done = subprocess.run([PROGRAM, *words], cwd=folder, env=env, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, timeout=PATIENCE)
+    except subprocess.TimeoutExpired:
+        return None, "no end"
+    return done.returncode, done.stdout.decode(errors="replace")
+
+
+def files_in(folder):
+    return {path.relative_to(folder) for path in folder.rglob("*") if path.is_file()}
+
+
+def put(path, kind, victim):
+    """Something of somebody's in the place of `path`."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.unlink(missing_ok=True)
+    if kind == "file":
+        path.write_bytes(STANDARD)
+    elif kind == "link":
+        path.symlink_to(victim)
+    else:
+        os.mkfifo(path)
+
+
+def stands(path, kind):
+    mode = path.lstat().st_mode if os.path.lexists(path) else 0
+    return {"file": stat.S_ISREG(mode) and path.read_bytes() == STANDARD if mode else False, "link": stat.S_ISLNK(mode),
+            "pipe": stat.S_ISFIFO(mode)}[kind]
+
+
+class OwnFiles(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = Path(tempfile.mkdtemp(prefix="amontons_own_"))
+        cls.stock, cls.written = cls.folder / "stock", {}
+        cases.put(cls.stock, INPUTS)
+        for name, words in COMMANDS.items():
+            before = files_in(cls.stock)
+            status, said = call(cls.stock, words)
+            if status != 0:
+                raise AssertionError(f"{name}: {said}")
+            cls.written[name] = sorted(files_in(cls.stock) - before)
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def fresh(self, command=None):
+        """A copy of the stock, as it was before `command`."""
+        self.count = getattr(self, "count", 0) + 1
+        folder = self.folder / f"{self._testMethodName}-{self.count}"
+        shutil.copytree(self.stock, folder)
+        names = list(COMMANDS)
+        for name in names[names.index(command):] if command else []:
+            for path in self.written[name]:
+                (folder / path).unlink()
+        self.addCleanup(shutil.rmtree, folder)
+        return folder
+
+    def test_every_file_is_in_the_list_and_bears_its_mark(self):
+        met = set()
+        for name, paths in self.written.items():
+            for path in paths:
+                with self.subTest(command=name, file=str(path)):
+                    row = row_of(path)
+                    self.assertIsNotNone(row, "add it to OWN_MARKS, src/io/own_mark.h")
+                    met.add(row[0])
+                    held = (self.stock / path).read_bytes()
+                    self.assertTrue(not held or row[1] in held[:1 << 20] + held[-(1 << 20):])
+                    self.assertFalse((self.stock / path).stat().st_mode & stat.S_ISVTX)
+        missed = {pattern for pattern, _ in rows() if not pattern.startswith(NOT_HERE)} - met
+        # A lock is gone by then; figures/NAME.h5 is of plots of 8000 numbers (end_to_end.dense_map).
+        self.assertLessEqual(missed, {"*.lock", "figures/*.h5"}, "rows that no command of this test writes")
+
+    def test_what_is_somebodys_stays(self):
+        """In the place of the file and of its .part: one file of each row that a command writes."""
+        for name, paths in self.written.items():
+            for (_, mark), path in {row_of(path): path for path in paths}.items():
+                if path.name == "lock":   # it is locked, and neither written to nor removed
+                    continue
+                for place in (path, path.with_name(path.name + ".part")):
+                    for kind in ("file", "link", "pipe"):
+                        by_name = not mark and kind == "file" and place == path
+                        if not by_name:
+                            with self.subTest(command=name, place=str(place), kind=kind):
+                                self.try_place(name, place, kind)
+
+    def try_place(self, name, place, kind):
+        folder = self.fresh(name)
+        victim = folder / "victim"
+        victim.write_bytes(STANDARD)
+        put(folder / place, kind, victim)
+        status, said = call(folder, COMMANDS[name])
+        self.assertIn(status, (0, 1, 2), said)
+        self.assertEqual(victim.read_bytes(), STANDARD)
+        if "points" in place.parts:   # a folder of our own, named by a hash: what is in it goes
+            return
+        self.assertTrue(stands(folder / place, kind), said)
+        if status != 0:
+            self.assertIn(place.name.removesuffix(".part"), said)
+        if status == 0:   # a cache that cannot be written costs time, nothing else; reports are added to
+            self.assertTrue("cache" in place.parts or name == "cache" or place.name == "reports.part", said)
+
+    def test_pipes_are_not_waited_for(self):
+        """In the place of every file that is read."""
+        inputs = [(path, [words for words in COMMANDS.values() if path in words]) for path in INPUTS if path != "block.geo"]
+        inputs += [("block.geo", [["run", "scene.yaml", "-o", "new"], ["info", "block.geo"]]), ("block.msh", [["info", "block.msh"]])]
+        read = [(str(path), [words for words in READERS if path.parts[0] in words])
+                for name in ("run", "sweep") for path in {row_of(p)[0]: p for p in self.written[name]}.values()
+                if path.parts[0] != "cache"]
+        read += [(str(path), [COMMANDS["run"] + ["--overwrite"]]) for path in self.written["run"] if path.parts[0] == "cache"]
+        for path, commands in [*inputs, *read]:
+            for words in commands:
+                with self.subTest(file=path, command=words[0:2]):
+                    folder = self.fresh()
+                    put(folder / path, "pipe", None)
+                    status, said = call(folder, words)
+                    self.assertIn(status, (0, 1, 2), said)
+                    if path in INPUTS:
+                        self.assertEqual(status, 2, said)
+                        self.assertIn(path, said)
+                    self.assertTrue(stands(folder / path, "pipe"))
+
+    def test_named_files_give_way_to_overwrite_alone(self):
+        for words, named in ((["film", "out", *FILM], "mine.mp4"), (["report", "out"], "mine.html")):
+            folder = self.fresh()
+            mine = folder / named
+            mine.write_bytes(STANDARD)
+            status, said = call(folder, [*words, "-o", named])
+            self.assertEqual(status, 2)
+            self.assertIn(f"{named} is there already: name another file, or say --overwrite", said)
+            self.assertEqual(mine.read_bytes(), STANDARD)
+            self.assertEqual(call(folder, [*words, "-o", named, "--overwrite"])[0], 0)
+            self.assertNotEqual(mine.read_bytes(), STANDARD)
+            self.assertEqual(call(folder, [*words, "-o", named])[0], 2)   # ours by now, and named all the same
+
+    def test_a_run_that_does_not_begin_leaves_the_earlier_result(self):
+        folder = self.fresh()
+        before = {path: (folder / path).read_bytes() for path in self.written["run"]}
+        for more in (["--set", "time.until={U: 1e60}", "time.step_min=1"], []):
+            with self.subTest(more):
+                words = [PROGRAM, *COMMANDS["run"], "--overwrite", *more]
+                limited = words if more else ["bash", "-c", 'ulimit -f 1; trap "" XFSZ; exec "$@"', "bash", *words]
+                done = subprocess.run(limited, cwd=folder, env=os.environ | {"AMONTONS_CACHE": ""}, capture_output=True)
+                self.assertNotEqual(done.returncode, 0)
+                after = {path: (folder / path).read_bytes() for path in before if (folder / path).exists()}
+                self.assertEqual(set(after), set(before), done.stderr)
+                self.assertEqual(after, before)
+                self.assertEqual([p for p in files_in(folder / "out") if "out" / p not in before
+                                  and p.name not in ("report.html", "force.pdf", "force.svg")], [])
+
+
+if __name__ == "__main__":
+    unittest.main()
