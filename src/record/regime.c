@@ -132,7 +132,7 @@ Regime regime_of(const Drops *drops)
     SeriesRegime found =
         series_regime(drops->series + from, count, drops->tolerance, drops->stretches.count);
     Regime regime = {.count = found.count, .drift = NAN, .drops_left = NAN};
-    const SeriesItem *last = drops->series + all - 1;
+    const SeriesItem *last = all > 0 ? &drops->series[all - 1] : NULL;
     if (drops->settled < 0) {
         int32_t told = found.count < TREND_DROPS ? found.count : TREND_DROPS;
         regime.run_in = RUN_IN_STUCK;

@@ -15,6 +15,7 @@
 #include "run/level_scene.h"
 #include "run/simulation_state.h"
 #include "run/warnings.h"
+#include "scene/programs.h"
 
 #include <math.h>
 
@@ -81,13 +82,16 @@ static bool is_known(const Accuracy *accuracy, const Answers *answers)
     return answers->peaks_counted == 0 && answers->enough;
 }
 
-// A run that comes to its end in the middle of its run-in goes on, once.
+// A run that comes to its end in the middle of its run-in goes on, once. What a program does may
+// well look like a run-in, for ever.
 static bool goes_on(const Accuracy *accuracy, Simulation *simulation)
 {
     const Scene *scene = accuracy->scene;
     bool once = simulation->scene.time.until_U > LONGER * scene->time.until_U ||
                 simulation->scene.time.until_t > LONGER * scene->time.until_t;
-    if (once || regime_of(&simulation->drops).run_in == RUN_IN_OVER) return false;
+    bool steered = scene_has_program(&scene->rod.program) ||
+                   scene_has_program(&scene->load.program);
+    if (once || steered || regime_of(&simulation->drops).run_in == RUN_IN_OVER) return false;
     simulation->scene.time.until_U *= LONGER;
     simulation->scene.time.until_t *= LONGER;
     simulation->t_end = step_rule_end(&simulation->scene);

@@ -152,14 +152,14 @@ static const char *why_unknown(const Levels *levels)
 {
     const Level *last = &levels->list[levels->count - 1];
     if (last->undamped) return "cells are too long for slip";
-    return levels_resolved(levels) ? "one mesh" : "too few cells where slip turns fast";
+    bool one = levels->count == 1 || levels_resolved(levels);
+    return one ? "one mesh" : "too few cells where slip turns fast";
 }
 
 static const char *why_not_sure(const Levels *levels)
 {
-    if (levels_known(levels, levels->asked) < LEVELS_LEAST)
-        return " from fewer than three meshes that count";
-    return levels_resolved(levels) ? "" : " on cells that do not resolve slip";
+    bool few = levels_known(levels, levels->asked) < LEVELS_LEAST;
+    return few ? " from fewer than three meshes that count" : "";
 }
 
 void warnings_of_bar(const Levels *levels, RunWarnings *warnings)

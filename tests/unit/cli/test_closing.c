@@ -52,6 +52,7 @@ static void test_static_friction(void **state)
     assert_null(strstr(said, "Results in"));
     summary.peaks = 3;
     summary.bar_runs = 4;
+    summary.bar_ended = "no time for more";
     assert_says(closing("A", &summary), "not every run of the error bar came to slide as a whole");
     summary.bar_runs = 0;
     summary.leading = 1;
@@ -85,8 +86,21 @@ static void test_what_holds(void **state)
     (void)state;
     RunSummary summary = no_answers();
     assert_says(closing("", &summary), "mu_hold         none: the load did not drop");
-    summary.mu_hold = 0.2;
     summary.drops = 7;
+    summary.run_in = "part of the contact has not slipped";
+    summary.run_in_drift = 0.0025;
+    summary.run_in_drops_left = 57;
+    assert_says(closing("", &summary),
+                "mu_hold         none yet: run-in still going on (part of the contact has not "
+                "slipped, +0.25 % a drop, over after at most 57 more): give a later time.until\n");
+    summary.mu_hold = 0.2;
+    summary.run_in = "trend";
+    summary.run_in_drift = -0.01;
+    summary.run_in_drops_left = NAN;
+    assert_says(closing("", &summary),
+                "0.2000 so far: what the contact holds, the lowest tenth of 7 load ratios at which "
+                "the load dropped\n                  run-in still going on (trend, -1 % a drop)");
+    summary.run_in = NULL;
     const char *said = closing("", &summary);
     assert_says(said, "0.2000 so far: what the contact holds, the lowest tenth of 7 load ratios");
     assert_says(said, "too few to say");

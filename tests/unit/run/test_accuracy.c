@@ -218,14 +218,32 @@ static void test_what_is_said_of_a_bar(void **state)
     Levels levels = {.count = 3};
     for (int32_t k = 0; k < 3; k++) levels.list[k].slip_cells = 100;
     expect(levels, "mu_M is known to 10.0 %, asked for 1.0 % (no time for more)");
-    levels.list[2].slip_cells = 1;
-    expect(levels, "mu_M is known to 10.0 % on cells that do not resolve slip, asked for");
     levels.list[0].undamped = true;
     expect(levels, "known to 10.0 % from fewer than three meshes that count, asked for");
     levels.list[2].answer[0].parts.mesh = NAN;
     expect(levels, "the mesh's part of it is not known (one mesh: no time for more)");
+    levels.list[2].slip_cells = 1;
+    expect(levels, "not known (too few cells where slip turns fast: no time for more)");
     levels.list[2].undamped = true;
     expect(levels, "not known (cells are too long for slip: no time for more)");
+}
+
+// An answer of the last mesh outside the bar of all is told beside the other.
+static void test_last_mesh_apart(void **state)
+{
+    (void)state;
+    RunWarnings warnings = {0};
+    Levels levels = {.count = 1};
+    Level *level = &levels.list[0];
+    level->run_count = 1;
+    level->runs[0].answer[ANSWER_MU_HOLD].value = 0.495;
+    level->answer[ANSWER_MU_HOLD] = (ErrorBar){.value = 0.4};
+    warnings_of_last_mesh(&levels, &warnings);
+    assert_int_equal(warnings.count, 0);
+    level->answer[ANSWER_MU_HOLD].apart = true;
+    warnings_of_last_mesh(&levels, &warnings);
+    assert_int_equal(warnings.count, 1);
+    assert_non_null(strstr(warnings.text[0], "mu_hold is 0.4950 there and 0.4000 by all"));
 }
 
 int main(void)
@@ -238,6 +256,7 @@ int main(void)
         cmocka_unit_test(test_loads_of_the_runs),
         cmocka_unit_test_teardown(test_no_room_for_refine, end),
         cmocka_unit_test(test_what_is_said_of_a_bar),
+        cmocka_unit_test(test_last_mesh_apart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
