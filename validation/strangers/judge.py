@@ -139,19 +139,16 @@ class Count:
     worst: float
     failed: list            # sentences of acceptance numbers that are not met
 
-    @property
-    def judged(self):
-        return self.kinds["held"] + self.kinds["broken"]
-
 
 def count(verdicts):
     kinds = {kind: sum(one.kind == kind for one in verdicts) for kind in KINDS}
     ratios = [one.ratio for one in verdicts if one.kind in ("held", "broken") and one.said != "none, rightly"]
     median, worst = (statistics.median(ratios), max(ratios)) if ratios else (math.nan, math.nan)
-    bars, known = kinds["held"] + kinds["broken"], len(verdicts) - kinds["no reference"]
+    bars, held = len(ratios), len(ratios) - kinds["broken"]
+    known = len(verdicts) - kinds["no reference"]
     failed = []
-    if bars and kinds["held"] < HELD_LEAST * bars:
-        failed.append(f"{kinds['held']} of {bars} bars hold, {100 * kinds['held'] / bars:.1f} %; {100 * HELD_LEAST:g} % are asked for")
+    if bars and held < HELD_LEAST * bars:
+        failed.append(f"{held} of {bars} bars hold, {100 * held / bars:.1f} %; {100 * HELD_LEAST:g} % are asked for")
     if worst >= WORST:
         failed.append(f"the worst error is {worst:.1f} bars; below {WORST} is asked for")
     if ratios and not MEDIAN[0] <= median <= MEDIAN[1]:
