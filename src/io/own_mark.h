@@ -47,7 +47,7 @@
     X("*.mp4", "made by amontons ")                                                                \
     X("*.webm", "made by amontons ")                                                               \
     X("*.gif", "made by amontons ")                                                                \
-    X("*.@(shape|basis|modes|upper|field|mesh|speed)", "")
+    X("*.@(shape|basis|modes|upper|field|mesh)", "")
 
 // What a film says of its maker.
 #define OWN_FILM "made by amontons " AMONTONS_VERSION

@@ -142,7 +142,7 @@ class Laws(unittest.TestCase):
                 ("scene.yaml:6:12: friction.formula: the law `linear-weakening` does not read it", [],
                  {"law": "linear-weakening", "formula": '"0.4"', **NUMBERS}),
                 ("is a program that would be run: give --trust", [], {"law": "plugin", "file": PLUGIN, **NUMBERS}),
-                ("cannot be opened", ["--trust"], {"law": "plugin", "file": "none.so"})):
+                ("none.so: No such file", ["--trust"], {"law": "plugin", "file": "none.so"})):
             with self.subTest(words):
                 self.assertIn(words, self.call("info", *flags, status=2, **keys))
 

@@ -37,7 +37,6 @@ COMMANDS = {
     "table": ["sweep", "table.yaml", "-o", "table", "--quiet"],
     "accuracy": ["run", "plain.yaml", "-o", "bar", "--to", "50%", "--quiet", "--set", "mesh={file: block.geo}",
                  "time.until={U: 0.008}", "output.history=true", "output.figures=[force]"],
-    "cache": ["cache", "--measure"],
     "plot": ["render", "plot.yaml"],
     "pdf": ["render", "out", "--format", "pdf", "--figure", "force"],
     "svg": ["render", "out", "--format", "svg", "--figure", "force"],

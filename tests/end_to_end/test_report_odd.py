@@ -37,7 +37,7 @@ class Odd(unittest.TestCase):
         return subprocess.run([PROGRAM, *map(str, words)], cwd=self.folder, capture_output=True, text=True, timeout=120)
 
     def page(self, *names):
-        done = self.call("report", *names, "-o", "page.html")
+        done = self.call("report", *names, "-o", "page.html", "--overwrite")
         self.assertEqual(done.returncode, 0, done.stderr)
         return (self.folder / "page.html").read_text()
 

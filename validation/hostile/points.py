@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Points that a review found: each tried on the built program, one function a point.
+"""Points that a review found: each tried on the built program, one function a point (those of callers of the library and of
+processes in points_calls.py, of answers in points_answers.py; each of the three can be called alone).
 
     validation/hostile/points.py [--only NAME ...]
 
@@ -109,8 +110,7 @@ def links_of_parts(folder):
     for name, words in (("out.mp4.part", ["film", "out", *film]), ("out/report.html.part", ["report", "out"]),
                         ("out/figures/force.png.part", ["render", "out", "-f", "force"]),
                         ("new/history.h5.part", ["run", "scene.yaml", "-o", "new", "--overwrite"]),
-                        ("new/amontons.lock", ["run", "scene.yaml", "-o", "new", "--overwrite"]),
-                        ("cache/processor.speed.part", ["cache", "--measure"])):
+                        ("new/amontons.lock", ["run", "scene.yaml", "-o", "new", "--overwrite"])):
         victim.write_text("precious")
         path = folder / name
         path.parent.mkdir(exist_ok=True)
@@ -168,4 +168,7 @@ def main():
 
 
 if __name__ == "__main__":
+    import points_answers
+    import points_calls
+    POINTS |= points_calls.POINTS | points_answers.POINTS
     sys.exit(main())
