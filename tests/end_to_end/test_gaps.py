@@ -124,8 +124,8 @@ class Gaps(OwnCache):
         explicit = [self.run_scene(f"explicit-{name}", setting, *brief)[2:] for name, setting in
                     (("points", f"contact.gap={listed}"), ("file", "contact.profile=metre.csv"))]
         force = explicit[0][0].max()   # of shear, too: a relaxed start is known to a part of its largest force
-        for one, other in zip(*explicit):
-            numpy.testing.assert_allclose(one, other, rtol=0, atol=1e-7 * force)
+        for one, other in zip(*explicit):   # of single precision in the history, where rounding may fall to either side
+            numpy.testing.assert_allclose(one, other, rtol=0, atol=2 ** -23 * force)
 
         kept = self.folder / "kept.csv"
         shutil.copy(self.folder / "metre.csv", kept)

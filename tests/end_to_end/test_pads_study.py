@@ -97,12 +97,14 @@ class PadsStudy(unittest.TestCase):
         every = np.array([drop["mu"] for drop in drops["list"]])
         mu = every[-drops["counted"]:]                  # those after the run-in, but for a quarter
         self.assertTrue(8 < len(mu) <= len(every) - len(every) // 4)
-        self.assertEqual((drops["period"], drops["counted"], drops["enough"]), (0, 15, False))
+        self.assertEqual((drops["period"], drops["enough"]), (0, False))
+        # Which drops come, and how many, is a matter of rounding: 15 or 16 with the kernels that were tried.
+        student = {13: 2.18, 14: 2.16, 15: 2.14, 16: 2.13, 17: 2.12}[drops["counted"]]   # 95 %, two-sided
         blocks = int(len(mu) ** 0.5)
 
         def error(x):
             means = [part.mean() for part in np.split(x[len(x) % blocks:], blocks)]
-            off, student = x - x.mean(), 2.14           # 95 %, of 15
+            off = x - x.mean()
             along = (len(x) * (off[1:] * off[:-1]).sum() / (off ** 2).sum() + 1) / (len(x) - 3)
             along = min(max(along, 0), 0.95)
             own = np.std(x, ddof=1) / len(x) ** 0.5 * ((1 + along) / (1 - along)) ** 0.5 * student / 2

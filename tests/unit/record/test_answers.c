@@ -219,7 +219,9 @@ static void test_block_of_period_two(void **state)
     assert_true(summary.peaks_counted >= 4 && summary.peaks_counted % 2 == 0);
     assert_true(summary.mu_M > summary.mu_hold &&
                 summary.mu_M < summary.mu_hold + summary.mu_M_spread);
-    assert_true(summary.mu_M_error < 0.1 * summary.mu_M_spread);   // rounds agree, branches differ
+    // Rounds agree, branches differ: as scatter of single peaks the bar would be half the spread or
+    // more. (How well two rounds agree, within 2 %, is a matter of rounding: 0.02 to 0.11.)
+    assert_true(summary.mu_M_error < 0.2 * summary.mu_M_spread);
     amontons_scene_destroy(scene);
 }
 
