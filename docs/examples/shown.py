@@ -3,11 +3,14 @@
 """Runs what pages show, as their reader would: each command behind `$ ` in a block ```console, in the order in which they
 stand, in a folder of its own.
 
-    docs/examples/shown.py docs/tutorial.md docs/cookbook.md     # writes what they print, and their pictures, anew
-    docs/examples/shown.py --small docs/*.md                     # changes nothing: coarse meshes, do they all end well?
+    docs/examples/shown.py README.md docs/*.md     # writes what they print, and their pictures, anew
+    docs/examples/shown.py --check README.md       # changes nothing: is what they print of mu still so?
+    docs/examples/shown.py --small docs/*.md       # changes nothing: coarse meshes, do they all end well?
 
 `<!-- small: KEY=VALUE -->` above a block says what is coarse there. A line `<!-- from FILE -->` above a picture names the file that a command made: it is kept in docs/pictures, small enough
-for a page. A block that begins with `# docs/examples/NAME` (or `//`) shows that file.
+for a page. A block that begins with `# docs/examples/NAME` (or `//`) shows that file. In a sentence, `0.329 +- 0.003<!-- mu_M of results/NAME -->` is what
+the command with `-o results/NAME` prints behind mu_M. --check: each mu within the larger of both bars, or 1 % (runs differ by that from processor to processor, as slip
+goes one cell farther or not).
 """
 import argparse
 import os
@@ -23,6 +26,10 @@ SOURCE = Path(__file__).resolve().parents[2]
 BUILD = Path(os.environ.get("AMONTONS_BIN", SOURCE / "build" / "bin")).resolve().parent
 WIDTH = 900   # of a picture, pixels
 COARSE = "mesh.set.refine=0.15"
+CLOSE = 0.01   # of mu
+VALUE = r"[\d.]+(?:e[-+]?\d+)?"
+MU = re.compile(rf"^ +(mu_\w+) +(({VALUE})(?: \+- ({VALUE}))?)(?=[ :,]|$)", re.M)   # a line of what a run ends with
+IN_SENTENCE = re.compile(rf"(({VALUE})(?:\s\+-\s({VALUE}))?)(<!-- (mu_\w+) of (\S+) -->)")
 # Coarse meshes, wide error bars or none, whatever the command asks for.
 SMALL = r"""#!/bin/bash
 words=()
@@ -69,6 +76,37 @@ def commands(block):
     return re.findall(r"^\$ ((?:[^\n]*\\\n)*[^\n]*)\n(.*?)(?=^\$ |\Z)", block, re.S | re.M)
 
 
+def agree(shown, made):
+    """Of two (value, bar or None), as written."""
+    bars = [float(bar) for _, bar in (shown, made) if bar]
+    return abs(float(shown[0]) - float(made[0])) <= max([*bars, CLOSE * abs(float(made[0]))])
+
+
+def mu_lines(text):
+    """{name: (as written, value, bar or None)}"""
+    return {name: found for name, *found in MU.findall(text)}
+
+
+def differences(shown, made):
+    """Sentences on what a block shows and a command does not print, or prints otherwise."""
+    before, now = mu_lines(shown), mu_lines(made)
+    return [f"{name}: {before[name][0]} is shown, {now[name][0] if name in now else 'nothing'} comes out" for name in before
+            if name not in now or not agree(before[name][1:], now[name][1:])]
+
+
+def sentences(text, printed_by, small, apart):
+    """The page with the numbers in its sentences as printed. `apart` takes sentences on what does not agree."""
+    def number(found):
+        shown, value, bar, mark, name, result = found.groups()
+        made = mu_lines(printed_by.get(result, "")).get(name)
+        if not made:
+            raise SystemExit(f"no command prints {name} of {result}")
+        if not small and not agree((value, bar), made[1:]):
+            apart.append(f"{name} of {result}: {shown} in a sentence, {made[0]} comes out")
+        return made[0] + mark
+    return IN_SENTENCE.sub(number, text)
+
+
 def keep_picture(made, kept):
     from PIL import Image
     if made.suffix == ".gif":   # a film
@@ -82,18 +120,22 @@ def keep_picture(made, kept):
     picture.quantize(256, kmeans=4, dither=Image.Dither.NONE).save(kept, optimize=True)
 
 
-def run_page(page, folder, environment, small):
-    text = page.read_text()
+def run_page(page, folder, environment, options):
+    text, small = page.read_text(), options.small
+    printed_by, apart = {}, []   # what each result's command prints; sentences on what does not agree
 
     def block(found):
         shown = ""
         environment["COARSE"] = found[1] or COARSE
-        for command, _ in commands(found[2]):
+        for command, before_now in commands(found[2]):
             before = os.times()
             if small and command.startswith("python3 "):
                 run_here(command.split(), folder)
             else:
-                shown += f"$ {command}\n" + printed(command, folder, environment)
+                made = printed(command, folder, environment)
+                shown += f"$ {command}\n" + made
+                printed_by.update({result: made for result in re.findall(r" -o (\S+)", command)})
+                apart.extend([] if small else differences(before_now, made))
             after = os.times()
             print(f"{page.name}: {sum(after[:4]) - sum(before[:4]):5.1f} s  {command}", file=sys.stderr, flush=True)
         return found[0][:found.start(2) - found.start()] + shown + "```\n"
@@ -102,23 +144,26 @@ def run_page(page, folder, environment, small):
     for made, kept in re.findall(r"<!-- from (\S+) -->\n!\[[^\]]*\]\((\S+)\)", text):
         if not (folder / made).is_file():
             raise SystemExit(f"{page.name}: no command makes {made}")
-        if not small:
+        if not small and not options.check:
             keep_picture(folder / made, page.parent / kept)
     for mark, name, shown in re.findall(r"^```\w*\n((?:#|//) (docs/examples/\S+)\n)(.*?)^```", text, re.S | re.M):
         if (SOURCE / name).read_text() != shown:
             written = written.replace(mark + shown, mark + (SOURCE / name).read_text())
             if small:
                 raise SystemExit(f"{page.name} shows another {name}")
-    if not small:
+    written = sentences(written, printed_by, small, apart)
+    if not small and not options.check:
         page.write_text(written)
+    return apart
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--small", action="store_true", help="coarse meshes; no page is changed")
+    parser.add_argument("--check", action="store_true", help="no page is changed; exit status 1: a mu is no longer what is shown")
     parser.add_argument("pages", nargs="+", type=Path)
     options = parser.parse_args()
-    folder = Path(tempfile.mkdtemp(prefix="amontons-shown-"))
+    folder, apart = Path(tempfile.mkdtemp(prefix="amontons-shown-")), []
     try:
         environment = prepare(folder, options.small)
         os.environ.update(environment)
@@ -126,10 +171,12 @@ def main():
         for page in options.pages:
             shutil.rmtree(folder / "results", ignore_errors=True)
             (folder / "results").mkdir()
-            run_page(page.resolve(), folder, environment, options.small)
+            apart += [f"{page.name}: {each}" for each in run_page(page.resolve(), folder, environment, options)]
     finally:
         shutil.rmtree(folder)
+    print("\n".join(apart))
+    return 1 if apart and options.check else 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())
