@@ -2,7 +2,8 @@
 """Answers of strangers' problems against their references: readings, references with their own error, verdicts, counts.
 
 A reading is taken from what a run lists, not from the run's own choice of what counts: the peaks (for mu_M) and load drops
-(for mu_hold) of the second half of U. mu_M is their mean; mu_hold the lowest where they repeat, else the lowest decile."""
+(for mu_hold) of the second half of U. mu_M is their mean, or F_T/F_N of steady sliding where there are none; mu_hold the lowest
+where they repeat, else the lowest decile."""
 import math
 import statistics
 from dataclasses import dataclass
@@ -36,6 +37,8 @@ def reading(report, end):
         found[name] = of(late) if len(late) >= LATE_LEAST and third and fourth else None
         found["drift"][name] = of(fourth) - of(third) if third and fourth else 0
         found["late"][name] = len(late)
+    if results["mu_M_is"] == "steady sliding" and not any(found["late"].values()):
+        found["mu_M"] = results["mu_steady"]
     return found
 
 

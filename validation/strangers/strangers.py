@@ -54,6 +54,8 @@ class Kept:
             self.data = data
         elif earlier and earlier["problem"] == self.digest:
             self.data |= {key: earlier[key] for key in ("longer", "runs")}
+            if not any(row.get(name) for row in self.data["runs"] for name in judge.ANSWERS):
+                self.data["runs"] = []      # cheap, and an earlier version may not have known steady sliding
 
     def save(self):
         part = self.path.with_suffix(".json.new")
@@ -84,11 +86,11 @@ def ask(one, scene):
     with tempfile.TemporaryDirectory() as cache:        # what a user pays who tries this shape for the first time
         ended = run(scene, QUIET, ASK_LIMIT, cache=cache, words=["--to", str(one.wanted), "--within", f"{WITHIN}s"])
     results, found = ended.report.get("results", {}), ended.report.get("accuracy") or {}
-    keep = ("refine", "contact_nodes", "undamped", "slip_cells", "end_wait", "seconds")
+    keep = ("refine", "contact_nodes", "undamped", "slip_cells", "cells", "end_wait", "runs", "seconds")
     return {"version": commit(), "status": ended.status, "said": ended.said[-600:], "seconds": ended.seconds,
             "wall": time.monotonic() - began, "wanted": one.wanted,
             **{key: results.get(key) for name in judge.ANSWERS for key in (name, f"{name}_error", f"{name}_error_parts")},
-            "met": found.get("met"), "of": found.get("of"), "ended": found.get("ended"),
+            "mu_M_is": results.get("mu_M_is"), "met": found.get("met"), "of": found.get("of"), "ended": found.get("ended"),
             "levels": [{key: level.get(key) for key in keep} | {name: level[name]["value"] for name in judge.ANSWERS}
                        for level in found.get("levels", [])],
             "warnings": ended.report.get("warnings", [])}
@@ -119,7 +121,7 @@ def reference_run(one, scene, place, longer, limit):
         return row | {"said": "too long" if ended.timed_out else ended.said[-300:]}
     report = ended.report
     return row | judge.reading(report, end) | {
-        "program": {name: report["results"][name] for name in judge.ANSWERS}, "nodes": report["model"]["contact_nodes"],
+        "program": {name: report["results"][name] for name in ("mu_M_is", *judge.ANSWERS)}, "nodes": report["model"]["contact_nodes"],
         "steps": report["steps"]["accepted"], "slip_cells": report["results"].get("slip_cells"),
         "solve": report["timing_s"]["solve"], "expected": report["model"]["expected_s"], "warnings": report["warnings"]}
 
