@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What is usual from mesh to mesh? Chooses what src/record/error_bars.c takes for granted before it knows better.
 
-    validation/benchmark/priors.py [--cases NUMBER] [--known PRIORS.MD] [-o FOLDER]
+    validation/benchmark/priors.py [--cases NUMBER] [--known PRIORS.MD] [--asked NOW.JSONL] [-o FOLDER]
 
 Cases are those before the first of promise.py, so that its test is made on others. On each mesh a case is run at pressures
 0.5 % below and above; the mean is the mesh's value. References are promise.py's. With values and reference known, bars by
@@ -10,8 +10,11 @@ any constants follow without a run: how many hold the reference, how far the wor
 
 --cases: the first so many (default: those of the page alone). --known: a page of an earlier version, whose rows are taken
 as they are (default priors.md beside this file). Every run is kept in FOLDER/priors.jsonl (default results/priors): the same
-command goes on where it was stopped. Leaves priors.md in FOLDER. A case takes a minute or two."""
+command goes on where it was stopped. Leaves priors.md in FOLDER. A case takes a minute or two.
+
+--asked: what strangers answered, packed by strangers.py. Constants that are tried stand in TRIED."""
 import argparse
+import json
 import math
 import re
 import statistics
@@ -24,17 +27,31 @@ import numpy
 from measured_run import ROOT, commit, markdown_table, run
 from promise import FIRST, QUIET, WINDOW, Kept, case, flow, reference, scene_mesh
 
+sys.path.insert(0, str(ROOT / "validation/strangers"))
+import judge            # noqa: E402
+import strangers        # noqa: E402
+
 CELLS_BLOCK, REFINE_PADS = (20, 28, 40, 57, 80), (0.25, 0.35, 0.5, 0.7, 1, 1.42)
-# scatter, slope: in parts of mu, over the nodes in contact; levels: so many it would be worth to know the scatter
-TRIED = {"blocks": ((0.12, 0.08, 8), (0.10, 0.08, 8), (0.14, 0.08, 8), (0.12, 0.05, 8), (0.12, 0.12, 8), (0.12, 0.08, 4),
-                    (0.12, 0.08, 16), (0.12, math.inf, 8)),
-         "pads and grooves": ((0.7, 0.5, 8), (0.7, 0.4, 8), (0.5, 0.5, 8), (0.6, 0.5, 8), (0.6, 0.6, 8), (0.7, 0.3, 8),
-                              (0.7, 0.5, 4))}
-LEVELS = (3, 4, 5)        # the coarsest so many of each case
-STEPS = 0.002             # as in error_bars.c
+STEPS, MOST = 0.002, 0.5  # as in error_bars.c
 CELLS_ENOUGH = 8          # as in src/record/drops.h
-CELLS = (0, 4, 6, 8, 10, 14, 20, 30, 80)     # that slip; bounds of the table's rows
+PARTS = (0, 0.18, 0.25, 0.35, 0.5, 1.01)     # of the contact; bounds of the table's rows
 STUDENT = (12.71, 4.30, 3.18, 2.78, 2.57, 2.45, 2.36, 2.31, 2.26, 2.23, 2.20, 2.18, 2.16, 2.14, 2.13, 2.12, 2.11, 2.10)
+
+
+@dataclass(frozen=True)
+class Constants:           # (scatter, slope) of each
+    nodes: tuple = (0.12, 0.05)
+    slip: tuple = (0.03, 0.01)
+    whole: tuple = (0.2, 0.12)
+    pads: tuple = (0.14, 0.1)
+    levels: int = 4
+
+
+TRIED = {"now": Constants(),
+         "twice the slope": Constants(nodes=(0.12, 0.1), slip=(0.03, 0.02), whole=(0.2, 0.25), pads=(0.14, 0.2)),
+         "0.7 of the scatter": Constants(nodes=(0.085, 0.05), slip=(0.02, 0.01), whole=(0.14, 0.12), pads=(0.1, 0.1)),
+         "1.4 of the scatter": Constants(nodes=(0.17, 0.05), slip=(0.04, 0.01), whole=(0.28, 0.12), pads=(0.2, 0.1)),
+         "worth 1": Constants(levels=1), "worth 8": Constants(levels=8)}
 
 
 @dataclass(frozen=True)
@@ -86,78 +103,162 @@ def computed(number, kept):
                  {row["nodes"]: row["mu"] for row in rows if row["mu"]})
 
 
-def limit(row, nodes, scatter, slope, levels):
-    """(value, bar) of generalised least squares, as error_bars.c finds them another way: here b is no unknown but part of
-    the covariance (slope infinite: 1e3)."""
-    over, values = 1 / numpy.array(nodes, float), [row.values[n] for n in nodes]
-    off = numpy.array(values) / values[-1] - 1
-    few = numpy.ones(len(nodes))
-    if case(row.number).is_block and row.slip > 0:
-        few = numpy.maximum(CELLS_ENOUGH * over / row.slip, 1)
-    inverse = numpy.linalg.inv(numpy.diag((scatter * few * over) ** 2) + min(slope, 1e3) ** 2 * numpy.outer(over, over))
-    variance = 1 / inverse.sum()
-    a = variance * (inverse @ off).sum()
-    freedoms = len(nodes) - 1 + levels
-    wider = ((off - a) @ inverse @ (off - a) + levels) / freedoms
-    value = values[-1] * (1 + a)
-    return value, max(values[-1] * STUDENT[min(freedoms, len(STUDENT)) - 1] * math.sqrt(variance * wider), STEPS * value)
+# --- bars by any constants ----------------------------------------------------------------------
+
+@dataclass(frozen=True)
+class Level:
+    nodes: int
+    cells: float           # that decide: of a pad, or those that slip where it turns fast
+    values: tuple          # of its runs
+    wait: float = 0        # what mu rises by while the last nodes hold
 
 
-def is_resolved(row, nodes):
-    """Whether a bar may count as met on so many contact nodes."""
-    return not case(row.number).is_block or not row.slip * nodes < CELLS_ENOUGH
+@dataclass(frozen=True)
+class Problem:
+    name: str
+    pads: int
+    mu: float              # reference
+    own: float             # its own error
+    levels: tuple
+    lowest: bool = False   # of runs, in place of their mean
 
 
-def score(rows, count, constants):
-    """Of the `count` coarsest levels: cells of the table."""
-    ratios, bars, misses = [], [], []
+def own_problems(rows):
     for row in rows:
-        value, bar = limit(row, sorted(row.values)[:count], *constants)
-        ratios.append(abs(value - row.mu) / bar)
-        bars.append(100 * bar / row.mu)
-        misses.append(100 * abs(value / row.mu - 1))
-    return [f"{sum(ratio <= 1 for ratio in ratios)} of {len(rows)}", f"{max(ratios):.2f}", f"{statistics.median(ratios):.2f}",
-            f"{statistics.median(misses):.2f}", f"{statistics.median(bars):.2f}", f"{numpy.quantile(bars, 0.9):.2f}"]
+        one, over = case(row.number), row.slip if row.slip > 0 else 1
+        pads = one.mesh.get("n") or one.mesh.get("grooves", 0) + 1
+        yield Problem(row.name, pads, row.mu, row.own * row.mu, tuple(
+            Level(nodes, nodes / pads - 1 if pads > 1 else over * nodes, (value,)) for nodes, value in sorted(row.values.items())))
 
 
-def scatter_text(rows):
-    """Root mean square of (value / reference - 1) nodes, by the cells that slip before it turns fast."""
+def strangers_problems(path):
+    """Of the tuning part of validation/strangers, as packed by strangers.py --pack."""
+    tuning = {one.number: one for one in strangers.problems.problems() if one.tuning}
+    for data in map(json.loads, path.read_text().splitlines()):
+        asked, rows = data["asked"], [row for row in data["runs"] if "late" in row]
+        if data["number"] not in tuning or asked["status"]:
+            continue
+        for answer in judge.ANSWERS:
+            truth = judge.reference(rows, answer)
+            levels = [Level(level["contact_nodes"], level["cells"], tuple(run[answer] for run in level["runs"]), level["end_wait"] or 0)
+                      for level in asked["levels"] if not level["undamped"] and all(run[answer] for run in level["runs"])]
+            if truth and truth.value and levels:
+                last = asked["levels"][-1]
+                pads = 1 if last["cells"] in (last["slip_cells"], last["contact_nodes"] - 1) else round(last["contact_nodes"] / (last["cells"] + 1))
+                yield Problem(f"{data['number']} {answer}", pads, truth.value, truth.own, tuple(levels), answer == "mu_hold")
+
+
+def level_value(problem, level):
+    return min(level.values) if problem.lowest else statistics.mean(level.values)
+
+
+def kind_of(problem, part):
+    return "pads" if problem.pads > 1 else "more" if part > MOST else "one piece"
+
+
+def limit(problem, levels, constants):
+    """(value, bar, kind) of generalised least squares, as error_bars.c finds them another way: here b is no unknown but part of the
+    covariance."""
+    nodes, values = (numpy.array(x, float) for x in zip(*((level.nodes, level_value(problem, level)) for level in levels)))
+    part = sum(max(level.cells, 0.5) for level in levels) / nodes.sum()
+    kind = kind_of(problem, part)
+    scatter, slope = {"pads": [c / part for c in constants.pads], "more": constants.whole,
+                      "one piece": [max(n, s / part) for n, s in zip(constants.nodes, constants.slip)]}[kind]
+    squares = sum(statistics.pvariance(level.values) * len(level.values) for level in levels)
+    freedoms = sum(len(level.values) - 1 for level in levels)
+    runs = squares / freedoms / numpy.array([len(level.values) for level in levels]) if freedoms else numpy.zeros(len(levels))
+    waits = numpy.array([level.wait for level in levels])
+    few = numpy.maximum(CELLS_ENOUGH / (part * nodes), 1)
+    own = (values[-1] * scatter * few / nodes) ** 2 + waits ** 2 + runs
+    inverse = numpy.linalg.inv(numpy.diag(own) + (values[-1] * slope) ** 2 * numpy.outer(1 / nodes, 1 / nodes))
+    variance = 1 / inverse.sum()
+    weights = variance * inverse.sum(axis=0)
+    value, by_runs = weights @ values, (weights ** 2 * runs).sum()
+    freedoms = len(nodes) - 1 + constants.levels
+    wider = ((values - value) @ inverse @ (values - value) + constants.levels) / freedoms
+    mesh = max(math.hypot(STUDENT[min(freedoms, len(STUDENT)) - 1] * math.sqrt(wider * (variance - by_runs)), 3 * waits[-1]), STEPS * value)
+    return value, max(math.hypot(mesh, 2 * math.sqrt(by_runs)), abs(value - values[-1])), kind
+
+
+def bars_of(problems, constants):
+    """{kind: [(|error| / bar, bar / mu)]} of all first meshes, three at least, of all problems, the last with enough cells."""
+    found = {}
+    for problem in problems:
+        for count in range(3, len(problem.levels) + 1):
+            levels = problem.levels[:count]
+            if levels[-1].cells < CELLS_ENOUGH or levels[-1].nodes == levels[0].nodes:
+                continue
+            value, bar, kind = limit(problem, levels, constants)
+            error = abs(value - problem.mu)
+            if problem.own <= bar / 3 or error - 3 * problem.own > bar or error + 3 * problem.own <= bar:
+                found.setdefault(kind, []).append((error / bar, bar / value))
+    return found
+
+
+def tried_text(families):
     table = []
-    for low, high in zip(CELLS, CELLS[1:]):
-        cells = [f"{low} to {high}"]
-        for block in (True, False):
-            off = [nodes * (value / row.mu - 1) for row in rows if case(row.number).is_block == block
-                   for nodes, value in row.values.items() if low <= row.slip * nodes < high]
-            cells += [str(len(off)), f"{math.sqrt(statistics.mean(x * x for x in off)):.2f}" if off else ""]
-        table.append(cells)
-    return markdown_table(["cells that slip", "meshes of blocks", "scatter", "meshes of pads and grooves", "scatter"], table)
+    for name, constants in TRIED.items():
+        for family, problems in families.items():
+            for kind, bars in sorted(bars_of(problems, constants).items()):
+                ratios = [ratio for ratio, _ in bars]
+                table.append([name, family, kind, f"{sum(ratio <= 1 for ratio in ratios)} of {len(ratios)}", f"{max(ratios):.2f}",
+                              f"{statistics.median(ratios):.2f}", f"{100 * statistics.median(bar for _, bar in bars):.2f}"])
+    return markdown_table(["constants", "problems", "contact", "bars that hold", "worst error, bars", "median error, bars",
+                           "median bar, %"], table)
 
 
-def text_of(rows):
-    parts = ["### By resolution\n\n" + scatter_text(rows)]
-    for kind, tried in TRIED.items():
-        mine = [row for row in rows if case(row.number).is_block == (kind == "blocks")]
-        table = []
-        for count in LEVELS:
-            enough = [row for row in mine if len(row.values) >= count and is_resolved(row, sorted(row.values)[count - 1])]
-            table += [[str(count), *(f"{part:g}" for part in constants), *score(enough, count, constants)] for constants in tried]
-        parts.append(f"### {kind.capitalize()}\n\n" + markdown_table(
-            ["meshes", "scatter", "slope", "worth levels", "bars that hold", "worst error, bars", "median error, bars",
-             "median error, %", "median bar, %", "9 of 10 bars below, %"], table))
+def scatter_text(families):
+    """Median of |value / reference - 1| times nodes and times cells, by the part of the contact that decides."""
+    table = []
+    for kind, low, high in (*(("one piece", *bounds) for bounds in zip(PARTS, PARTS[1:])), ("pads", 0, math.inf)):
+        for family, problems in families.items():
+            meshes = [(level_value(problem, level) / problem.mu - 1, level) for problem in problems for level in problem.levels
+                      if (problem.pads > 1) == (kind == "pads") and low <= level.cells / level.nodes < high and level.cells >= CELLS_ENOUGH]
+            if meshes:
+                table.append([kind if high == math.inf else f"{kind}, {low:g} to {high:g}", family, str(len(meshes)),
+                              *(f"{statistics.median(abs(off) * size(level) for off, level in meshes):.3f}"
+                                for size in (lambda level: level.nodes, lambda level: level.cells))])
+    return markdown_table(["contact, and the part of it that decides", "problems", "meshes", "off, times nodes", "off, times cells"], table)
+
+
+def text_of(rows, asked):
+    families = {"78 cases": list(own_problems(rows)), "strangers": list(strangers_problems(asked)) if asked.exists() else []}
     every = markdown_table(["number", "case", "mu_M", "own error, %", "slip, of the nodes", "contact nodes: mu_M"],
                            [[str(row.number), row.name, f"{row.mu:.4f}", f"{100 * row.own:.2f}", f"{row.slip:.3f}" if row.slip > 0 else "",
                              ", ".join(f"{nodes}: {value:.5f}" for nodes, value in sorted(row.values.items()))] for row in rows])
-    return (f"## What is usual from mesh to mesh?\n\nVersion {commit()}. `scatter`, `slope`: in parts of mu, over the nodes in "
-            "contact. `worth levels`: how many levels it is worth to know the scatter. Errors and bars are those of meshes alone, "
-            "without branches and drops, on a last mesh that resolves slip. error_bars.c takes 0.12 and 0.08 for one contact, 0.7 and "
-            "0.5 for several, worth 8 levels: about the shortest bars of which 19 of 20 hold, all numbers of meshes together.\n\n" + "\n\n".join(parts)
-            + "\n\n### Cases\n\n" + every)
+    return (f"""## What is usual from mesh to mesh?
+
+Version {commit()}. What `src/record/error_bars.c` takes for granted before meshes tell: how far values scatter from mesh to mesh, and
+how far it is from a mesh to ever smaller cells (slope), in parts of mu over the contact's nodes (`nodes`), over the cells that slip where slip turns fast
+(`slip`; the larger of the two counts), over the nodes where more than half of the contact slips (`whole`), over the cells of a pad
+(`pads`); worth so many meshes (`levels`). Two families: the {len(rows)} cases before the first of promise.py, and mu_M and mu_hold of the tuning part of
+[strangers](../strangers/README.md). A case whose reference is not known to a third of the bar counts where that does not matter.
+
+### How far meshes are off
+
+Median of |value / reference - 1| on meshes where 8 cells and more decide.
+
+{scatter_text(families)}
+
+### Bars by other constants
+
+Of all first three, four, ... meshes of each problem. `now` is what the program takes: of those by which 19 of 20 bars hold in both
+families together, those with the shortest. Pads of the 78 cases scatter three times as far as those of strangers, and nothing that a run knows tells them apart: so the
+bars of the latter are long (their median error is a tenth of them).
+
+{tried_text(families)}
+
+### Cases
+
+{every}
+""")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("-o", "--output", type=Path, default=ROOT / "results/priors")
     parser.add_argument("--cases", type=int, default=0)
+    parser.add_argument("--asked", type=Path, default=ROOT / "validation/strangers/now.jsonl", help="of strangers.py --pack")
     parser.add_argument("--known", type=Path, default=Path(__file__).with_name("priors.md"))
     options = parser.parse_args()
     options.output.mkdir(parents=True, exist_ok=True)
@@ -168,7 +269,7 @@ def main():
             known[number] = row
             print(number, row.name, flush=True)
     rows = [known[number] for number in sorted(known)]
-    (options.output / "priors.md").write_text(text_of(rows))
+    (options.output / "priors.md").write_text(text_of(rows, options.asked))
     return 0
 
 
