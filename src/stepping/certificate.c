@@ -94,7 +94,7 @@ bool certificate_oscillates_less(Certificate *certificate, const State *state, L
 {
     double started = clock_seconds(), ratio = log(growth) / M_PI;
     double part = ratio / sqrt(1 + ratio * ratio) / BETWEEN_RUNGS;
-    bool less = true;
+    bool less = ladder_fill(ladder);   // BETWEEN_RUNGS is that of neighbours
     for (int32_t k = 0; less && k < ladder->rung_count; k++) {
         ContactMatrix *rung = ladder_contact(ladder, k);
         if (rung) less = is_definite(certificate, state, rung, part);
@@ -180,6 +180,7 @@ double certificate_load(Certificate *certificate, const State *state, ContactMat
 bool certificate_excludes_runaway(Certificate *certificate, const State *state, Ladder *ladder)
 {
     double load[3] = {0}, octaves;
+    if (!ladder_fill(ladder)) return false;   // so is the parabola
     for (int32_t k = 0; k < ladder->rung_count; k++) {
         ContactMatrix *rung = ladder_contact(ladder, k);
         load[0] = load[1];

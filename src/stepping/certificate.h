@@ -60,7 +60,7 @@ bool certificate_finds_runaway(Certificate *certificate, const State *state, Lad
                                int32_t resolved);
 
 // A disturbance that oscillates grows by less than `growth` > 1 in half a period. Asked on all
-// rungs that are built.
+// rungs between the first and the last that are built; here and below those that lack are built.
 bool certificate_oscillates_less(Certificate *certificate, const State *state, Ladder *ladder,
                                  double growth);
 

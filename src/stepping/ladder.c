@@ -68,6 +68,17 @@ InterfaceOperator *ladder_rung(Ladder *ladder, int32_t k, Error *err)
     return ladder->rung[k];
 }
 
+bool ladder_fill(Ladder *ladder)
+{
+    Error err = {0};
+    int32_t first = 0, last = ladder->rung_count - 1;
+    while (first < last && !ladder->rung[first]) first++;
+    while (last > first && !ladder->rung[last]) last--;
+    for (int32_t k = first + 1; k < last; k++)
+        if (!ladder_rung(ladder, k, &err)) return false;
+    return true;
+}
+
 ContactMatrix *ladder_contact(Ladder *ladder, int32_t k)
 {
     return ladder->rung[k] ? &ladder->contact[k] : NULL;

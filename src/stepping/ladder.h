@@ -32,6 +32,8 @@ double ladder_reach(const Ladder *ladder, int32_t k);   // gamma dt: displacemen
 int32_t ladder_find(const Ladder *ladder, double step);
 // NULL with the error set when the matrix cannot be factored.
 InterfaceOperator *ladder_rung(Ladder *ladder, int32_t k, Error *err);
+// Builds what lies between rungs that are built; false: one cannot be factored.
+bool ladder_fill(Ladder *ladder);
 // What the contact sees of rung k; NULL: it is not built.
 ContactMatrix *ladder_contact(Ladder *ladder, int32_t k);
 
