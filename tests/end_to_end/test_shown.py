@@ -12,12 +12,21 @@ from sanitizer_fixture import preload
 SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
 BIN = Path(os.environ.get("AMONTONS_BIN", SOURCE / "build" / "bin"))
 # The gallery shows pictures of the others, and two runs more.
-PAGES = [page for page in sorted(SOURCE.glob("docs/*.md"))
+PAGES = [page for page in [SOURCE / "README.md", *sorted(SOURCE.glob("docs/*.md"))]
          if "\n```console\n" in page.read_text() and page.name != "gallery.md"]
 PICTURES_MAX = 3_000_000   # bytes in all, a film among them: pages are read on the web
 
 
 class Shown(unittest.TestCase):
+    def test_numbers(self):
+        """README and docs/accuracy.md show the mu that their commands print, with and without an error bar."""
+        checked = [SOURCE / "README.md", SOURCE / "docs/accuracy.md"]
+        done = subprocess.run([SOURCE / "docs/examples/shown.py", "--check", *checked], capture_output=True, text=True,
+                              env=os.environ | preload(BIN / "libamontons.so"))
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        marks = sum(page.read_text().count("<!-- mu_") for page in checked)
+        self.assertGreater(marks, 0)
+
     def test_commands(self):
         self.assertGreaterEqual(len(PAGES), 2)
         done = subprocess.run([SOURCE / "docs/examples/shown.py", "--small", *PAGES], capture_output=True, text=True,
