@@ -19,7 +19,10 @@ static const double FULL_BORDER = 4.9e-9;   // stage and m^2
 static const double REDUCTION_FACTORS = 5.0e-5;   // n
 static const double REDUCTION_PRODUCTS = 6.8e-10;   // q m^2 of each half
 static const double REDUCED_STAGE = 3.8e-9;   // stage and m^2
-static const double ANY_STAGE = 2.5e-5;   // stage: contact and certificate of small interfaces
+static const double ANY_STAGE = 5e-6;   // stage: contact and certificate of small interfaces
+
+// Several materials have no one viscous time: more motions are left, and go through each stage.
+static const double OF_SEVERAL = 2.5;
 
 static const double RUNGS = 11;   // used by a run with a sliding
 
@@ -38,9 +41,10 @@ ExpectedCost choice_expect(const ChoiceSizes *sizes)
     double pass = FULL_STAGE * pow(n, 1.5) + FULL_BORDER * square;
     double parts = sizes->halves, m = sizes->interface / parts;
     double products = REDUCTION_PRODUCTS * parts * m * m * far_patches_left(n / parts, m);
+    double stage = REDUCED_STAGE * square * (sizes->several ? OF_SEVERAL : 1);
     double reduction = REDUCTION_FACTORS * n + products, any = sizes->stages * ANY_STAGE;
     return (ExpectedCost){.reduction = reduction,
-                          .reduced = any + sizes->stages * REDUCED_STAGE * square,
+                          .reduced = any + sizes->stages * stage,
                           .full = any + RUNGS * factor + sizes->stages * pass};
 }
 

@@ -273,6 +273,7 @@ static bool expect(Model *model, bool held, Error *err)
                       .stages = stages_expect(scene, &drive),
                       .halves = mirrored ? 2 : 1,
                       .runs = scene->reduction.cache ? fmax(scene->reduction.runs, 1) : 1,
+                      .several = model->materials.count > 1,
                       .held = held};
     model->expected = choice_expect(&model->choice);
 cleanup:

@@ -303,7 +303,7 @@ NOT_A_CHOICE = {
     "model/choice.c": {
         "FULL_FACTOR": "s, fitted by validation/benchmark/choice.py: whether a reduction pays",
         "FULL_STAGE": "the same", "FULL_BORDER": "the same", "REDUCTION_FACTORS": "the same",
-        "REDUCTION_PRODUCTS": "the same", "REDUCED_STAGE": "the same", "ANY_STAGE": "s, validation/strangers/forecasts.py",
+        "REDUCTION_PRODUCTS": "the same", "REDUCED_STAGE": "the same", "ANY_STAGE": "s, validation/strangers/forecasts.py", "OF_SEVERAL": "forecasts.py",
         "RUNGS": "counted",
         "NOT_WORTH_ASKING": "s that may be lost; choice.py",
         "BYTES_FACTORS": "counted", "BYTES_PRODUCTS": "counted", "BYTES_MAX": "memory"},

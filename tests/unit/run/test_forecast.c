@@ -23,7 +23,7 @@ static double taken_over_expected(const char *const *settings)
 }
 
 // Two of validation/strangers (10 and 30) on coarser meshes, and the block without a layer. The
-// first sticks and slips with drops of a thousandth of mu_S, the second slides without drops.
+// first sticks and slips with drops far below mu_S - mu_K, the second slides without drops.
 static void test_soft_layers(void **state)
 {
     (void)state;
