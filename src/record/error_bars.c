@@ -287,6 +287,11 @@ void levels_add_run(Levels *levels, double pressure, const Answers *answers, int
     levels_estimate(levels);
 }
 
+bool levels_have_runs(const Levels *levels)
+{
+    return levels->count > 0 && levels->list[levels->count - 1].run_count > 0;
+}
+
 const ErrorBar *levels_answer(const Levels *levels, AnswerKind kind)
 {
     return levels->count > 0 ? &levels->list[levels->count - 1].answer[kind] : NULL;
@@ -296,7 +301,11 @@ void levels_answer_for(const Levels *levels, Answers *answers)
 {
     const ErrorBar *mu_M = levels_answer(levels, ANSWER_MU_M);
     const ErrorBar *mu_hold = levels_answer(levels, ANSWER_MU_HOLD);
-    if (!mu_M) return;
+    if (!levels_have_runs(levels)) {
+        answers->mu_M.error = answers->mu_hold.error = NAN;
+        answers->mu_M_parts = answers->mu_hold_parts = (ErrorParts){NAN, NAN, NAN};
+        return;
+    }
     answers->mu_M = (Estimate){mu_M->value, mu_M->bar};
     answers->mu_M_parts = mu_M->parts;
     answers->mu_hold = (Estimate){mu_hold->value, mu_hold->bar};
@@ -375,6 +384,26 @@ static void write_branches(const Levels *levels, JsonWriter *json)
     json_end(json);
 }
 
+// null: none was.
+static void write_cut(const LevelCut *cut, JsonWriter *json)
+{
+    if (cut->mesh == 0) {
+        json_text(json, "cut", NULL);
+        return;
+    }
+    json_begin_object(json, "cut");
+    json_integer(json, "mesh", cut->mesh);
+    json_integer(json, "run", cut->run);
+    json_integer(json, "contact_nodes", cut->contact_nodes);
+    json_number(json, "U", cut->U);
+    json_number(json, "part", cut->part);
+    json_number(json, "mu_M", cut->mu_M);
+    json_number(json, "mu_hold", cut->mu_hold);
+    json_integer(json, "peaks", cut->peaks);
+    json_text(json, "run_in", run_in_name(cut->run_in));
+    json_end(json);
+}
+
 void levels_write_json(const Levels *levels, JsonWriter *json)
 {
     json_begin_object(json, "accuracy");
@@ -382,6 +411,7 @@ void levels_write_json(const Levels *levels, JsonWriter *json)
     json_boolean(json, "met", levels->met);
     json_text(json, "of", ANSWER_NAMES[levels->asked]);
     json_text(json, "ended", levels->ended);
+    write_cut(&levels->cut, json);
     json_number(json, "observed_order", levels_order(levels));
     write_branches(levels, json);
     json_begin_list(json, "levels");
