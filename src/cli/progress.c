@@ -53,30 +53,44 @@ void progress_format_left(double seconds, char *text, size_t size)
         snprintf(text, size, "%ld:%02ld", whole / 60, whole % 60);
 }
 
+// The part of the way after which slidings repeat: they come at equal distances, each after as much
+// loading as the first one, or less.
+static double cycle_of(const Pace *pace)
+{
+    return pace->begun.fraction < CYCLE_MAX ? pace->begun.fraction : CYCLE_MAX;
+}
+
 // Follows what a run costs: the clock counts from its first rapid event on, as loading up to that
 // takes next to nothing; and steps that were all alike so far.
 static void follow_pace(Progress *progress, const StepView *view, double elapsed)
 {
     Pace *pace = &progress->pace;
+    Mark now = {elapsed, view->fraction};
     if (view->step_size > 0 && pace->step == 0) pace->step = view->step_size;
     if (view->step_size > 0 && view->step_size != pace->step) pace->uneven = true;
-    if (pace->counts || view->events == 0) return;
-    pace->counts = true;
-    pace->elapsed = elapsed;
-    pace->fraction = view->fraction;
+    if (!pace->counts && view->events > 0) {
+        pace->counts = true;
+        pace->begun = pace->older = pace->newer = now;
+    }
+    double doubled = 2 * pace->newer.elapsed - pace->begun.elapsed;
+    if (!pace->counts || elapsed < doubled || now.fraction - pace->newer.fraction < cycle_of(pace))
+        return;
+    pace->older = pace->newer;
+    pace->newer = now;
 }
 
-// Seconds left; NaN while that is not known. Slidings come at equal distances, each after as much
-// loading as the first one, or less: once so much of the way has been gone again, their cost is
-// known. Measured from the start it rose from 0:08 to 0:49 with the first sliding.
+// Seconds left; NaN while that is not known. Once so much of the way has been gone again as before
+// the first event, the cost of slidings is known; measured from the start it rose from 0:08 to 0:49
+// with the first sliding. What counts is the later half of the time, or somewhat more, as runs grow
+// dearer or cheaper: on 16 strangers' problems (validation/strangers) half of the times left were
+// right within 7 %, of the whole time within 14 %.
 static double seconds_left(const Progress *progress, double fraction, double elapsed)
 {
     const Pace *pace = &progress->pace;
-    double gone = fraction - pace->fraction;
-    double cycle = pace->fraction < CYCLE_MAX ? pace->fraction : CYCLE_MAX;
-    bool known = pace->uneven ? pace->counts && gone >= cycle : gone >= 1e-3;
+    double gone = fraction - pace->begun.fraction;
+    bool known = pace->uneven ? pace->counts && gone >= cycle_of(pace) : gone >= 1e-3;
     if (!known || elapsed < SECONDS_LEAST) return NAN;
-    return (elapsed - pace->elapsed) / gone * (1 - fraction);
+    return (elapsed - pace->older.elapsed) / (fraction - pace->older.fraction) * (1 - fraction);
 }
 
 // In place of the one that stands there; its end is cut off in a narrow window.

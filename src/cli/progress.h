@@ -9,12 +9,18 @@
 
 typedef enum ProgressStyle { PROGRESS_QUIET, PROGRESS_LINES, PROGRESS_BAR } ProgressStyle;
 
-// What a run has cost since its first rapid event.
+// A moment of a run: s since the first step, part of the way.
+typedef struct Mark {
+    double elapsed, fraction;
+} Mark;
+
+// What a run has cost since its first rapid event, and lately.
 typedef struct Pace {
     bool counts;   // there was one
     bool uneven;   // steps were not all alike
     double step;   // the first one's, time
-    double elapsed, fraction;   // then: s since the first step, part of the way
+    Mark begun;   // then
+    Mark older, newer;   // each when twice as much time was gone as at the one before
 } Pace;
 
 typedef struct Progress {

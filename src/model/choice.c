@@ -9,7 +9,6 @@
 #include "model/choice.h"
 
 #include "bulk/far_patches.h"
-#include "model/step_rule.h"
 
 #include <math.h>
 
@@ -20,6 +19,10 @@ static const double FULL_BORDER = 4.9e-9;   // stage and m^2
 static const double REDUCTION_FACTORS = 5.0e-5;   // n
 static const double REDUCTION_PRODUCTS = 6.8e-10;   // q m^2 of each half
 static const double REDUCED_STAGE = 3.8e-9;   // stage and m^2
+static const double ANY_STAGE = 5e-6;   // stage: contact and certificate of small interfaces
+
+// Several materials have no one viscous time: more motions are left, and go through each stage.
+static const double OF_SEVERAL = 2.5;
 
 static const double RUNGS = 11;   // used by a run with a sliding
 
@@ -31,11 +34,6 @@ static const double NOT_WORTH_ASKING = 0.05;
 // 320 x 320 and at 800 contact nodes on 60 rows).
 static const double BYTES_FACTORS = 9000, BYTES_PRODUCTS = 36, BYTES_MAX = 6e9;
 
-// Of a run up to its first sliding, and of each sliding.
-static const double STAGES_REST = 100, STAGES_SLIDING = 380;
-static const double STAGES_STEP = 2;   // of SDIRK2
-static const double PERIODIC_SLIDINGS = 8;   // after which a run that waits for it has its period
-
 ExpectedCost choice_expect(const ChoiceSizes *sizes)
 {
     double n = sizes->unknowns, square = sizes->interface * sizes->interface;
@@ -43,10 +41,11 @@ ExpectedCost choice_expect(const ChoiceSizes *sizes)
     double pass = FULL_STAGE * pow(n, 1.5) + FULL_BORDER * square;
     double parts = sizes->halves, m = sizes->interface / parts;
     double products = REDUCTION_PRODUCTS * parts * m * m * far_patches_left(n / parts, m);
-    double reduction = REDUCTION_FACTORS * n + products;
+    double stage = REDUCED_STAGE * square * (sizes->several ? OF_SEVERAL : 1);
+    double reduction = REDUCTION_FACTORS * n + products, any = sizes->stages * ANY_STAGE;
     return (ExpectedCost){.reduction = reduction,
-                          .reduced = sizes->stages * REDUCED_STAGE * square,
-                          .full = RUNGS * factor + sizes->stages * pass};
+                          .reduced = any + sizes->stages * stage,
+                          .full = any + RUNGS * factor + sizes->stages * pass};
 }
 
 bool choice_reduces(const ChoiceSizes *sizes, const ExpectedCost *cost)
@@ -57,25 +56,4 @@ bool choice_reduces(const ChoiceSizes *sizes, const ExpectedCost *cost)
     if (bytes > BYTES_MAX) return false;
     return cost->reduction < NOT_WORTH_ASKING ||
            cost->reduction / sizes->runs + cost->reduced < cost->full;
-}
-
-// The block slides when the rod has moved mu_S times `way`, and again each time that it has moved
-// the drop of mu times that.
-static double count_slidings(const Scene *scene, double way)
-{
-    const FrictionLaw *law = &scene->friction;
-    double drop = law->mu_static - law->mu_kinetic;
-    double pushed = scene->rod.kind == ROD_NONE ? 0 : scene->rod.velocity * step_rule_end(scene);
-    double beyond = pushed / way - law->mu_static;
-    if (!(law->mu_static > 0) || !(beyond > 0)) return 0;
-    double slidings = beyond / (drop > 0 ? drop : law->mu_static);
-    if (scene->time.until_slidings > 0) slidings = fmin(slidings, scene->time.until_slidings);
-    return scene->time.until_periodic ? fmin(slidings, PERIODIC_SLIDINGS) : slidings;
-}
-
-double choice_stages(const Scene *scene, double way)
-{
-    double longest = scene->time.step_max;   // 0: the program's, which is part of the others
-    double least = longest > 0 ? STAGES_STEP * step_rule_end(scene) / longest : 0;
-    return fmax(STAGES_REST + STAGES_SLIDING * count_slidings(scene, way), least);
 }

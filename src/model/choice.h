@@ -9,9 +9,10 @@
 typedef struct ChoiceSizes {
     double unknowns;   // of the mesh
     double interface;   // of those on floor and rod
-    double stages;   // of the run
+    double stages;   // of the run (model/stages)
     double halves;   // 2: the block is likely its own mirror image (bulk/mirror); else 1
     double runs;   // that the basis will serve, this one too
+    bool several;   // the block is of several materials
     bool held;   // the basis is in the cache
 } ChoiceSizes;
 
@@ -27,9 +28,5 @@ ExpectedCost choice_expect(const ChoiceSizes *sizes);
 // A basis that is held costs nothing; the runs that share one share its cost. Never beyond the
 // memory that a basis may take.
 bool choice_reduces(const ChoiceSizes *sizes, const ExpectedCost *cost);
-
-// How many stages a run to the scene's end will take, about. way: of the rod for each unit of mu,
-// until the block and the machine yield no more, length.
-double choice_stages(const Scene *scene, double way);
 
 #endif

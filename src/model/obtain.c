@@ -17,6 +17,7 @@
 #include "model/far_cache.h"
 #include "model/gaps.h"
 #include "model/shape_cache.h"
+#include "model/stages.h"
 #include "scene/materials.h"
 
 #include <malloc.h>
@@ -256,22 +257,6 @@ static bool is_reducible(const Scene *scene)
     return allowed && implicit && is_viscous(scene) && starts_at_interface(scene);
 }
 
-// Force and h/L over E: less than the 3.2 of a block that is held below, fitted with model/choice.
-static const double SHEAR_YIELD = 2;
-
-// What the rod moves for each unit of mu, length: the block is compressed by a force that falls
-// along it, as a bar on friction; below the rod it is sheared and, as a beam that stands on the
-// floor, bent; the machine yields too.
-static double yield_per_mu(const Model *model)
-{
-    double force = model->scales.load, machine = model_machine(model).stiffness;
-    double length = model->length, height = model->height, middle, width;
-    model_rod_strip(model->scene, height, &middle, &width);
-    double slender = middle / length;
-    double yield = 0.5 * length / height + SHEAR_YIELD * slender + 4 * pow(slender, 3);
-    return force * (yield / model->materials.mean.young + (machine > 0 ? 1 / machine : 0));
-}
-
 // Sets what the run is expected to cost. held: the basis is in the cache.
 static bool expect(Model *model, bool held, Error *err)
 {
@@ -281,12 +266,14 @@ static bool expect(Model *model, bool held, Error *err)
     if (!held && is_reducible(scene))
         TRY(mirror_is_likely(&model->bulk, mesh->position, model->interface.dofs,
                              model->interface.count, &mirrored, err));
+    Drive drive = stages_drive(model);
     model->choice =
         (ChoiceSizes){.unknowns = model->full_dofs,
                       .interface = model->interface.count,
-                      .stages = choice_stages(scene, yield_per_mu(model)),
+                      .stages = stages_expect(scene, &drive),
                       .halves = mirrored ? 2 : 1,
                       .runs = scene->reduction.cache ? fmax(scene->reduction.runs, 1) : 1,
+                      .several = model->materials.count > 1,
                       .held = held};
     model->expected = choice_expect(&model->choice);
 cleanup:

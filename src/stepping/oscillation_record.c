@@ -64,11 +64,15 @@ void oscillation_record_add(OscillationRecord *record, const State *state, doubl
     int32_t count = record->interface->contact_count + record->interface->rod_count;
     if (record->duration == 0) return;
     record->seen_for += step;
-    if (certified) record->runs = false;
-    if (is_fast(record, state)) record->runs = true;
-    if (record->runs) {
+    if (is_fast(record, state)) {
         oscillation_record_clear(record);
+        record->runs = true;
         return;
+    }
+    if (record->runs) {
+        record->runs = !certified && record->seen_for < record->duration;
+        if (record->runs) return;
+        record->seen_for = step;
     }
     for (int32_t k = 0; k < count; k++) {
         double weakening = weakening_of(record, state, k), seen = record->weakening[k];

@@ -20,8 +20,9 @@ typedef struct OscillationRecord {
     const Interface *interface;   // not owned, like the law
     const FrictionLaw *law;
     double duration;   // time; 0: nothing is ever covered
-    double seen_for;   // resolved time since slip last did something new
-    bool runs;   // slip was near v_c and is not certified since
+    double seen_for;   // resolved time since slip last did something new; while it runs, since it
+        // was near v_c
+    bool runs;   // slip was near v_c, and has neither been certified nor slow for `duration` since
     double *weakening;   // [contact_count + rod_count] largest seen, force * time / length; below
         // 0: it has not moved; owned
 } OscillationRecord;
@@ -32,8 +33,8 @@ void oscillation_record_destroy(OscillationRecord *record);
 void oscillation_record_clear(OscillationRecord *record);
 
 // To be called after every accepted step that resolves waves: it ended in `state`. While slip is
-// near v_c, and then until it is certified, nothing is recorded: a sliding block moves all its
-// nodes.
+// near v_c, and then until it is certified or was slow for `duration`, nothing is recorded: a
+// sliding block moves all its nodes.
 void oscillation_record_add(OscillationRecord *record, const State *state, double step,
                             bool certified);
 

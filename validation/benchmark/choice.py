@@ -175,7 +175,7 @@ def table_of(shapes, done):
 # --- the constants ------------------------------------------------------------------------------
 
 NAMES = ("FULL_FACTOR", "FULL_STAGE", "FULL_BORDER", "REDUCTION_FACTORS", "REDUCTION_PRODUCTS",
-         "REDUCED_STAGE")
+         "REDUCED_STAGE", "ANY_STAGE")
 SOURCE = (ROOT / "src/model/choice.c").read_text()
 
 
@@ -191,9 +191,9 @@ def left(n, m):
 def terms(use, ran):
     """What each constant is multiplied by, and 1 for what both ways share."""
     n, m, stages = ran["n"], ran["m"], ran["stages"]
-    full = [in_source("RUNGS") * n**1.5, stages * n**1.5, stages * m**2, 0, 0, 0]
+    full = [in_source("RUNGS") * n**1.5, stages * n**1.5, stages * m**2, 0, 0, 0, stages]
     parts = ran["halves"]
-    reduced = [0, 0, 0, n, left(n / parts, m / parts) * m**2 / parts, stages * m**2]
+    reduced = [0, 0, 0, n, left(n / parts, m / parts) * m**2 / parts, stages * m**2, stages]
     return (full if use == "full" else reduced) + [1]
 
 

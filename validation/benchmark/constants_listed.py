@@ -291,14 +291,20 @@ NOT_A_CHOICE = {
     "model/model.c": {
         "standard_middle": "the rod's default place", "standard_width": "the rod's default"},
     "model/obtain.c": {
-        "REDUCTION_TOLERANCES": "draft and fine: as standard",
-        "SHEAR_YIELD": "stages of a run, validation/benchmark/choice.py"},
+        "REDUCTION_TOLERANCES": "draft and fine: as standard"},
+    "model/stages.c": {
+        "SHEAR_YIELD": "stages of a run, validation/benchmark/choice.py",
+        "STAGES_REST": "the same, counted", "STAGES_STEADY": "the same, validation/strangers/forecasts.py",
+        "STAGES_CYCLE": "the same, forecasts.py", "STAGES_SLIDING": "the same, forecasts.py",
+        "BY_SLOWNESS": "the same, forecasts.py", "BY_RUNAWAY": "the same, forecasts.py",
+        "RUNAWAY_LEAST": "the same, forecasts.py", "STAGES_STEP": "of SDIRK2",
+        "PERIODIC_SLIDINGS": "stages of a run, counted", "STEADY_FROM": "the same, forecasts.py",
+        "CYCLES_UP_TO": "the same, forecasts.py"},
     "model/choice.c": {
         "FULL_FACTOR": "s, fitted by validation/benchmark/choice.py: whether a reduction pays",
         "FULL_STAGE": "the same", "FULL_BORDER": "the same", "REDUCTION_FACTORS": "the same",
-        "REDUCTION_PRODUCTS": "the same", "REDUCED_STAGE": "the same", "RUNGS": "the same, counted", "STAGES_REST": "the same, counted",
-        "STAGES_SLIDING": "the same, counted", "STAGES_STEP": "of SDIRK2",
-        "PERIODIC_SLIDINGS": "the same, counted",
+        "REDUCTION_PRODUCTS": "the same", "REDUCED_STAGE": "the same", "ANY_STAGE": "s, validation/strangers/forecasts.py", "OF_SEVERAL": "forecasts.py",
+        "RUNGS": "counted",
         "NOT_WORTH_ASKING": "s that may be lost; choice.py",
         "BYTES_FACTORS": "counted", "BYTES_PRODUCTS": "counted", "BYTES_MAX": "memory"},
     "study/stability/stability.c": {"POINTS_BEYOND": "shown"},

@@ -166,12 +166,43 @@ static void test_time_left(void **state)
     }
 }
 
+// At `fraction` of the way, `elapsed` thousands of s after the first step: beside them it makes no
+// difference what the test itself takes.
+static void step_at(Progress *progress, double elapsed, double fraction)
+{
+    StepView view = {.fraction = fraction, .step_size = fraction, .events = 1};
+    clock_gettime(CLOCK_MONOTONIC, &progress->started);
+    progress->started.tv_sec -= (time_t)(1000 * elapsed);
+    progress->running = true;
+    progress_step(&view, progress);
+}
+
+// Up to half of the way a tenth takes 1000 s, from there on 10 times that: at 0.7 there are 30000 s
+// to go (8:20:00), where all the time so far would say 12000.
+static void test_grows_dearer(void **state)
+{
+    (void)state;
+    Stage stage;
+    begin(&stage, 0);
+    Progress progress = progress_begin(false);
+    for (int k = 10; k <= 70; k++) {
+        double gone = 0.1 * (k - 10);
+        step_at(&progress, k <= 50 ? gone : 4 + 10 * (gone - 4), 0.01 * k + 1e-9);
+    }
+    progress_end(&progress);
+    const char *line = strstr(said(&stage), " 70 %");
+    const char *left = line ? strstr(line, "  8:20:0") : NULL;
+    if (!left) left = line ? strstr(line, "  8:19:5") : NULL;
+    end(&stage);
+    assert_non_null(left);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_parts_in_a_log), cmocka_unit_test(test_parts_on_a_terminal),
         cmocka_unit_test(test_quiet),          cmocka_unit_test(test_runs_of_a_mesh),
-        cmocka_unit_test(test_time_left),
+        cmocka_unit_test(test_time_left),      cmocka_unit_test(test_grows_dearer),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -87,41 +87,6 @@ static void test_memory(void **state)
     assert_false(reduces(&huge));
 }
 
-// mu_S = 0.4 and mu_K = 0.2: slidings where the rod is at 0.4, 0.6, ... times `way`.
-static void test_stages(void **state)
-{
-    (void)state;
-    Scene scene = {.rod = {.kind = ROD_PUSH, .velocity = 2}, .time = {.until_U = 0.3}};
-    scene.friction.mu_static = 0.4;
-    scene.friction.mu_kinetic = 0.2;
-    double rest = choice_stages(&scene, 1);
-    assert_true(rest > 0);   // relaxing, and the way to the first
-    scene.time.until_U = 0.6;
-    double sliding = choice_stages(&scene, 1) - rest;
-    assert_true(sliding > 0);
-    scene.time.until_U = 1.4;
-    assert_near("five", choice_stages(&scene, 1), rest + 5 * sliding, 1e-9);
-    scene.time.until_U = 0;
-    scene.time.until_t = 0.7;
-    assert_near("as long", choice_stages(&scene, 1), rest + 5 * sliding, 1e-9);
-    scene.time.until_slidings = 2;
-    assert_near("two asked for", choice_stages(&scene, 1), rest + 2 * sliding, 1e-9);
-    scene.time.until_slidings = 0;
-    scene.time.until_t = 1e6;
-    scene.time.until_periodic = true;
-    assert_true(choice_stages(&scene, 1) < rest + 20 * sliding);
-    scene.friction.mu_kinetic = 0.4;   // Coulomb
-    assert_true(isfinite(choice_stages(&scene, 1)));
-    scene.friction.mu_static = scene.friction.mu_kinetic = 0;
-    assert_true(isfinite(choice_stages(&scene, 1)));
-    scene.time.until_periodic = false;
-    scene.time.step_max = 1;   // a million steps of two stages
-    assert_near("steps", choice_stages(&scene, 1), 2e6, 0);
-    scene.time.step_max = 0;
-    scene.rod.kind = ROD_NONE;
-    assert_near("no rod", choice_stages(&scene, 1), rest, 0);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_short_and_long_runs),
@@ -129,7 +94,6 @@ int main(void)
                                        cmocka_unit_test(test_held),
                                        cmocka_unit_test(test_many_runs),
                                        cmocka_unit_test(test_not_worth_asking),
-                                       cmocka_unit_test(test_memory),
-                                       cmocka_unit_test(test_stages)};
+                                       cmocka_unit_test(test_memory)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
