@@ -372,7 +372,7 @@ static void write_branches(const Levels *levels, JsonWriter *json)
     SeriesItem sorted[LEVEL_RUNS_MAX];
     SeriesBranch branch;
     const Level *last = &levels->list[levels->count - 1];
-    int32_t count = sort_runs(last, levels->asked, sorted);
+    int32_t count = levels->count > 0 ? sort_runs(last, levels->asked, sorted) : 0;
     json_begin_list(json, "branches");
     for (int32_t k = 0; k < count;) {
         k = series_branch(sorted, count, k, BRANCH_WIDTH, &branch);
@@ -384,23 +384,18 @@ static void write_branches(const Levels *levels, JsonWriter *json)
     json_end(json);
 }
 
-// null: none was.
+// Numbers of none are null.
 static void write_cut(const LevelCut *cut, JsonWriter *json)
 {
-    if (cut->mesh == 0) {
-        json_text(json, "cut", NULL);
-        return;
-    }
+    bool none = cut->mesh == 0;
     json_begin_object(json, "cut");
-    json_integer(json, "mesh", cut->mesh);
-    json_integer(json, "run", cut->run);
-    json_integer(json, "contact_nodes", cut->contact_nodes);
-    json_number(json, "U", cut->U);
-    json_number(json, "part", cut->part);
-    json_number(json, "mu_M", cut->mu_M);
-    json_number(json, "mu_hold", cut->mu_hold);
-    json_integer(json, "peaks", cut->peaks);
-    json_text(json, "run_in", run_in_name(cut->run_in));
+    json_number(json, "mesh", none ? (double)NAN : cut->mesh);
+    json_number(json, "run", none ? (double)NAN : cut->run);
+    json_number(json, "contact_nodes", none ? (double)NAN : cut->contact_nodes);
+    json_number(json, "U", none ? (double)NAN : cut->U);
+    json_number(json, "part", none ? (double)NAN : cut->part);
+    json_number(json, "mu_M", none ? (double)NAN : cut->mu_M);
+    json_number(json, "mu_hold", none ? (double)NAN : cut->mu_hold);
     json_end(json);
 }
 

@@ -63,8 +63,6 @@ typedef struct LevelCut {
     int32_t contact_nodes;   // 0: there was no mesh yet
     double U, part;   // reached, length; over the longest way that it may go; NaN: no step yet
     double mu_M, mu_hold;   // so far; NaN: none
-    int32_t peaks;   // in mu_M
-    RunIn run_in;
 } LevelCut;
 
 typedef struct Levels {

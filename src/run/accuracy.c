@@ -91,8 +91,8 @@ static double next_step(const Accuracy *accuracy)
 static bool try_level(Accuracy *accuracy, double refine, bool *coarse, Error *err)
 {
     begin_level(accuracy, refine * next_step(accuracy));
-    if (!accuracy_run_member(accuracy, pressure_of(accuracy, 0), coarse, err) && err->code == ERROR_INPUT &&
-        accuracy->step < STEP_SPLIT) {
+    if (!accuracy_run_member(accuracy, pressure_of(accuracy, 0), coarse, err) &&
+        err->code == ERROR_INPUT && accuracy->step < STEP_SPLIT) {
         *err = (Error){0};
         accuracy->step = STEP_SPLIT;
         accuracy->levels.count--;
@@ -111,7 +111,8 @@ static bool add_level(Accuracy *accuracy, double refine, Error *err)
         TRY(try_level(accuracy, refine, k >= LEVELS_MAX ? NULL : &coarse, err));
         refine = accuracy_last_level(accuracy)->refine;
         if (!coarse) break;
-        accuracy->out_of_time = GROWTH * accuracy_last_level(accuracy)->seconds > accuracy_seconds_left(accuracy);
+        accuracy->out_of_time = GROWTH * accuracy_last_level(accuracy)->seconds >
+                                accuracy_seconds_left(accuracy);
         accuracy->levels.count--;
         if (accuracy->out_of_time) goto cleanup;
     }
@@ -199,6 +200,8 @@ static bool go_on(Accuracy *accuracy, bool *ended, Error *err)
     Level *level = accuracy_last_level(accuracy);
     double between = hypot(answer->parts.branches, answer->parts.drops);
     bool enough = accuracy->levels.count >= LEVELS_LEAST && levels_resolved(&accuracy->levels);
+    if (isnan(answer->value) && accuracy->slides_steadily)
+        return *ended = end_here(accuracy, "the block slides steadily");
     if (isnan(answer->value))
         return *ended = end_here(accuracy, levels_run_in(&accuracy->levels)
                                                ? "the run-in of a run was not over"
@@ -206,15 +209,13 @@ static bool go_on(Accuracy *accuracy, bool *ended, Error *err)
     accuracy->levels.met = is_met(accuracy);
     if (accuracy->levels.met) return *ended = end_here(accuracy, "the error bar is met");
     if (enough && between > answer->parts.mesh && level->run_count + 2 <= LEVEL_RUNS_MAX - 1) {
-        if (!has_time_for(accuracy, 2))
-            return *ended = end_here(accuracy, NO_TIME);
+        if (!has_time_for(accuracy, 2)) return *ended = end_here(accuracy, NO_TIME);
         TRY(add_runs(accuracy, 2, err));
         goto cleanup;
     }
     if (accuracy->levels.count == LEVELS_MAX)
         return *ended = end_here(accuracy, "the finest mesh that is tried");
-    if (!has_time_for_level(accuracy))
-        return *ended = end_here(accuracy, NO_TIME);
+    if (!has_time_for_level(accuracy)) return *ended = end_here(accuracy, NO_TIME);
     TRY(add_level(accuracy, level->refine, err));
     if (accuracy->out_of_time) *ended = end_here(accuracy, NO_TIME);
 cleanup:
@@ -231,7 +232,8 @@ static bool find_levels(Accuracy *accuracy, Error *err)
     while (!ended) {
         int32_t before = accuracy->levels.count, runs = accuracy_last_level(accuracy)->run_count;
         TRY(go_on(accuracy, &ended, err));
-        bool new = accuracy->levels.count != before || accuracy_last_level(accuracy)->run_count != runs;
+        bool new = accuracy->levels.count != before ||
+                   accuracy_last_level(accuracy)->run_count != runs;
         if (new) show_level(accuracy);
     }
 cleanup:
@@ -247,6 +249,52 @@ static bool levels_lack_runs(const Accuracy *accuracy)
            levels->list[levels->count - 1].run_count + 2 <= LEVEL_RUNS_MAX;
 }
 
+// F_T/F_N of steady sliding, where that is the answer, is known as well as was wanted.
+static bool is_steady_enough(const Accuracy *accuracy, const Simulation *simulation)
+{
+    Answers answers = answers_of(&simulation->drops);
+    if (!accuracy->slides_steadily || answers.peaks_counted > 0) return false;
+    steady_answer(&simulation->steady, &answers);
+    return answers.mu_M.error <= accuracy->levels.wanted * answers.mu_M.value;
+}
+
+// After a loop that ended early: no error where it was for time.
+static bool is_time_up(const Accuracy *accuracy, Simulation *simulation, Error *err)
+{
+    const volatile sig_atomic_t *stop = accuracy->options->stop;
+    if (err->code != ERROR_INTERRUPT || (stop && *stop)) return false;
+    *err = (Error){0};
+    warnings_add(
+        &simulation->warnings,
+        "the run in full was cut short at U = %g: time was up (--within, accuracy.within); "
+        "history and pictures end there, the error bar is of the runs before",
+        simulation->seen.U);
+    return true;
+}
+
+// Time was up in the first run of all: what it has is reported, without a bar.
+static bool report_cut(Accuracy *accuracy, ResultFolder *folder, RunSummary *summary, Error *err)
+{
+    Simulation *simulation = accuracy->cut;
+    const LevelCut *cut = &accuracy->levels.cut;
+    TRY(result_folder_clear(folder, err) && result_folder_settle(folder, err));
+    simulation->folder = *folder;   // its lock, too
+    *folder = (ResultFolder){0};
+    simulation->options.on_report = accuracy->options->on_report;
+    simulation->options.context = accuracy->options->context;
+    simulation->options.folder = accuracy->options->folder;
+    simulation->started = accuracy->started;
+    simulation->levels = &accuracy->levels;
+    accuracy->levels.count = 0;
+    warnings_add(&simulation->warnings,
+                 "error bar not met: its first run was cut short (%d contact nodes, %.0f %% of its "
+                 "way): time was up (--within, accuracy.within)",
+                 cut->contact_nodes, isnan(cut->part) ? 0 : 100 * cut->part);
+    TRY(simulation_finish(simulation, NULL, summary, err));
+cleanup:
+    return error_is_clean(err);
+}
+
 // The scene itself on the last mesh, with its files. It counts as one more run where it goes on for
 // long enough to have an answer; a branch that it found is a reason for more of them.
 static bool run_in_full(Accuracy *accuracy, RunSummary *summary, Error *err)
@@ -258,14 +306,15 @@ static bool run_in_full(Accuracy *accuracy, RunSummary *summary, Error *err)
     *scene = *accuracy->scene;
     TRY(scene_refine(scene, accuracy_last_level(accuracy)->refine, err));
     TRY(amontons_simulation_create(scene, accuracy->options, &simulation, err));
-    TRY(simulation_loop(simulation, err));
+    simulation->deadline = accuracy->deadline;
+    if (!simulation_loop(simulation, err)) TRY(is_time_up(accuracy, simulation, err));
     Answers answers = answers_of(&simulation->drops);
     if (accuracy_is_known(accuracy, &answers))
         levels_add_run(levels, 1, &answers, simulation->control.counters.accepted);
     while (levels_lack_runs(accuracy) && accuracy_seconds_left(accuracy) > 0)
         TRY(add_runs(accuracy, 2, err));
     if (levels->met && !is_met(accuracy)) levels->ended = "the run in full widened it";
-    levels->met = is_met(accuracy);
+    levels->met = is_met(accuracy) || is_steady_enough(accuracy, simulation);
     if (!levels->met) warnings_of_bar(levels, &simulation->warnings);
     warnings_of_last_mesh(levels, &simulation->warnings);
     simulation->started = accuracy->started;
@@ -289,6 +338,8 @@ bool amontons_run(const Scene *scene, const RunOptions *options, RunSummary *sum
     accuracy->scene = scene;
     accuracy->options = options;
     accuracy->started = clock_seconds();
+    accuracy->deadline = INFINITY;
+    if (scene->accuracy.within > 0) accuracy->deadline = accuracy->started + scene->accuracy.within;
     accuracy->levels.wanted = scene->accuracy.mu;
     accuracy->step = STEP;
     if (options->resume)
@@ -297,6 +348,10 @@ bool amontons_run(const Scene *scene, const RunOptions *options, RunSummary *sum
              "a checkpoint: say --overwrite");
     TRY(result_folder_claim(options->folder, options->overwrite, &folder, err));
     TRY(find_levels(accuracy, err));
+    if (!levels_have_runs(&accuracy->levels)) {
+        TRY(report_cut(accuracy, &folder, summary, err));
+        goto cleanup;
+    }
     result_folder_release(&folder);   // the last run claims it for itself
     TRY(run_in_full(accuracy, summary, err));
 cleanup:
@@ -304,6 +359,7 @@ cleanup:
         accuracy_stopped(&accuracy->levels, scene->title,
                          folder.has_earlier ? NULL : options->folder, err);
     result_folder_release(&folder);
+    if (accuracy) amontons_simulation_destroy(accuracy->cut);
     memory_free(accuracy);
     return error_is_clean(err);
 }

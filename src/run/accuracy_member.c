@@ -6,6 +6,7 @@
 #include "model/step_rule.h"
 #include "run/end_wait.h"
 #include "run/level_scene.h"
+#include "run/stop_request.h"
 #include "run/warnings.h"
 #include "scene/programs.h"
 
@@ -59,6 +60,18 @@ bool accuracy_is_known(const Accuracy *accuracy, const Answers *answers)
     return answers->peaks_counted == 0 && answers->enough;
 }
 
+static bool is_steered(const Scene *scene)
+{
+    return scene_has_program(&scene->rod.program) || scene_has_program(&scene->load.program);
+}
+
+// As far as the scene itself goes, and no load drop is ahead.
+static bool slides_steadily(const Accuracy *accuracy, const Simulation *simulation)
+{
+    return simulation->seen.t >= step_rule_end(accuracy->scene) &&
+           !isnan(steady_mu(&simulation->steady).value) && !is_steered(accuracy->scene);
+}
+
 // A run that comes to its end in the middle of its run-in goes on, once. What a program does may
 // well look like a run-in, for ever.
 static bool goes_on(const Accuracy *accuracy, Simulation *simulation)
@@ -66,9 +79,8 @@ static bool goes_on(const Accuracy *accuracy, Simulation *simulation)
     const Scene *scene = accuracy->scene;
     bool once = simulation->scene.time.until_U > LONGER * scene->time.until_U ||
                 simulation->scene.time.until_t > LONGER * scene->time.until_t;
-    bool steered = scene_has_program(&scene->rod.program) ||
-                   scene_has_program(&scene->load.program);
-    if (once || steered || regime_of(&simulation->drops).run_in == RUN_IN_OVER) return false;
+    if (once || is_steered(scene) || regime_of(&simulation->drops).run_in == RUN_IN_OVER)
+        return false;
     simulation->scene.time.until_U *= LONGER;
     simulation->scene.time.until_t *= LONGER;
     simulation->t_end = step_rule_end(&simulation->scene);
@@ -81,6 +93,8 @@ static bool step_until_known(Accuracy *accuracy, Simulation *simulation, EndWait
     for (bool finished = false; !finished;) {
         TRY(amontons_simulation_step(simulation, NULL, &finished, err));
         end_wait_watch(wait, simulation);
+        accuracy->slides_steadily = slides_steadily(accuracy, simulation);
+        if (accuracy->slides_steadily) break;
         if (finished && goes_on(accuracy, simulation)) finished = false;
         if (simulation->events.ended) {
             accuracy->so_far = answers_of(&simulation->drops);
@@ -115,10 +129,9 @@ static bool is_undamped(const Simulation *simulation)
 static void show_member(const StepView *view, void *context)
 {
     Accuracy *accuracy = context;
-    double left = accuracy->deadline - clock_seconds();
+    double left = fmax(accuracy->deadline - clock_seconds(), 0);
     StepView named = *view;
     named.mesh = accuracy->levels.count;
-    named.meshes = LEVELS_LEAST;
     named.run = accuracy_last_level(accuracy)->run_count + 1;
     named.mu_M = accuracy->so_far.mu_M.value;
     named.mu_hold = accuracy->so_far.mu_hold.value;
@@ -151,7 +164,7 @@ static void expect_full(Accuracy *accuracy, const Simulation *simulation, double
     accuracy->full = making + fmin(way * stepping, FULL_SHARE * scene->accuracy.within);
 }
 
-// Of a run that was stopped, as `err` says: no error where it was time that stopped it.
+// Of a run that was stopped: no error where it was time that stopped it.
 static void note_cut(Accuracy *accuracy, const Simulation *simulation, Error *err)
 {
     const volatile sig_atomic_t *stop = accuracy->options->stop;
@@ -170,12 +183,13 @@ static void note_cut(Accuracy *accuracy, const Simulation *simulation, Error *er
         cut->part = fmin(simulation->seen.t / simulation->t_end, 1);
         cut->mu_M = answers.mu_M.value;
         cut->mu_hold = answers.mu_hold.value;
-        cut->peaks = answers.peaks_counted;
-        cut->run_in = answers.regime.run_in;
     }
-    if (stop && *stop) return;
-    accuracy->out_of_time = true;
     *err = (Error){0};
+    accuracy->out_of_time = !(stop && *stop);
+    if (!accuracy->out_of_time)
+        FAIL(err, ERROR_INTERRUPT, "stopped on mesh %d of an error bar", cut->mesh);
+cleanup:
+    return;
 }
 
 bool accuracy_run_member(Accuracy *accuracy, double pressure, bool *coarse, Error *err)
@@ -187,11 +201,13 @@ bool accuracy_run_member(Accuracy *accuracy, double pressure, bool *coarse, Erro
                           .stop = accuracy->options->stop};
     Simulation *simulation = NULL;
     EndWait wait = {.mu = NAN};
+    bool first = !levels_have_runs(&accuracy->levels) && accuracy->levels.count == 1;
     double started = clock_seconds(), deadline = accuracy->deadline - accuracy->full;
     Scene *scene = scene_of_run(accuracy, level->refine, pressure, err);
     accuracy->so_far = (Answers){.mu_M = {NAN, NAN}, .mu_hold = {NAN, NAN}};
     TRY(scene);
-    TRY(simulation_create_by(scene, &options, deadline, &simulation, err));
+    TRY(simulation_create_by(scene, &options, first ? INFINITY : deadline, &simulation, err));
+    simulation->deadline = deadline;   // one step is made, whatever time there is
     const Interface *interface = &simulation->model.interface;
     level->contact_nodes = interface->contact_count;
     level->pads = interface->pad_count;
@@ -207,7 +223,7 @@ bool accuracy_run_member(Accuracy *accuracy, double pressure, bool *coarse, Erro
     expect_full(accuracy, simulation, begun - started, clock_seconds() - begun);
 cleanup:
     if (err->code == ERROR_INTERRUPT) note_cut(accuracy, simulation, err);
-    if (!error_is_clean(err) || (accuracy->out_of_time && !levels_have_runs(&accuracy->levels))) {
+    if (accuracy->out_of_time && !levels_have_runs(&accuracy->levels)) {
         accuracy->cut = simulation;
         simulation = NULL;
     }

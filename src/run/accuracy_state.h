@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What the parts of a search for an error bar share: run/accuracy goes from mesh to mesh,
-// run/accuracy_member does one run, run/accuracy_cut reports where one was cut short. amontons.h
-// declares what the caller sees.
+// run/accuracy_member does one run. amontons.h declares what the caller sees.
 //
 // Time (accuracy.within) ends a search inside a run. Of what is given a part is kept for the run in
 // full on the last mesh whose runs are whole; a run or a mesh that would take longer than what is
-// left before is not begun. What was cut short has no part in the
-// bar. Where it was the first run of all, its own answers stand, without a bar.
+// left before is not begun. What was cut short has no part in the bar. Where it was the first run
+// of all, its own answers stand, without a bar.
 #ifndef AMONTONS_RUN_ACCURACY_STATE_H
 #define AMONTONS_RUN_ACCURACY_STATE_H
 
@@ -23,9 +22,10 @@ typedef struct Accuracy {
     double started, deadline;   // wall clock, s; INFINITY: accuracy.within is not given
     double full;   // expected of the run in full, s; 0: no run is whole
     bool out_of_time;
+    bool slides_steadily;   // at the end of the last run
     Answers so_far;   // of the run under way
     char stage[64];   // of it, as the caller is told
-    Simulation *cut;   // a run that was cut short, where it is all there is to report; owned
+    Simulation *cut;   // the first run of all, where time cut it short; owned
 } Accuracy;
 
 Level *accuracy_last_level(Accuracy *accuracy);
@@ -37,9 +37,5 @@ bool accuracy_is_known(const Accuracy *accuracy, const Answers *answers);
 // One run of the last level. *coarse (NULL: not asked): the mesh has too few contact nodes, or its
 // cells are too long for slip; nothing was stepped. Out of time: nothing was added.
 bool accuracy_run_member(Accuracy *accuracy, double pressure, bool *coarse, Error *err);
-
-// Where nothing but runs that were cut short is left to report: time was up in the first one, or
-// the caller stopped the search, as `err` says.
-bool accuracy_report_cut(Accuracy *accuracy, RunSummary *summary, Error *err);
 
 #endif

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // mesh -> bulk and interface -> steps prepared -> relaxed -> recorders -> steps -> results.
+#include "run/stop_request.h"
 #include "run/simulation_state.h"
 
 #include "base/clock.h"

@@ -2,20 +2,11 @@
 // A simulation from its first step to its report, and what ends it before the scene does.
 #include "run/simulation_state.h"
 
-#include "base/clock.h"
 #include "run/checkpoint.h"
 #include "run/rewind.h"
+#include "run/stop_request.h"
 
 #include <math.h>
-
-bool simulation_may_go_on(const Simulation *simulation, Error *err)
-{
-    const volatile sig_atomic_t *stop = simulation->options.stop;
-    if (stop && *stop) FAIL(err, ERROR_INTERRUPT, "stopped");
-    if (clock_seconds() > simulation->deadline) FAIL(err, ERROR_INTERRUPT, "time is up");
-cleanup:
-    return error_is_clean(err);
-}
 
 // Always false.
 static bool stop_here(Simulation *simulation, Error *err)

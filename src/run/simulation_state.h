@@ -70,8 +70,6 @@ bool simulation_run(const Scene *scene, const RunOptions *options, RunSummary *s
 bool simulation_create_by(const Scene *scene, const RunOptions *options, double deadline,
                           Simulation **simulation, Error *err);
 bool simulation_loop(Simulation *simulation, Error *err);   // steps to the end of the scene
-// Asked between phases and steps. ERROR_INTERRUPT: the caller wants a stop, or the time is up.
-bool simulation_may_go_on(const Simulation *simulation, Error *err);
 
 bool steering_is_open(const Simulation *simulation, Error *err);   // ERROR_INPUT: finished
 bool simulation_is_finished(const Simulation *simulation);   // the scene's end, or its period
