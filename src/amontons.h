@@ -61,6 +61,7 @@ typedef struct StepView {
     bool certified;   // the slip set cannot grow on its own: large steps are allowed
     int32_t events, slidings;   // seen so far: rapid ones; those that crossed the interface
     int32_t mesh, run;   // of those behind an error bar, from 1; 0: the scene itself
+    double mu_M, mu_hold, seconds_left;   // of such a run: so far; of accuracy.within; NaN: none
     ContactView contact;
 } StepView;
 
@@ -79,8 +80,7 @@ typedef struct RunCounters {
     int64_t loop_allocations;   // arrays allocated in the time loop (0 but new rungs, output)
 } RunCounters;
 
-// One phase of a run, for --profile.
-typedef struct RunPhase {
+typedef struct RunPhase {   // of a run, for --profile
     const char *name;   // "contact"; static storage
     double seconds;   // wall time
     int64_t count;   // of what `note` names

@@ -59,10 +59,8 @@ static void print_mu_M(const RunSummary *summary)
         return;
     }
     if (strcmp(summary->mu_M_is, STEADY) == 0) {
-        say("  mu_M            %.4f: F_T/F_N of %s; the block slides slowly as a whole, no sliding "
-            "was fast\n"
-            "                  the mesh's error is not known\n",
-            summary->mu_M, STEADY);
+        print_estimate("mu_M", summary->mu_M, summary->mu_M_error);
+        say(": F_T/F_N of %s; the block slides slowly as a whole, no sliding was fast\n", STEADY);
         return;
     }
     print_estimate("mu_M", summary->mu_M, summary->mu_M_error);
@@ -144,10 +142,10 @@ static void print_bar(const RunSummary *summary)
     else
         say("  error bar       %.1f %% of %s, %.1f %% asked for: %s\n", 100 * part,
             slides ? "mu_M" : "mu_hold", 100 * summary->bar_wanted, summary->bar_ended);
-    say("                  from %d runs on %d mesh%s of up to %d contact nodes, at pressures "
+    say("                  from %d run%s on %d mesh%s of up to %d contact nodes, at pressures "
         "within %g %%\n",
-        summary->bar_runs, summary->bar_meshes, summary->bar_meshes == 1 ? "" : "es",
-        summary->bar_nodes, 100 * summary->bar_window);
+        summary->bar_runs, summary->bar_runs == 1 ? "" : "s", summary->bar_meshes,
+        summary->bar_meshes == 1 ? "" : "es", summary->bar_nodes, 100 * summary->bar_window);
 }
 
 static void print_answers(const RunSummary *summary)

@@ -24,6 +24,7 @@ enum {
 // not before so many s.
 static const double CYCLE_MAX = 0.25, SECONDS_LEAST = 0.2;
 
+static const double LOG_INTERVAL = 10;   // s between lines in a log, of runs behind an error bar
 static const double draw_interval = 0.1;   // s: the eye sees no more, and a terminal costs time
 
 static double seconds_between(const struct timespec *from, const struct timespec *to)
@@ -99,14 +100,37 @@ static void draw_line(const char *line)
     tell_over(line, terminal_width() - 1);
 }
 
-// "mesh 2, run 1  U 0.00123  mu 0.2034  3 events": a run behind an error bar ends once its answer
-// is known, so nobody can tell how much of the way is gone.
-static void draw_member(const StepView *view)
+// "mesh 2, run 1, 12 %  U 0.00123  3 events  mu_M so far 0.329  0:12 left": a
+// run behind an error bar ends once its answer is known, sooner than the way that it may go.
+static void format_member(const StepView *view, char *line, size_t size)
+{
+    char so_far[40] = "", left[40] = "", time[32];
+    bool slid = !isnan(view->mu_M);
+    double mu = slid ? view->mu_M : view->mu_hold;
+    if (!isnan(mu))
+        snprintf(so_far, sizeof so_far, "  %s so far %.3f", slid ? "mu_M" : "mu_hold", mu);
+    progress_format_left(view->seconds_left, time, sizeof time);
+    if (!isnan(view->seconds_left)) snprintf(left, sizeof left, "  %s left", time);
+    snprintf(line, size, "mesh %d, run %d, %.0f %%  U %.4g  %d event%s%s%s", view->mesh, view->run,
+             100 * view->fraction, view->U, view->events, view->events == 1 ? "" : "s", so_far,
+             left);
+}
+
+// On a terminal in place of the line before, in a log every now and then.
+static void show_member(Progress *progress, const StepView *view, const struct timespec *now)
 {
     char line[WIDTH_MAX];
-    snprintf(line, sizeof line, "mesh %d, run %d  U %.4g  mu %.4f  %d event%s", view->mesh,
-             view->run, view->U, view->mu, view->events, view->events == 1 ? "" : "s");
-    draw_line(line);
+    bool bar = progress->style == PROGRESS_BAR;
+    if (seconds_between(&progress->drawn, now) < (bar ? draw_interval : LOG_INTERVAL)) return;
+    bool first = progress->drawn.tv_sec == 0;
+    progress->drawn = *now;
+    if (first && !bar) return;   // short runs say nothing but what each mesh came to
+    format_member(view, line, sizeof line);
+    if (bar)
+        draw_line(line);
+    else
+        tell("%s\n", line);
+    progress->bar_stands = bar;
 }
 
 // "U 0.00123/0.006  mu 0.2034  dt 0.012  3 events  0:12 left", the last where it is known.
@@ -179,12 +203,7 @@ void progress_step(const StepView *view, void *context)
     if (progress->style == PROGRESS_QUIET) return;
     clock_gettime(CLOCK_MONOTONIC, &now);
     if (view->mesh > 0) {
-        if (progress->style != PROGRESS_BAR ||
-            seconds_between(&progress->drawn, &now) < draw_interval)
-            return;
-        draw_member(view);
-        progress->drawn = now;
-        progress->bar_stands = true;
+        show_member(progress, view, &now);
         return;
     }
     if (!progress->running) progress->started = now;

@@ -410,11 +410,11 @@ bool model_obtain(const Scene *scene, const StageNotice *notice, Model *model, E
     *model = model_of(scene);
     TRY(find_key(model, key, err));
     TRY(find_shape(model, key, &shape, &found, err));
-    if (notice && (!found || wants_mesh(scene))) notice->tell(notice->self, "meshing");
+    if (notice && (!found || wants_mesh(scene))) TRY(notice->tell(notice->self, "meshing", err));
     if (!found || wants_mesh(scene)) TRY(model_read_mesh(model, err));
     if (found && wants_mesh(scene) && 2 * model->mesh.node_count != model->reduced.full_dofs)
         found = forget_shape(model, &shape);
-    if (notice && !found) notice->tell(notice->self, "reducing");
+    if (notice && !found) TRY(notice->tell(notice->self, "reducing", err));
     if (!found) TRY(model_build_bulk(model, err));
     // What a scene may ask of a shape is checked here, wherever the shape comes from.
     TRY(check_rod(scene, found ? shape.sizes.rod_reach : rod_reach(model), err));

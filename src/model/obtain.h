@@ -5,9 +5,10 @@
 
 #include "model/model.h"
 
-// Who wants to know what takes its time.
+// Who wants to know what takes its time, and may end it before it begins.
 typedef struct StageNotice {
-    void (*tell)(void *self, const char *stage);   // "meshing", "reducing"; static storage
+    // "meshing", "reducing"; static storage
+    bool (*tell)(void *self, const char *stage, Error *err);
     void *self;   // not owned
 } StageNotice;
 

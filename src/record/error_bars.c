@@ -287,6 +287,11 @@ void levels_add_run(Levels *levels, double pressure, const Answers *answers, int
     levels_estimate(levels);
 }
 
+bool levels_have_runs(const Levels *levels)
+{
+    return levels->count > 0 && levels->list[levels->count - 1].run_count > 0;
+}
+
 const ErrorBar *levels_answer(const Levels *levels, AnswerKind kind)
 {
     return levels->count > 0 ? &levels->list[levels->count - 1].answer[kind] : NULL;
@@ -296,7 +301,11 @@ void levels_answer_for(const Levels *levels, Answers *answers)
 {
     const ErrorBar *mu_M = levels_answer(levels, ANSWER_MU_M);
     const ErrorBar *mu_hold = levels_answer(levels, ANSWER_MU_HOLD);
-    if (!mu_M) return;
+    if (!levels_have_runs(levels)) {
+        answers->mu_M.error = answers->mu_hold.error = NAN;
+        answers->mu_M_parts = answers->mu_hold_parts = (ErrorParts){NAN, NAN, NAN};
+        return;
+    }
     answers->mu_M = (Estimate){mu_M->value, mu_M->bar};
     answers->mu_M_parts = mu_M->parts;
     answers->mu_hold = (Estimate){mu_hold->value, mu_hold->bar};
@@ -363,7 +372,7 @@ static void write_branches(const Levels *levels, JsonWriter *json)
     SeriesItem sorted[LEVEL_RUNS_MAX];
     SeriesBranch branch;
     const Level *last = &levels->list[levels->count - 1];
-    int32_t count = sort_runs(last, levels->asked, sorted);
+    int32_t count = levels->count > 0 ? sort_runs(last, levels->asked, sorted) : 0;
     json_begin_list(json, "branches");
     for (int32_t k = 0; k < count;) {
         k = series_branch(sorted, count, k, BRANCH_WIDTH, &branch);
@@ -375,6 +384,21 @@ static void write_branches(const Levels *levels, JsonWriter *json)
     json_end(json);
 }
 
+// Numbers of none are null.
+static void write_cut(const LevelCut *cut, JsonWriter *json)
+{
+    bool none = cut->mesh == 0;
+    json_begin_object(json, "cut");
+    json_number(json, "mesh", none ? (double)NAN : cut->mesh);
+    json_number(json, "run", none ? (double)NAN : cut->run);
+    json_number(json, "contact_nodes", none ? (double)NAN : cut->contact_nodes);
+    json_number(json, "U", none ? (double)NAN : cut->U);
+    json_number(json, "part", none ? (double)NAN : cut->part);
+    json_number(json, "mu_M", none ? (double)NAN : cut->mu_M);
+    json_number(json, "mu_hold", none ? (double)NAN : cut->mu_hold);
+    json_end(json);
+}
+
 void levels_write_json(const Levels *levels, JsonWriter *json)
 {
     json_begin_object(json, "accuracy");
@@ -382,6 +406,7 @@ void levels_write_json(const Levels *levels, JsonWriter *json)
     json_boolean(json, "met", levels->met);
     json_text(json, "of", ANSWER_NAMES[levels->asked]);
     json_text(json, "ended", levels->ended);
+    write_cut(&levels->cut, json);
     json_number(json, "observed_order", levels_order(levels));
     write_branches(levels, json);
     json_begin_list(json, "levels");

@@ -57,17 +57,28 @@ typedef struct Level {
     double seconds;   // wall time
 } Level;
 
+// A run that time or the caller ended before its answer was known. It has no part in any bar.
+typedef struct LevelCut {
+    int32_t mesh, run;   // from 1; 0: none was
+    int32_t contact_nodes;   // 0: there was no mesh yet
+    double U, part;   // reached, length; over the longest way that it may go; NaN: no step yet
+    double mu_M, mu_hold;   // so far; NaN: none
+} LevelCut;
+
 typedef struct Levels {
     double wanted;   // bar over value
     bool met;
     AnswerKind asked;   // what `wanted` is of
     const char *ended;   // why no more was computed; static storage
+    LevelCut cut;   // the last that was
     int32_t count;
     Level list[LEVELS_MAX];   // [count] the coarsest first
 } Levels;
 
 extern const char *const ANSWER_NAMES[ANSWER_KINDS];   // "mu_M", "mu_hold"
 
+// The last level has at least a whole run, and so have all before.
+bool levels_have_runs(const Levels *levels);
 // Adds a run to the last level, which has room, and estimates anew.
 void levels_add_run(Levels *levels, double pressure, const Answers *answers, int64_t steps);
 
@@ -92,7 +103,8 @@ bool levels_resolved(const Levels *levels);
 // A run of the last level has no answer, as its run-in was not over.
 bool levels_run_in(const Levels *levels);
 
-// Puts value, error and parts of both answers in the place of those of one run.
+// Puts value, error and parts of both answers in the place of those of one run; without any whole
+// run that one's answers stay, of whose errors nothing is known.
 void levels_answer_for(const Levels *levels, Answers *answers);
 
 // Of the last three levels, for the asked answer: ln(difference before / last difference) over ln

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // mesh -> bulk and interface -> steps prepared -> relaxed -> recorders -> steps -> results.
+#include "run/stop_request.h"
 #include "run/simulation_state.h"
 
 #include "base/clock.h"
@@ -9,7 +10,6 @@
 #include "run/checkpoint.h"
 #include "run/explicit_loop.h"
 #include "run/output.h"
-#include "run/rewind.h"
 #include "run/saved_state.h"
 #include "run/start.h"
 #include "run/summary.h"
@@ -120,18 +120,20 @@ cleanup:
 }
 
 // For a StageNotice.
-static void tell_stage(void *self, const char *stage)
+static bool tell_stage(void *self, const char *stage, Error *err)
 {
     const Simulation *simulation = self;
+    if (!simulation_may_go_on(simulation, err)) return false;
     if (simulation->options.on_stage)
         simulation->options.on_stage(stage, simulation->options.context);
+    return true;
 }
 
 // From the scene: the block relaxes, an earlier result is set aside, t = 0 is recorded.
 static bool begin_anew(Simulation *simulation, Error *err)
 {
-    tell_stage(simulation, "relaxing");
     double begun = clock_processor_seconds();
+    TRY(tell_stage(simulation, "relaxing", err));
     TRY(start_relax(simulation, err));
     simulation->timing.outside -= clock_processor_seconds() - begun;
     TRY(explicit_loop_prepare(simulation, err));
@@ -189,8 +191,8 @@ cleanup:
 }
 
 // On failure *out still holds what was made: amontons_run reports it, and everyone destroys it.
-bool amontons_simulation_create(const Scene *scene, const RunOptions *options, Simulation **out,
-                                Error *err)
+bool simulation_create_by(const Scene *scene, const RunOptions *options, double deadline,
+                          Simulation **out, Error *err)
 {
     SavedState state = {0};
     *out = NULL;
@@ -199,6 +201,7 @@ bool amontons_simulation_create(const Scene *scene, const RunOptions *options, S
     *out = simulation;   // also when a stage fails: what is there can be reported and destroyed
     simulation->scene = *scene;
     simulation->options = *options;
+    simulation->deadline = deadline;
     simulation->scene.output.whole = options->whole_block;
     simulation->pressure = scene->load.pressure;
     simulation->started = simulation->checkpoint_at = clock_seconds();
@@ -225,6 +228,12 @@ bool amontons_simulation_create(const Scene *scene, const RunOptions *options, S
 cleanup:
     amontons_state_free(&state);
     return error_is_clean(err);
+}
+
+bool amontons_simulation_create(const Scene *scene, const RunOptions *options, Simulation **out,
+                                Error *err)
+{
+    return simulation_create_by(scene, options, INFINITY, out, err);
 }
 
 // One of those that time.until asks for.
@@ -393,55 +402,4 @@ void amontons_simulation_destroy(Simulation *simulation)
     result_folder_release(&simulation->folder);
     memory_free(simulation->block_motion);
     memory_free(simulation);
-}
-
-// Always false.
-static bool stop_here(Simulation *simulation, Error *err)
-{
-    Error unseen = {0};
-    bool kept = checkpoint_is_kept(simulation) && checkpoint_now(simulation, &unseen);
-    const char *folder = simulation->folder.path;
-    FAIL(err, ERROR_INTERRUPT, "stopped at U = %g (t = %g)%s%s%s", simulation->seen.U,
-         simulation->seen.t, *folder ? "; what was computed is kept in " : "", folder,
-         kept ? "; the same command with --resume goes on from there" : "");
-cleanup:
-    return false;
-}
-
-bool simulation_loop(Simulation *simulation, Error *err)
-{
-    const volatile sig_atomic_t *stop = simulation->options.stop;
-    bool finished = simulation->goes_on && simulation_is_finished(simulation);
-    TRY(rewind_start(simulation, err));
-    while (!finished) {
-        TRY(amontons_simulation_step(simulation, NULL, &finished, err));
-        TRY(rewind_follow(simulation, &finished, err));
-        checkpoint_when_due(simulation);
-        if (stop && *stop) TRY(stop_here(simulation, err));
-    }
-cleanup:
-    return error_is_clean(err);
-}
-
-// The loop itself allocates nothing but rungs and output. A failure anywhere is written into
-// run.json with what there was until then.
-bool simulation_run(const Scene *scene, const RunOptions *options, RunSummary *summary, Error *err)
-{
-    Simulation *simulation = NULL;
-    *summary = (RunSummary){.mu_M = NAN};
-    TRY(amontons_simulation_create(scene, options, &simulation, err));
-    TRY(simulation_loop(simulation, err));
-    TRY(amontons_simulation_finish(simulation, summary, err));
-cleanup:
-    simulation_end(simulation, summary, err);
-    return error_is_clean(err);
-}
-
-void simulation_end(Simulation *simulation, RunSummary *summary, const Error *err)
-{
-    if (simulation && !error_is_clean(err)) {
-        Error second = {0};   // the first error is the one that counts
-        simulation_finish(simulation, err, summary, &second);
-    }
-    amontons_simulation_destroy(simulation);
 }

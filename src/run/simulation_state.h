@@ -59,6 +59,7 @@ struct Simulation {
     double checkpoint_at, checkpoint_cost;   // wall clock of the last one; how long it took, s
     double last_unquiet;   // when slip was last rapid or not certified, time
     double started;   // wall clock, s
+    double deadline;   // of it, when the run ends as if it were stopped; INFINITY: never
     int64_t allocations_before;   // memory_counters() when the time loop began
     int32_t figures;   // drawn
     double figures_seconds;
@@ -66,6 +67,8 @@ struct Simulation {
 
 // What amontons_run and run/accuracy are made of, beside the pieces in amontons.h.
 bool simulation_run(const Scene *scene, const RunOptions *options, RunSummary *summary, Error *err);
+bool simulation_create_by(const Scene *scene, const RunOptions *options, double deadline,
+                          Simulation **simulation, Error *err);
 bool simulation_loop(Simulation *simulation, Error *err);   // steps to the end of the scene
 
 bool steering_is_open(const Simulation *simulation, Error *err);   // ERROR_INPUT: finished

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Lengths here are the block's; slip is measured by what the drop of friction can drive
 // (model_friction_slip).
+#include "run/stop_request.h"
 #include "run/start.h"
 
 #include "base/clock.h"
@@ -87,6 +88,12 @@ void start_programs(Simulation *simulation)
         simulation->control.scheme.course = &simulation->load_course;
 }
 
+// For RelaxationDef.
+static bool may_go_on(const void *self, Error *err)
+{
+    return simulation_may_go_on(self, err);
+}
+
 // An undeformed start skips relaxing. At the end t = 0, the ledger is opened, the model's friction
 // acts and the rod has its velocity.
 bool start_relax(Simulation *simulation, Error *err)
@@ -95,7 +102,9 @@ bool start_relax(Simulation *simulation, Error *err)
     const Model *model = &simulation->model;
     double started = clock_seconds();
     RelaxationDef def = {.speed_max = scene->start.tolerance * model->scales.slip_velocity,
-                         .duration_max = scene->start.duration_max * model->scales.time};
+                         .duration_max = scene->start.duration_max * model->scales.time,
+                         .may_go_on = may_go_on,
+                         .self = simulation};
     if (scene->start.friction == START_FRICTION_OFF) simulation->law = friction_constant(0);
     if (scene->start.state == START_RELAXED)
         TRY(relax(&simulation->control, &def, &simulation->relaxation_steps, err));

@@ -32,6 +32,7 @@ bool relax(StepControl *control, const RelaxationDef *def, int64_t *steps, Error
                 "short?)",
                 control->now.time, speed, def->speed_max);
         TRY(step_control_advance(control, INFINITY, err));
+        if (def->may_go_on) TRY(def->may_go_on(def->self, err));
         speed = fastest(control);
     }
 cleanup:

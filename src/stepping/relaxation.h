@@ -9,6 +9,8 @@
 typedef struct RelaxationDef {
     double speed_max;   // settled when every speed is below this, velocity
     double duration_max;   // ERROR_COMPUTE beyond it, time
+    bool (*may_go_on)(const void *self, Error *err);   // asked after each step; NULL: it may
+    const void *self;
 } RelaxationDef;
 
 // Steps `control` with the rod as it stands until it has settled; step_control_restart after it

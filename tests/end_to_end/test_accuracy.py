@@ -7,6 +7,7 @@ import os
 import statistics
 import subprocess
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -71,17 +72,43 @@ class Accuracy(unittest.TestCase):
         for level in report["accuracy"]["levels"]:
             self.assertTrue(all(run["peaks"] >= 8 for run in level["runs"]), level["runs"])
 
-    def test_cut_short(self):
-        """One mesh is done whatever time there is; its bar says that the mesh's part is not known."""
+    def test_cut_in_the_first_run(self):
+        """One step is made whatever time there is; what the run has is told, without a bar."""
         ended = self.run_it("--to", "0.1%", "--within", "0.001s")
         self.assertEqual(ended.returncode, 0, ended.stderr)
-        report = self.report()
-        self.assertFalse(report["accuracy"]["met"])
-        self.assertEqual(report["accuracy"]["ended"], "no time for more")
-        self.assertIn("error bar not met", report["warnings"][0])
+        found, results = self.report()["accuracy"], self.report()["results"]
+        self.assertEqual((found["met"], found["ended"], found["levels"]), (False, "no time for more", []))
+        self.assertEqual([found["cut"][key] for key in ("mesh", "run", "contact_nodes")], [1, 1, 21])
+        self.assertLess(found["cut"]["part"], 0.01)
+        self.assertIsNone(results["mu_M_error"])
+        self.assertIn("its first run was cut short (21 contact nodes, 0 %", self.report()["warnings"][0])
         self.assertIn("error bar not met", ended.stderr)
-        self.assertEqual(len(report["accuracy"]["levels"]), 1)
-        self.assertIsNone(report["results"]["mu_M_error_parts"]["mesh"])
+        self.assertNotIn("history.h5", os.listdir(self.folder))
+
+    def test_cut_within_a_mesh(self):
+        """A run whose answer is known to 0.002 % after minutes: time ends it, and what it has so far is told."""
+        began = time.monotonic()
+        ended = self.run_it("--to", "0.01%", "--within", "5s", settings=["load.pressure=0.006", "time.until.U=3", *SETTINGS[2:]])
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        self.assertLess(time.monotonic() - began, 5 * 8)      # a busy machine; the whole takes minutes
+        found, results = self.report()["accuracy"], self.report()["results"]
+        self.assertFalse(found["met"])
+        self.assertEqual((found["levels"], found["cut"]["mesh"], found["cut"]["run"]), ([], 1, 1))
+        self.assertLess(found["cut"]["part"], 0.9)
+        self.assertEqual(found["cut"]["mu_M"], results["mu_M"])
+        self.assertLess(abs(results["mu_M"] / REFERENCE - 1), 0.05)      # of 20 cells
+        self.assertIsNone(results["mu_M_error"])
+
+    def test_time_left_for_the_whole(self):
+        """Meshes that are whole, and the run in full, within the time; the bar is that of these meshes."""
+        ended = self.run_it("--to", "0.05%", "--within", "12s")
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        found, results = self.report()["accuracy"], self.report()["results"]
+        self.assertEqual(found["ended"], "no time for more")
+        self.assertTrue(all(len(level["runs"]) >= 2 for level in found["levels"]))
+        self.assertEqual((results["mu_M"], results["mu_M_error"]), tuple(found["levels"][-1]["mu_M"][key] for key in ("value", "bar")))
+        self.assertTrue((self.folder / "history.h5").exists())
+        self.assertLess(self.report()["timing_s"]["total"], 12 + 3)
 
     def test_scene_that_ends_early(self):
         """Its first drop, from the start's stresses, is no answer: the runs behind the bar, which go on for longer, have one."""
@@ -104,7 +131,7 @@ class Accuracy(unittest.TestCase):
 
     def test_cells_too_long_for_slip(self):
         """They do not count, and the scene's own mesh has such cells: nothing is known of the error."""
-        ended = self.run_set_b("--to", "5%", "--within", "0.001s", pressure="1e-3", way="1e-4")
+        ended = self.run_set_b("--to", "5%", "--within", "6s", pressure="1e-2", way="1e-3")   # they would have to be 30 times as short
         self.assertIn("the mesh's part of it is not known (cells are too long for slip", ended.stderr)
         self.assertIn("(its error is not known)", ended.stdout)
         self.assertIsNone(self.report()["results"]["mu_M_error"])

@@ -126,22 +126,28 @@ static void test_runs_of_a_mesh(void **state)
 {
     (void)state;
     Stage stage;
-    StepView view = {.mesh = 2, .run = 1, .U = 0.00123, .mu = 0.2034, .events = 1};
+    StepView view = {.mesh = 2, .run = 1, .U = 0.00123, .fraction = 0.25, .events = 1};
+    view.mu_M = 0.3291;
+    view.seconds_left = 12;
     begin(&stage, -1);
     Progress progress = {.style = PROGRESS_BAR};
     progress_step(&view, &progress);
-    assert_said(&stage, "\rmesh 2, run 1  U 0.00123  mu 0.2034  1 event\033[K");
+    assert_said(&stage, "\rmesh 2, run 1, 25 %  U 0.00123  1 event  mu_M so far 0.329  0:12 left"
+                        "\033[K");
     end(&stage);
     begin(&stage, 30);
     view.events = 2;
     progress = (Progress){.style = PROGRESS_BAR};
     progress_step(&view, &progress);
-    assert_said(&stage, "\rmesh 2, run 1  U 0.00123  mu \033[K");
+    assert_said(&stage, "\rmesh 2, run 1, 25 %  U 0.0012\033[K");
     end(&stage);
     begin(&stage, 0);
     progress = progress_begin(false);
     progress_step(&view, &progress);
     assert_said(&stage, "");
+    progress.drawn.tv_sec -= 11;   // in a log every ten seconds
+    progress_step(&view, &progress);
+    assert_said(&stage, "mesh 2, run 1, 25 %  U 0.00123  2 events  mu_M so far 0.329  0:12 left\n");
     end(&stage);
 }
 

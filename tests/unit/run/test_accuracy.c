@@ -44,16 +44,16 @@ static void watch_level(const LevelView *view, void *context)
 
 static Scene *scene_of(const char *one, const char *other)
 {
-    return small_scene((const char *const[]){
-        "mesh.set.nx=20", "mesh.set.nz=4", "load.pressure=0.006", "time.until.U=0.008",
-        "accuracy.mu=0.001", "accuracy.within=1e-3", one, other, NULL});
+    return small_scene((const char *const[]){"mesh.set.nx=20", "mesh.set.nz=4",
+                                             "load.pressure=0.006", "time.until.U=0.008",
+                                             "accuracy.mu=0.001", one, other, NULL});
 }
 
 // The message of a search that was stopped in its run `runs`, -1: in the run in full after it.
 static Watch stop_in(int32_t runs, const char *folder, bool overwrite, Error *err)
 {
     bool in_full = runs < 0;
-    Scene *scene = scene_of("accuracy.within=0", in_full ? "accuracy.mu=0.3" : NULL);
+    Scene *scene = scene_of(in_full ? "accuracy.mu=0.3" : NULL, NULL);
     RunSummary summary;
     Watch watch = {.runs_left = runs, .in_full = in_full};
     RunOptions options = {.folder = folder,
@@ -106,7 +106,7 @@ static void test_stopped_without_a_folder(void **state)
     Watch watch = stop_in(4, NULL, false, &err);
     snprintf(said, sizeof said,
              "stopped on mesh 3 of an error bar; %s; it does not go on from here: the same command "
-             "begins anew, and --within ends it in time",
+             "begins anew; with --within TIME it keeps what it has when time is up",
              watch.reached);
     assert_string_equal(err.message, said);
     assert_non_null(strstr(watch.reached, " +- "));
@@ -149,9 +149,9 @@ static RunSummary searched(const char *one, const char *other)
 static void test_loads_of_the_runs(void **state)
 {
     (void)state;
-    RunSummary pressed = searched("accuracy.window=0.1", NULL);
-    RunSummary pulled =
-        searched("accuracy.window=0.1", "load={pressure: 0, tractions: [{group: top, z: -0.006}]}");
+    const char wide[] = "accuracy={mu: 0.3, window: 0.1}";
+    RunSummary pressed = searched(wide, NULL);
+    RunSummary pulled = searched(wide, "load={pressure: 0, tractions: [{group: top, z: -0.006}]}");
     assert_true(pressed.mu_M > 0.2 && pressed.mu_M < 0.4);
     assert_near("mu_M", pulled.mu_M, pressed.mu_M, 1e-6);
 }

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "run/accuracy_state.h"
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "model/step_rule.h"
+#include "run/end_wait.h"
+#include "run/level_scene.h"
+#include "run/stop_request.h"
+#include "run/warnings.h"
+#include "scene/programs.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum {
+    CONTACT_NODES_MIN = 21,   // of the first level
+    PAD_NODES_MIN = 5,   // of it on each piece of the contact
+    PEAKS_MIN = 8,   // that count in a run, before its answer can be known
+};
+static const double DROPS_SHARE = 0.2;   // of the bar wanted, for the drops of each run
+static const double LONGER = 4;   // than the scene's end, for a run whose answer is not known; and
+    // once more as much longer where its run-in is not over
+static const double FULL_SHARE = 0.25;   // of the time given, at most, for stepping in full
+
+Level *accuracy_last_level(Accuracy *accuracy)
+{
+    return &accuracy->levels.list[accuracy->levels.count - 1];
+}
+
+double accuracy_seconds_left(const Accuracy *accuracy)
+{
+    return accuracy->deadline - accuracy->full - clock_seconds();
+}
+
+// The scene of a run that writes nothing; owned by the caller.
+static Scene *scene_of_run(const Accuracy *accuracy, double refine, double pressure, Error *err)
+{
+    Scene *scene = NEW_ARRAY(Scene, 1, err);
+    if (!scene) return NULL;
+    *scene = *accuracy->scene;
+    scene->output.history = scene->output.fields = false;
+    scene->output.figures.count = 0;
+    scene->time.until_U *= LONGER;
+    scene->time.until_t *= LONGER;
+    scene->time.until_periodic = false;
+    scene->time.until_slidings = scene->time.until_mu_below = 0;   // its answer ends it
+    scene_scale_loads(scene, pressure);
+    if (scene_refine(scene, refine, err)) return scene;
+    memory_free(scene);
+    return NULL;
+}
+
+bool accuracy_is_known(const Accuracy *accuracy, const Answers *answers)
+{
+    const Estimate *mu_M = &answers->mu_M;
+    double allowed = DROPS_SHARE * accuracy->scene->accuracy.mu;
+    if (answers->regime.run_in != RUN_IN_OVER) return false;
+    if (answers->peaks_counted >= PEAKS_MIN) return mu_M->error <= allowed * mu_M->value;
+    return answers->peaks_counted == 0 && answers->enough;
+}
+
+static bool is_steered(const Scene *scene)
+{
+    return scene_has_program(&scene->rod.program) || scene_has_program(&scene->load.program);
+}
+
+// As far as the scene itself goes, and no load drop is ahead.
+static bool slides_steadily(const Accuracy *accuracy, const Simulation *simulation)
+{
+    return simulation->seen.t >= step_rule_end(accuracy->scene) &&
+           !isnan(steady_mu(&simulation->steady).value) && !is_steered(accuracy->scene);
+}
+
+// A run that comes to its end in the middle of its run-in goes on, once. What a program does may
+// well look like a run-in, for ever.
+static bool goes_on(const Accuracy *accuracy, Simulation *simulation)
+{
+    const Scene *scene = accuracy->scene;
+    bool once = simulation->scene.time.until_U > LONGER * scene->time.until_U ||
+                simulation->scene.time.until_t > LONGER * scene->time.until_t;
+    if (once || is_steered(scene) || regime_of(&simulation->drops).run_in == RUN_IN_OVER)
+        return false;
+    simulation->scene.time.until_U *= LONGER;
+    simulation->scene.time.until_t *= LONGER;
+    simulation->t_end = step_rule_end(&simulation->scene);
+    return true;
+}
+
+// Steps until the answer is known, time is up, or the end.
+static bool step_until_known(Accuracy *accuracy, Simulation *simulation, EndWait *wait, Error *err)
+{
+    for (bool finished = false; !finished;) {
+        TRY(amontons_simulation_step(simulation, NULL, &finished, err));
+        end_wait_watch(wait, simulation);
+        accuracy->slides_steadily = slides_steadily(accuracy, simulation);
+        if (accuracy->slides_steadily) break;
+        if (finished && goes_on(accuracy, simulation)) finished = false;
+        if (simulation->events.ended) {
+            accuracy->so_far = answers_of(&simulation->drops);
+            finished = finished || accuracy_is_known(accuracy, &accuracy->so_far);
+        }
+        if (!finished) TRY(simulation_may_go_on(simulation, err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+static bool contact_has_nodes(const Interface *interface)
+{
+    for (int32_t pad = 0; pad < interface->pad_count; pad++) {
+        int32_t nodes = 0;
+        for (int32_t i = 0; i < interface->contact_count; i++) nodes += interface->pad[i] == pad;
+        if (nodes < PAD_NODES_MIN) return false;
+    }
+    return interface->contact_count >= CONTACT_NODES_MIN;
+}
+
+// On most nodes friction weakens faster than viscosity can damp: cells are too long for slip.
+static bool is_undamped(const Simulation *simulation)
+{
+    double worst = 0;
+    int32_t undamped =
+        undamped_nodes(&simulation->control.certificate, simulation->model.scales.load, &worst);
+    return 2 * undamped > simulation->model.interface.contact_count;
+}
+
+// A StepCallback: says which run of which mesh it is, and what is known so far.
+static void show_member(const StepView *view, void *context)
+{
+    Accuracy *accuracy = context;
+    double left = fmax(accuracy->deadline - clock_seconds(), 0);
+    StepView named = *view;
+    named.mesh = accuracy->levels.count;
+    named.run = accuracy_last_level(accuracy)->run_count + 1;
+    named.mu_M = accuracy->so_far.mu_M.value;
+    named.mu_hold = accuracy->so_far.mu_hold.value;
+    named.seconds_left = isfinite(left) ? left : (double)NAN;
+    if (accuracy->options->on_step) accuracy->options->on_step(&named, accuracy->options->context);
+}
+
+// A StageCallback.
+static void show_stage(const char *stage, void *context)
+{
+    Accuracy *accuracy = context;
+    const RunOptions *options = accuracy->options;
+    snprintf(accuracy->stage, sizeof accuracy->stage, "mesh %d: %s", accuracy->levels.count, stage);
+    if (options->on_stage) options->on_stage(accuracy->stage, options->context);
+}
+
+// --- what time allows ---------------------------------------------------------------------------
+
+// The run in full goes to the scene's end at the same pace, unless an event ends it before. Output
+// is not in it, and where it would take more than its share it is cut short.
+static void expect_full(Accuracy *accuracy, const Simulation *simulation, double making,
+                        double stepping)
+{
+    const Scene *scene = accuracy->scene;
+    double way = step_rule_end(scene) / simulation->control.now.time;
+    bool sooner = scene->time.until_periodic || scene->time.until_slidings > 0 ||
+                  scene->time.until_mu_below > 0;
+    if (sooner || !isfinite(way)) way = fmin(way, 1);
+    if (accuracy->levels.count > 1 && accuracy_last_level(accuracy)->run_count < RUNS_FIRST) return;
+    accuracy->full = making + fmin(way * stepping, FULL_SHARE * scene->accuracy.within);
+}
+
+// Of a run that was stopped: no error where it was time that stopped it.
+static void note_cut(Accuracy *accuracy, const Simulation *simulation, Error *err)
+{
+    const volatile sig_atomic_t *stop = accuracy->options->stop;
+    const Level *level = accuracy_last_level(accuracy);
+    LevelCut *cut = &accuracy->levels.cut;
+    *cut = (LevelCut){.mesh = accuracy->levels.count,
+                      .run = level->run_count + 1,
+                      .contact_nodes = level->contact_nodes,
+                      .U = NAN,
+                      .part = NAN,
+                      .mu_M = NAN,
+                      .mu_hold = NAN};
+    if (simulation->seen.t > 0) {
+        Answers answers = answers_of(&simulation->drops);
+        cut->U = simulation->seen.U;
+        cut->part = fmin(simulation->seen.t / simulation->t_end, 1);
+        cut->mu_M = answers.mu_M.value;
+        cut->mu_hold = answers.mu_hold.value;
+    }
+    *err = (Error){0};
+    accuracy->out_of_time = !(stop && *stop);
+    if (!accuracy->out_of_time)
+        FAIL(err, ERROR_INTERRUPT, "stopped on mesh %d of an error bar", cut->mesh);
+cleanup:
+    return;
+}
+
+bool accuracy_run_member(Accuracy *accuracy, double pressure, bool *coarse, Error *err)
+{
+    Level *level = accuracy_last_level(accuracy);
+    RunOptions options = {.on_step = show_member,
+                          .on_stage = show_stage,
+                          .context = accuracy,
+                          .stop = accuracy->options->stop};
+    Simulation *simulation = NULL;
+    EndWait wait = {.mu = NAN};
+    bool first = !levels_have_runs(&accuracy->levels) && accuracy->levels.count == 1;
+    double started = clock_seconds(), deadline = accuracy->deadline - accuracy->full;
+    Scene *scene = scene_of_run(accuracy, level->refine, pressure, err);
+    accuracy->so_far = (Answers){.mu_M = {NAN, NAN}, .mu_hold = {NAN, NAN}};
+    TRY(scene);
+    TRY(simulation_create_by(scene, &options, first ? INFINITY : deadline, &simulation, err));
+    simulation->deadline = deadline;   // one step is made, whatever time there is
+    const Interface *interface = &simulation->model.interface;
+    level->contact_nodes = interface->contact_count;
+    level->pads = interface->pad_count;
+    level->undamped = is_undamped(simulation);
+    if (coarse && (*coarse = level->undamped || !contact_has_nodes(interface))) goto cleanup;
+    double begun = clock_seconds();
+    TRY(step_until_known(accuracy, simulation, &wait, err));
+    Answers answers = answers_of(&simulation->drops);
+    const Event *least = drops_least_resolved(&simulation->drops, answers.first);
+    if (least) level->slip_cells = fmin(level->slip_cells, least->slip_cells);
+    level->end_wait = fmax(level->end_wait, end_wait_of(&wait, interface, answers.critical_length));
+    levels_add_run(&accuracy->levels, pressure, &answers, simulation->control.counters.accepted);
+    expect_full(accuracy, simulation, begun - started, clock_seconds() - begun);
+cleanup:
+    if (err->code == ERROR_INTERRUPT) note_cut(accuracy, simulation, err);
+    if (accuracy->out_of_time && !levels_have_runs(&accuracy->levels)) {
+        accuracy->cut = simulation;
+        simulation = NULL;
+    }
+    amontons_simulation_destroy(simulation);
+    memory_free(scene);
+    level->seconds += clock_seconds() - started;
+    return error_is_clean(err);
+}

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What the parts of a search for an error bar share: run/accuracy goes from mesh to mesh,
+// run/accuracy_member does one run. amontons.h declares what the caller sees.
+//
+// Time (accuracy.within) ends a search inside a run. Of what is given a part is kept for the run in
+// full on the last mesh whose runs are whole; a run or a mesh that would take longer than what is
+// left before is not begun. What was cut short has no part in the bar. Where it was the first run
+// of all, its own answers stand, without a bar.
+#ifndef AMONTONS_RUN_ACCURACY_STATE_H
+#define AMONTONS_RUN_ACCURACY_STATE_H
+
+#include "record/error_bars.h"
+#include "run/simulation_state.h"
+
+enum { RUNS_FIRST = 2 };   // on every level, at either end of the window
+
+typedef struct Accuracy {
+    const Scene *scene;
+    const RunOptions *options;
+    Levels levels;
+    double step;   // of cell size from level to level
+    double started, deadline;   // wall clock, s; INFINITY: accuracy.within is not given
+    double full;   // expected of the run in full, s; 0: no run is whole
+    bool out_of_time;
+    bool slides_steadily;   // at the end of the last run
+    Answers so_far;   // of the run under way
+    char stage[64];   // of it, as the caller is told
+    Simulation *cut;   // the first run of all, where time cut it short; owned
+} Accuracy;
+
+Level *accuracy_last_level(Accuracy *accuracy);
+// For runs behind the bar, s: what the run in full needs is kept back. INFINITY: no limit.
+double accuracy_seconds_left(const Accuracy *accuracy);
+// What more slidings could still change is a small part of the bar wanted.
+bool accuracy_is_known(const Accuracy *accuracy, const Answers *answers);
+
+// One run of the last level. *coarse (NULL: not asked): the mesh has too few contact nodes, or its
+// cells are too long for slip; nothing was stepped. Out of time: nothing was added.
+bool accuracy_run_member(Accuracy *accuracy, double pressure, bool *coarse, Error *err);
+
+#endif

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A simulation from its first step to its report, and what ends it before the scene does.
+#include "run/simulation_state.h"
+
+#include "run/checkpoint.h"
+#include "run/rewind.h"
+#include "run/stop_request.h"
+
+#include <math.h>
+
+// Always false.
+static bool stop_here(Simulation *simulation, Error *err)
+{
+    Error unseen = {0};
+    bool kept = checkpoint_is_kept(simulation) && checkpoint_now(simulation, &unseen);
+    const char *folder = simulation->folder.path;
+    FAIL(err, ERROR_INTERRUPT, "stopped at U = %g (t = %g)%s%s%s", simulation->seen.U,
+         simulation->seen.t, *folder ? "; what was computed is kept in " : "", folder,
+         kept ? "; the same command with --resume goes on from there" : "");
+cleanup:
+    return false;
+}
+
+bool simulation_loop(Simulation *simulation, Error *err)
+{
+    Error unseen = {0};
+    bool finished = simulation->goes_on && simulation_is_finished(simulation);
+    TRY(rewind_start(simulation, err));
+    while (!finished) {
+        TRY(amontons_simulation_step(simulation, NULL, &finished, err));
+        TRY(rewind_follow(simulation, &finished, err));
+        checkpoint_when_due(simulation);
+        if (!simulation_may_go_on(simulation, &unseen)) TRY(stop_here(simulation, err));
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// The loop itself allocates nothing but rungs and output. A failure anywhere is written into
+// run.json with what there was until then.
+bool simulation_run(const Scene *scene, const RunOptions *options, RunSummary *summary, Error *err)
+{
+    Simulation *simulation = NULL;
+    *summary = (RunSummary){.mu_M = NAN};
+    TRY(amontons_simulation_create(scene, options, &simulation, err));
+    TRY(simulation_loop(simulation, err));
+    TRY(amontons_simulation_finish(simulation, summary, err));
+cleanup:
+    simulation_end(simulation, summary, err);
+    return error_is_clean(err);
+}
+
+void simulation_end(Simulation *simulation, RunSummary *summary, const Error *err)
+{
+    if (simulation && !error_is_clean(err)) {
+        Error second = {0};   // the first error is the one that counts
+        simulation_finish(simulation, err, summary, &second);
+    }
+    amontons_simulation_destroy(simulation);
+}
