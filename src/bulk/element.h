@@ -5,7 +5,7 @@
 #define AMONTONS_BULK_ELEMENT_H
 
 #include "bulk/material.h"
-#include "io/shape.h"
+#include "io/mesh/shape_functions.h"
 
 enum { ELEMENT_DOFS_MAX = 2 * ELEMENT_NODES_MAX };
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The mesh the solver works on: that of io/mesh_file, checked, with its named curves. Used by
+// The mesh the solver works on: that of io/mesh/mesh_file, checked, with its named curves. Used by
 // bulk/assembly (elements, tractions on curves) and contact/interface (the contact curves).
 #ifndef AMONTONS_BULK_MESH_H
 #define AMONTONS_BULK_MESH_H
 
 #include "base/error.h"
-#include "io/mesh_file.h"
+#include "io/mesh/mesh_file.h"
 
 #include <stdint.h>
 

@@ -4,7 +4,7 @@
 
 #include "base/memory.h"
 #include "bulk/mesh_edges.h"
-#include "io/shape.h"
+#include "io/mesh/shape_functions.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -15,7 +15,7 @@
 // is 1e-16 of it; an element of aspect ratio 1e4 still has 2e-5 of it.
 static const double AREA_TOLERANCE = 1e-12;
 
-// The arrays came from io/mesh_file, which frees them.
+// The arrays came from io/mesh/mesh_file, which frees them.
 void mesh_destroy(Mesh *mesh)
 {
     MeshFile file = {.position = mesh->position,

@@ -2,7 +2,7 @@
 // Counts and sizes of a mesh.
 #include "bulk/mesh.h"
 
-#include "io/shape.h"
+#include "io/mesh/shape_functions.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -4,7 +4,7 @@
 #include "model/basis_cache.h"
 
 #include "base/memory.h"
-#include "io/cache_file.h"
+#include "io/cache/cache_file.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -310,7 +310,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Processes that write it at once write the same bytes: io/part_file lets one of them through.
+// Processes that write it at once write the same bytes: io/files/part_file lets one of them
+// through.
 static bool store_basis(const char *name, const ReducedBulk *reduced, Error *err)
 {
     char path[CACHE_PATH_SIZE];

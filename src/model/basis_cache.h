@@ -11,8 +11,8 @@
 #define AMONTONS_MODEL_BASIS_CACHE_H
 
 #include "bulk/reduced_bulk.h"
-#include "io/cache_file.h"
-#include "io/file_lock.h"
+#include "io/cache/cache_file.h"
+#include "io/files/file_lock.h"
 
 // Fills `reduced`, scales left at 0. *found: false when there is nothing, or nothing that is valid:
 // `note` then says why. with_modes: the modes must be there too. name: empty for none.

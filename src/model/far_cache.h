@@ -12,7 +12,7 @@
 
 #include "bulk/upper_block.h"
 #include "bulk/far_block.h"
-#include "io/cache_file.h"
+#include "io/cache/cache_file.h"
 
 typedef struct FarCacheDef {
     const UpperBlock *upper;

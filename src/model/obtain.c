@@ -9,7 +9,7 @@
 #include "base/memory.h"
 #include "bulk/mirrored_reduction.h"
 #include "bulk/reduction_block.h"
-#include "io/cache_folder.h"
+#include "io/cache/cache_folder.h"
 #include "model/assemble.h"
 #include "model/basis_cache.h"
 #include "model/contact_laws.h"

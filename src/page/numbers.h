@@ -3,7 +3,7 @@
 #ifndef AMONTONS_PAGE_NUMBERS_H
 #define AMONTONS_PAGE_NUMBERS_H
 
-#include "io/html_writer.h"
+#include "io/text/html_writer.h"
 #include "page/run_source.h"
 
 // "0.3275 +- 0.0001", to the error's second digit. NaN: none, and where the value has an error that

@@ -6,7 +6,7 @@
 
 #include "bulk/recovery.h"
 #include "contact/interface.h"
-#include "io/field_file.h"
+#include "io/fields/field_file.h"
 
 enum { FIELD_LINE_ARRAYS = 6 };
 

@@ -2,8 +2,8 @@
 #include "run/accuracy_figure.h"
 
 #include "amontons.h"
-#include "io/folder.h"
-#include "io/json_writer.h"
+#include "io/files/folder.h"
+#include "io/text/json_writer.h"
 
 #include <math.h>
 #include <stdio.h>

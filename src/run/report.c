@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // run.json, one object, written when all else is: a folder without it holds no finished result.
 // Scripts read it by key: keys may be added, none may change its name or meaning. A number that is
-// NaN or infinite is written as null (io/json_writer), and says that there was none. `length` below
-// is the block's: lengths are given over it where the key says over_L.
+// NaN or infinite is written as null (io/text/json_writer), and says that there was none. `length`
+// below is the block's: lengths are given over it where the key says over_L.
 #include "run/report.h"
 
 #include "base/computation.h"
 #include "base/kernels.h"
-#include "io/json_writer.h"
+#include "io/text/json_writer.h"
 #include "scene/keys.h"
 
 #include <math.h>

@@ -73,7 +73,7 @@ class Project(unittest.TestCase):
         self.tools.mkdir()
         self.calls_file.touch()
         shutil.copy(SOURCE / "amontons", self.root)
-        for name in ("CMakeLists.txt", "CMakePresets.json", "src/run/a.c", "render/canvas.c"):
+        for name in ("CMakeLists.txt", "CMakePresets.json", "src/run/a.c", "render/canvas/canvas.c"):
             (self.root / name).parent.mkdir(parents=True, exist_ok=True)
             (self.root / name).touch()
         (self.tools / "tool").write_text(TOOL)
@@ -178,7 +178,7 @@ class PassThrough(Project):
             "edited": lambda: (source / "a.c").write_text("int b;\n"),
             "new": lambda: (source / "b.c").touch(),
             "deleted": lambda: (source / "b.c").unlink(),
-            "picture": lambda: (self.root / "render/canvas.c").touch(),
+            "picture": lambda: (self.root / "render/canvas/canvas.c").touch(),
             "CMakeLists.txt": lambda: (self.root / "CMakeLists.txt").touch(),
             "program": lambda: (self.root / "build/bin/amontons").unlink()}
         for name, change in changes.items():

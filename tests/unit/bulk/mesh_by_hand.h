@@ -5,7 +5,7 @@
 #define AMONTONS_TESTS_MESH_BY_HAND_H
 
 #include "base/memory.h"
-#include "io/mesh_file.h"
+#include "io/mesh/mesh_file.h"
 
 #include <stdio.h>
 #include <string.h>

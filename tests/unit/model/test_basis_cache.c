@@ -4,7 +4,7 @@
 #include "model/basis_cache.h"
 
 #include "base/memory.h"
-#include "io/cache_file.h"
+#include "io/cache/cache_file.h"
 #include "random_numbers.h"
 #include "cache_fixture.h"
 #include "unit/bulk/reduced_block.h"

@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A study's points in the order of one result. The order of two points is decided where their
+// values differ by more than both errors, taken as independent: |a - b| > sqrt(e_a^2 + e_b^2). A
+// point's rank lies between one more than the points that are decidedly better and the number of
+// those that are not decidedly worse. An error that is not known decides nothing.
+//
+// A gain is g = a / b - 1 over the baseline b; to first order its error is that of a / b,
+// sqrt((e_a / b)^2 + (a e_b / b^2)^2), and 0 for the baseline itself.
+#include "study/sweep/showing/rank.h"
+
+#include "base/memory.h"
+#include "io/text/csv_writer.h"
+#include "io/text/json_reader.h"
+#include "study/sweep/reading/study_point.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { CELL_SIZE = 80, NOTE_SIZE = 120, CELLS_MAX = STUDY_COLUMNS_MAX + 6, BLOCK = 256 };
+
+// --- order --------------------------------------------------------------------------------------
+
+static const StudyRecord *ranked_by(const Study *study)
+{
+    return &study->records[study->rank.record];
+}
+
+// Descending; rows without a value come last, equal ones in the study's order.
+static int compare(const void *left, const void *right)
+{
+    const RankRow *a = left, *b = right;
+    if (isnan(a->value) != isnan(b->value)) return isnan(a->value) ? 1 : -1;
+    if (a->value != b->value && !isnan(a->value)) return a->value < b->value ? 1 : -1;
+    return a->point - b->point;
+}
+
+// -1: there is none.
+static int32_t baseline_of(const Sweep *sweep, const Ranking *ranking, int32_t point)
+{
+    if (sweep->study.rank.against == AGAINST_BEST) return ranking->rows[0].point;
+    return sweep->study.rank.against == AGAINST_KEYS ? sweep->points[point].baseline : 0;
+}
+
+static bool is_decided(const RankRow *a, const RankRow *b)
+{
+    double difference = a->value - b->value;
+    return difference * difference > a->error * a->error + b->error * b->error;
+}
+
+// What is known of BLOCK rows one after the other: so a point of a long ranking is compared with
+// the rows near to it, and with the others by the block.
+typedef struct RankBlock {
+    int32_t known;   // errors that are
+    double least, greatest;   // of their squares; infinite, 0: none is known
+} RankBlock;
+
+static RankBlock look_at_block(const RankRow *rows, int32_t count)
+{
+    RankBlock block = {.least = INFINITY};
+    for (int32_t i = 0; i < count; i++) {
+        double square = rows[i].error * rows[i].error;
+        block.known += !isnan(square);
+        block.least = fmin(block.least, square);
+        block.greatest = fmax(block.greatest, square);
+    }
+    return block;
+}
+
+// How many of the rows `first` to `last` - 1, all of a block or a part of it, are decided against
+// `row`. Squares and sums are rounded alike for all, so the bounds are exact.
+static int32_t count_decided(const Ranking *ranking, const RankBlock *block, int32_t first,
+                             int32_t last, const RankRow *row)
+{
+    const RankRow *rows = ranking->rows;
+    if (first >= last) return 0;
+    double one = fabs(rows[first].value - row->value), own = row->error * row->error;
+    double other = fabs(rows[last - 1].value - row->value);
+    double near = fmin(one, other), far = fmax(one, other);
+    int32_t count = 0;
+    if (isnan(own) || far * far <= block->least + own) return 0;
+    if (last - first == BLOCK && near * near > block->greatest + own) return block->known;
+    for (int32_t i = first; i < last; i++) count += is_decided(&rows[i], row);
+    return count;
+}
+
+// rows: sorted. The ranks that each may have.
+static bool find_places(Ranking *ranking, Error *err)
+{
+    int32_t count = ranking->ranked, block_count = (count + BLOCK - 1) / BLOCK;
+    RankBlock *blocks = NEW_ARRAY(RankBlock, block_count, err);
+    TRY(blocks);
+    for (int32_t b = 0, first = 0; b < block_count; b++, first += BLOCK)
+        blocks[b] =
+            look_at_block(&ranking->rows[first], count - first < BLOCK ? count - first : BLOCK);
+    for (int32_t k = 0; k < count; k++) {
+        RankRow *row = &ranking->rows[k];
+        row->from = 1;
+        row->to = count;
+        for (int32_t b = 0, first = 0; b < block_count; b++, first += BLOCK) {
+            int32_t last = count - first < BLOCK ? count : first + BLOCK;
+            int32_t before = k < last ? k : last, after = k >= first ? k + 1 : first;
+            row->from += count_decided(ranking, &blocks[b], first, before, row);
+            row->to -= count_decided(ranking, &blocks[b], after, last, row);
+        }
+    }
+cleanup:
+    memory_free(blocks);
+    return error_is_clean(err);
+}
+
+static void find_gain(const Sweep *sweep, const SweepTable *table, const Ranking *ranking,
+                      RankRow *row)
+{
+    int32_t base = baseline_of(sweep, ranking, row->point), record = sweep->study.rank.record;
+    row->gain = row->gain_error = NAN;
+    if (base < 0) return;
+    double value = table_values(sweep, table, record)[base];
+    double error = table_errors(sweep, table, record)[base];
+    bool itself = sweep->points[base].same_as == sweep->points[row->point].same_as;
+    row->gain = row->value / value - 1;
+    row->gain_error = itself ? 0 * row->error
+                             : hypot(row->error / value, row->value / value * error / value);
+}
+
+// `lowest` is sorted as `highest` of the negative values, which are turned back afterwards.
+bool ranking_make(const Sweep *sweep, const SweepTable *table, Ranking *ranking, Error *err)
+{
+    const Study *study = &sweep->study;
+    double sign = study->rank.lowest ? -1 : 1;
+    const double *values = table_values(sweep, table, study->rank.record);
+    const double *errors = table_errors(sweep, table, study->rank.record);
+    *ranking =
+        (Ranking){.count = study->point_count, .has_error = table->has_error[study->rank.record]};
+    TRY((ranking->rows = NEW_ARRAY(RankRow, study->point_count, err)));
+    for (int32_t k = 0; k < ranking->count; k++) {
+        ranking->rows[k] = (RankRow){.point = k, .value = sign * values[k], .error = errors[k]};
+        ranking->ranked += !isnan(values[k]);
+    }
+    qsort(ranking->rows, (size_t)ranking->count, sizeof *ranking->rows, compare);
+    if (ranking->has_error) TRY(find_places(ranking, err));
+    int32_t base = study->rank.against == AGAINST_KEYS ? -1 : baseline_of(sweep, ranking, 0);
+    ranking->base = base < 0 ? (double)NAN : values[base];
+    for (int32_t k = 0; k < ranking->count; k++) {
+        ranking->rows[k].value *= sign;
+        find_gain(sweep, table, ranking, &ranking->rows[k]);
+    }
+cleanup:
+    return error_is_clean(err);
+}
+
+// Zeroed is fine.
+void ranking_destroy(Ranking *ranking)
+{
+    memory_free(ranking->rows);
+    *ranking = (Ranking){0};
+}
+
+// --- notes --------------------------------------------------------------------------------------
+
+static void add_note(char note[NOTE_SIZE], const char *words)
+{
+    size_t used = strlen(note);
+    snprintf(note + used, NOTE_SIZE - used, "%s%s", used ? ", " : "", words);
+}
+
+// Of the values behind the result that is ranked; NaN: not known.
+static double period_of(const Study *study, const char *report)
+{
+    bool holds = strcmp(ranked_by(study)->path, "results.mu_hold") == 0;
+    double period = NAN;
+    json_find_number(report, holds ? "results.drops.period" : "results.period", &period);
+    return period;
+}
+
+// What makes a value or its rank doubtful.
+static bool row_notes(const Sweep *sweep, const Ranking *ranking, const RankRow *row,
+                      char note[NOTE_SIZE], Error *err)
+{
+    PointStatus status = sweep->points[row->point].status;
+    char *report = status == POINT_DONE ? point_report(sweep, row->point, err) : NULL;
+    char text[60], warning[8];
+    double enough = 1, over = 1, period = report ? period_of(&sweep->study, report) : (double)NAN;
+    *note = 0;
+    TRY(error_is_clean(err));
+    if (status != POINT_DONE) add_note(note, point_status_name(status));
+    if (status == POINT_DONE && isnan(row->value)) add_note(note, "no value");
+    snprintf(text, sizeof text, "not decided between %d and %d", row->from, row->to);
+    if (row->from < row->to) add_note(note, text);
+    if (ranking->has_error && !isnan(row->value) && isnan(row->error))
+        add_note(note, "error not known");
+    if (period == 0) add_note(note, "not periodic");
+    if (report && strcmp(ranked_by(&sweep->study)->path, "results.mu_hold") == 0 &&
+        json_find_number(report, "results.drops.enough", &enough) && enough == 0)
+        add_note(note, "too few drops");
+    if (report && json_find_number(report, "results.run_in.over", &over) && over == 0)
+        add_note(note, "run-in not over");
+    if (period > 1) add_note(note, "by turns");
+    if (report && json_find_text(report, "warnings.0", warning, sizeof warning))
+        add_note(note, "warned");
+cleanup:
+    memory_free(report);
+    return error_is_clean(err);
+}
+
+// --- ranking.csv --------------------------------------------------------------------------------
+
+static void write_head(CsvWriter *csv, const Study *study)
+{
+    char error[STUDY_NAME_SIZE + 8];
+    snprintf(error, sizeof error, "%s_error", ranked_by(study)->name);
+    csv_text(csv, "rank");
+    csv_text(csv, "rank_from");
+    csv_text(csv, "rank_to");
+    csv_text(csv, "point");
+    for (int32_t k = 0; k < study->column_count; k++) csv_text(csv, study->columns[k]);
+    csv_text(csv, ranked_by(study)->name);
+    csv_text(csv, error);
+    csv_text(csv, "gain_percent");
+    csv_text(csv, "gain_percent_error");
+    csv_text(csv, "note");
+    csv_text(csv, "warnings");
+    csv_end_row(csv);
+}
+
+// The rank of a point without a value is empty; its note gives the reason.
+static bool write_row(CsvWriter *csv, const Sweep *sweep, const SweepTable *table,
+                      const Ranking *ranking, const RankRow *row, Error *err)
+{
+    const Study *study = &sweep->study;
+    char cell[SCENE_TEXT_SIZE], note[NOTE_SIZE];
+    double ignored = 0;
+    Scene *scene = NEW_ARRAY(Scene, 1, err);
+    TRY(scene);
+    TRY(point_scene(sweep, row->point, scene, err));
+    TRY(row_notes(sweep, ranking, row, note, err));
+    csv_number(csv, isnan(row->value) ? (double)NAN : (double)(row - ranking->rows) + 1);
+    csv_number(csv, row->from > 0 ? row->from : (double)NAN);
+    csv_number(csv, row->to > 0 ? row->to : (double)NAN);
+    csv_number(csv, row->point);
+    for (int32_t c = 0; c < study->column_count; c++) {
+        study_scene_value(scene, study->columns[c], cell, sizeof cell, &ignored);
+        csv_text(csv, cell);
+    }
+    csv_number(csv, row->value);
+    csv_number(csv, row->error);
+    csv_number(csv, 100 * row->gain);
+    csv_number(csv, 100 * row->gain_error);
+    csv_text(csv, note);
+    csv_text(csv, table->warning_words.words[(int32_t)table->warnings[row->point]]);
+    csv_end_row(csv);
+cleanup:
+    memory_free(scene);
+    return error_is_clean(err);
+}
+
+// All points, also those that a terminal does not show.
+bool ranking_write(const Sweep *sweep, const SweepTable *table, const Ranking *ranking, Error *err)
+{
+    char path[POINT_PATH_SIZE];
+    CsvWriter *csv = NULL;
+    snprintf(path, sizeof path, "%s/ranking.csv", sweep->folder);
+    TRY((csv = csv_create(path, err)));
+    write_head(csv, &sweep->study);
+    for (int32_t k = 0; k < ranking->count; k++)
+        TRY(write_row(csv, sweep, table, ranking, &ranking->rows[k], err));
+cleanup:
+    if (error_is_clean(err)) return csv_finish(csv, err);
+    csv_abandon(csv);
+    return false;
+}
+
+// --- on the terminal ----------------------------------------------------------------------------
+
+// A line of the printed table: rank, the keys chosen, value, its error, gain, its error, note.
+typedef struct PrintedRow {
+    char cells[CELLS_MAX][CELL_SIZE];
+    char note[NOTE_SIZE];
+} PrintedRow;
+
+static char *add_cell(PrintedRow *row, int32_t *count)
+{
+    return row->cells[(*count)++];
+}
+
+// NaN: `?`.
+static void add_number(PrintedRow *row, int32_t *count, const char *format, double value)
+{
+    char *cell = add_cell(row, count);
+    snprintf(cell, CELL_SIZE, isfinite(value) ? format : "?", value);
+}
+
+// Row 0 is the head. *count: cells in a row.
+static void print_head(const Study *study, bool has_error, PrintedRow *row, int32_t *count)
+{
+    *count = 0;
+    snprintf(add_cell(row, count), CELL_SIZE, "rank");
+    for (int32_t k = 0; k < study->column_count; k++)
+        if (study_is_chosen(study, study->columns[k]))
+            snprintf(add_cell(row, count), CELL_SIZE, "%.79s", study->columns[k]);
+    snprintf(add_cell(row, count), CELL_SIZE, "%.79s", ranked_by(study)->name);
+    if (has_error) snprintf(add_cell(row, count), CELL_SIZE, "+-");
+    snprintf(add_cell(row, count), CELL_SIZE, "gain");
+    if (has_error) snprintf(add_cell(row, count), CELL_SIZE, "+-");
+}
+
+// Key columns that follow from formulas are left out: they tell no point from another.
+static bool print_row(const Sweep *sweep, const Ranking *ranking, int32_t k, PrintedRow *row,
+                      Error *err)
+{
+    const RankRow *from = &ranking->rows[k];
+    const Study *study = &sweep->study;
+    int32_t count = 0;
+    double ignored = 0;
+    Scene *scene = NEW_ARRAY(Scene, 1, err);
+    TRY(scene);
+    TRY(point_scene(sweep, from->point, scene, err));
+    add_number(row, &count, "%.0f", k + 1);
+    for (int32_t c = 0; c < study->column_count; c++)
+        if (study_is_chosen(study, study->columns[c]))
+            study_scene_value(scene, study->columns[c], add_cell(row, &count), CELL_SIZE, &ignored);
+    add_number(row, &count, "%.4g", from->value);
+    if (ranking->has_error) add_number(row, &count, "%.2g", from->error);
+    add_number(row, &count, "%+.1f %%", 100 * from->gain);
+    if (ranking->has_error) add_number(row, &count, "%.1f %%", 100 * from->gain_error);
+    TRY(row_notes(sweep, ranking, from, row->note, err));
+cleanup:
+    memory_free(scene);
+    return error_is_clean(err);
+}
+
+// "mu_M, highest first; gain over the first point (mesh.set.n=1)"
+static bool print_title(const Sweep *sweep, bool has_error, FILE *out, Error *err)
+{
+    const Study *study = &sweep->study;
+    char words[POINT_WORDS_SIZE] = "";
+    Scene *scene = NEW_ARRAY(Scene, 1, err);
+    TRY(scene);
+    TRY(point_scene(sweep, 0, scene, err));
+    fprintf(out, "\n%s, %s first; gain over ", ranked_by(study)->name,
+            study->rank.lowest ? "lowest" : "highest");
+    if (study->rank.against == AGAINST_BEST) fprintf(out, "the best");
+    if (study->rank.against == AGAINST_FIRST) {
+        point_words(sweep, scene, words);
+        fprintf(out, "the first point (%s)", words);
+    }
+    if (study->rank.against == AGAINST_KEYS) {
+        fprintf(out, "the same point with");
+        for (YamlNode item = yaml_first(study->file, study->rank.baseline); item != YAML_NO_NODE;
+             item = yaml_next(study->file, item))
+            fprintf(out, " %s=%s", yaml_key(study->file, item), yaml_text(study->file, item));
+    }
+    fprintf(out, "%s\n", has_error ? "" : "; no errors are known of it");
+cleanup:
+    memory_free(scene);
+    return error_is_clean(err);
+}
+
+// rows: [shown + 1] with the head; every cell but the note to the right of its column.
+static void print_rows(const PrintedRow *rows, int32_t shown, int32_t cells, FILE *out)
+{
+    for (int32_t k = 0; k <= shown; k++) {
+        for (int32_t c = 0; c < cells; c++) {
+            int widest = 0;
+            for (int32_t i = 0; i <= shown; i++) {
+                int width = (int)strlen(rows[i].cells[c]);
+                if (width > widest) widest = width;
+            }
+            fprintf(out, "  %*s", widest, rows[k].cells[c]);
+        }
+        fprintf(out, "%s%s\n", rows[k].note[0] ? "  " : "", rows[k].note);
+    }
+}
+
+// Nothing is printed where the caller wants nothing (options->out NULL).
+bool ranking_print(const Sweep *sweep, const Ranking *ranking, Error *err)
+{
+    FILE *out = sweep->options->out;
+    int32_t cells = 0, shown = ranking->ranked;
+    PrintedRow *rows = NULL;
+    if (!out) return true;
+    if (shown > sweep->study.rank.top) shown = sweep->study.rank.top;
+    TRY((rows = NEW_ARRAY(PrintedRow, shown + 1, err)));
+    print_head(&sweep->study, ranking->has_error, &rows[0], &cells);
+    for (int32_t k = 0; k < shown; k++) TRY(print_row(sweep, ranking, k, &rows[k + 1], err));
+    TRY(print_title(sweep, ranking->has_error, out, err));
+    print_rows(rows, shown, cells, out);
+    if (ranking->count > shown)
+        fprintf(out, "  ... %d more in ranking.csv\n", ranking->count - shown);
+cleanup:
+    memory_free(rows);
+    return error_is_clean(err);
+}
