@@ -54,7 +54,7 @@ class Judge(unittest.TestCase):
     def test_reading_of_a_run(self):
         """The second half alone; the lowest of drops that repeat, else their lowest decile; a drift between quarters."""
         peaks = [{"U": u, "mu": mu} for u, mu in ((1, 9), (4, 8), (6, 0.4), (7, 0.5), (8, 0.6), (9, 0.7))]
-        report = {"results": {"peaks": peaks, "drops": {"period": 1, "list": peaks}}}
+        report = {"results": {"peaks": peaks, "drops": {"period": 1, "list": peaks}, "mu_M_is": "peaks", "mu_steady": 0.3}}
         found = judge.reading(report, 10)
         self.assertAlmostEqual(found["mu_M"], 0.55)
         self.assertEqual(found["mu_hold"], 0.4)
@@ -63,6 +63,9 @@ class Judge(unittest.TestCase):
         self.assertAlmostEqual(judge.reading(report, 10)["mu_hold"], 0.43)
         self.assertIsNone(judge.reading(report, 16)["mu_M"])
         self.assertIsNone(judge.reading(report, 12)["mu_M"])       # three, but none in the last quarter
+        report["results"] |= {"peaks": peaks[:2], "drops": {"period": 0, "list": []}, "mu_M_is": "steady sliding"}
+        self.assertEqual(judge.reading(report, 10)["mu_M"], 0.3)
+        self.assertIsNone(judge.reading(report, 7)["mu_M"])        # a peak in the second half: it did not slide steadily all along
 
     def test_reference_of_meshes_that_scatter(self):
         truth = judge.reference(runs([[0.3, 0.31, 0.32], [0.32, 0.33, 0.34], [0.31, 0.31, 0.4], [0.31, 0.4, 0.5]]), "mu_hold")
