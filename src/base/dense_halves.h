@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Products of dense matrices of which two threads do half of the columns each, where they are large
-// enough for that. Not from within a half of base/share. Called by bulk/answers and those
-// of bulk/basis_*.
+// enough for that. Not from within a half of base/share. Called by reduction/answers
+// and those of reduction/basis_*.
 #ifndef AMONTONS_BASE_DENSE_HALVES_H
 #define AMONTONS_BASE_DENSE_HALVES_H
 

@@ -3,12 +3,12 @@
 // dimensions takes n^1.5 operations. Of the n log n entries that a pass goes through more come from
 // far memory where the mesh is larger: n^1.5 fits them, too. A basis takes some factors and
 // products of q x m answers, q what is left where motions replace what is far; of two halves
-// (bulk/mirror) those of each. A stage on it, and the contact problem of either way, passes through
-// matrices of some m x m. The seconds before them were fitted to processor times of thirty shapes
-// by validation/benchmark/choice.py.
+// (reduction/mirror) those of each. A stage on it, and the contact problem of either way, passes
+// through matrices of some m x m. The seconds before them were fitted to processor times of thirty
+// shapes by validation/benchmark/choice.py.
 #include "model/choice.h"
 
-#include "bulk/far_patches.h"
+#include "reduction/far_patches.h"
 
 #include <math.h>
 

@@ -21,7 +21,7 @@ static const double SETTLED = 1e-6;
 enum { POWERS_MAX = 200 };
 
 // S_C is condensed from C alone, lifted as C may be singular in the interface's own motion
-// (bulk/interface_operator), once for all states.
+// (reduction/interface_operator), once for all states.
 bool certificate_create(const Block *block, Certificate *certificate, Error *err)
 {
     *certificate = (Certificate){0};

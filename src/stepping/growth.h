@@ -12,8 +12,8 @@
 //   growth_rates  the rightmost lambda, exactly: shift-and-invert Arnoldi on the companion form
 //                 with real shifts s (Saad, Numerical Methods for Large Eigenvalue Problems, 2011,
 //                 ch. 8). Each product costs one solve with s M + C + K/s, which the border
-//                 (bulk/interface_operator) factors once for all states. Re lambda > 0 first: l_sc;
-//                 lambda real and > 0 first: l_c.
+//                 (reduction/interface_operator) factors once for all states. Re lambda > 0
+//                 first: l_sc; lambda real and > 0 first: l_c.
 //   growth_scan   real growth without the coupling: the largest load over s (weakening_load)
 //                 with P_t alone in the rows of slipping tangents.
 //

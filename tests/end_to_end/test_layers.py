@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The folders of src are layers: a file includes its own folder and those above it in the list. No two
-files include or call each other, neither directly nor through others.
+"""The folders of src are layers: a file includes its own folder and those above it in the list; contact/ and
+reduction/ are neighbours that do not know each other. No two files include or call each other, neither directly
+nor through others.
 
 Also: nothing below scene/ knows a scene or the public header, no study knows another, render/ sees base/ and the result
 format only, cli/ sees the public headers only, and modules export amontons_ symbols only.
@@ -15,16 +16,17 @@ from pathlib import Path
 SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
 MODULES = Path(os.environ.get("AMONTONS_MODULES", SOURCE / "build/bin"))
 
-LAYERS = ["base", "io", "bulk", "contact", "stepping", "record", "scene", "model", "run", "study", "page", "cli"]
+LAYERS = ["base", "io", "fem", "contact", "reduction", "stepping", "record", "scene", "model", "run", "study", "page", "cli"]
 BELOW_SCENE = LAYERS[:LAYERS.index("scene")]
 PUBLIC = ("amontons.h", "amontons_cache.h", "amontons_model1d.h", "amontons_simulation.h", "amontons_stability.h")
 CAIRO = r"render/(canvas|shapes|text)\.[ch]"
+NEIGHBOURS = {"contact", "reduction"}
 STUDIES = ["study/stability", "study/line", "study/sweep"]
 OWN_INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
 
 
 def allowed(folder, include):
-    """Whether a file in `folder` ("bulk", "render", "" for amontons.h) may include `include`."""
+    """Whether a file in `folder` ("fem", "render", "" for amontons.h) may include `include`."""
     layer = folder.split("/")[0]
     if include == "amontons_error.h":
         return folder in ("base", "")   # what base/error.h shows to everybody
@@ -49,6 +51,8 @@ def allowed(folder, include):
     target, *inner = include.split("/")[:-1]
     if target == layer == "study" and inner != folder.split("/")[1:]:
         return False   # one kind of study knows nothing of another
+    if {target, layer} == NEIGHBOURS:
+        return False
     return target in LAYERS and LAYERS.index(target) <= LAYERS.index(layer)
 
 
@@ -141,8 +145,11 @@ class Layers(unittest.TestCase):
         """Each rule catches the file that breaks it, and nothing else."""
         faults = {
             "src/base/a.c": "io/array_file.h",
-            "src/bulk/a.c": "contact/rod.h",
-            "src/bulk/b.c": "amontons_error.h",
+            "src/fem/a.c": "contact/rod.h",
+            "src/fem/b.c": "amontons_error.h",
+            "src/fem/c.c": "reduction/reduction.h",
+            "src/contact/b.c": "reduction/machine.h",
+            "src/reduction/a.h": "contact/rod.h",
             "src/stepping/a.h": "scene/scene.h",
             "src/contact/a.c": "amontons.h",
             "src/run/a.c": "cli/options.h",
@@ -156,7 +163,10 @@ class Layers(unittest.TestCase):
             "render/b.c": "io/field_file.h",
         }
         good = {
-            "src/bulk/good.c": ["bulk/mesh.h", "io/mesh_file.h", "base/error.h"],
+            "src/fem/good.c": ["fem/mesh.h", "io/mesh_file.h", "base/error.h"],
+            "src/contact/good.c": ["contact/rod.h", "fem/mesh.h"],
+            "src/reduction/good.c": ["reduction/machine.h", "fem/mesh.h"],
+            "src/stepping/good.c": ["contact/rod.h", "reduction/machine.h"],
             "src/study/line/good.c": ["study/line/model1d.h", "run/simulation_state.h"],
             "src/run/good.c": ["amontons.h", "scene/scene.h", "stepping/state.h", "render/render.h"],
             "src/cli/good.c": ["amontons.h", "cli/options.h"],

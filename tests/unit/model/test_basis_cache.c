@@ -7,7 +7,7 @@
 #include "io/cache_file.h"
 #include "random_numbers.h"
 #include "cache_fixture.h"
-#include "unit/bulk/reduced_block.h"
+#include "unit/reduction/reduced_block.h"
 
 enum { PATH_SIZE = 2 * PLACE_SIZE, M = 7, ALL = 11, DOFS = 40, LEVELS = 3 };
 static const char NAME[] = "00112233445566778899aabbccddeeff";

@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 #include "cache_fixture.h"
-#include "unit/bulk/pad_design.h"
+#include "unit/reduction/pad_design.h"
 
 #include <dirent.h>
 #include <unistd.h>

@@ -5,7 +5,7 @@
 
 #include "base/dense.h"
 #include "block_mesh.h"
-#include "bulk/reduction.h"
+#include "reduction/reduction.h"
 #include "dense_by_hand.h"
 
 #include <complex.h>
