@@ -27,7 +27,7 @@ def runs(values, answer="mu_hold", drift=0, late=0):
 
 
 def asked(value, bar):
-    return {"status": 0, "said": "", "mu_hold": value, "mu_hold_error": bar}
+    return {"status": 0, "said": "", "mu_hold": value, "mu_hold_error": bar, "levels": [{"refine": 1.2}]}
 
 
 class Problems(unittest.TestCase):
@@ -88,7 +88,7 @@ class Judge(unittest.TestCase):
         self.assertIsNone(judge.reference(runs([[None] * 3] * 3, late=2), "mu_hold"))      # too few drops are not none
 
     def test_verdicts(self):
-        truth, rough, none = judge.Reference(0.30, 0.001), judge.Reference(0.30, 0.01), judge.Reference(None)
+        truth, rough, none = judge.Reference(0.30, 0.001, 3, 1.2), judge.Reference(0.30, 0.01, 3, 1.2), judge.Reference(None)
         for value, bar, of, kind in ((0.305, 0.01, truth, "held"), (0.315, 0.01, truth, "broken"), (0.305, None, truth, "not known"),
                                      (None, None, truth, "not known"), (None, None, none, "held"), (0.3, 0.1, none, "broken"),
                                      (0.315, 0.01, rough, "no reference"), (0.36, 0.01, rough, "broken"), (0.3, 0.01, None, "no reference")):
@@ -96,6 +96,8 @@ class Judge(unittest.TestCase):
             self.assertEqual(found.kind, kind, (value, bar, of))
         self.assertAlmostEqual(judge.verdict(1, "mu_hold", asked(0.315, 0.01), truth).ratio, 1.5)
         self.assertEqual(judge.verdict(1, "mu_hold", asked(0.3, 0.01) | {"status": 2}, truth).kind, "refused")
+        finer = {"levels": [{"refine": 1}, {"refine": truth.finest + 0.1}]}
+        self.assertEqual(judge.verdict(1, "mu_hold", asked(0.315, 0.01) | finer, truth).kind, "no reference")
 
     def test_acceptance(self):
         held = [judge.Verdict(k, "mu_M", "held", 0.1 + 0.04 * (k % 20)) for k in range(19)]
