@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "reduction/basis_extension.h"
 
-#include "base/dense_halves.h"
+#include "base/dense_threaded.h"
 #include "base/memory.h"
 
 #include <math.h>
 #include <string.h>
 
-// The squared length of what is left of an answer below which it is rounding.
+// The squared length of what is left of a response below which it is rounding.
 static const double DEPENDENT = 1e-12;
 
 enum { INVERSE_STEPS = 8 };   // to the smallest eigenvalue, within some per cent
@@ -24,20 +24,20 @@ void extension_destroy(Extension *x)
     for (size_t k = 0; k < sizeof owned / sizeof *owned; k++) memory_free(owned[k]);
 }
 
-// answers: with those of the next block.
-bool extension_create(const GrowingBasis *basis, int64_t answers, int64_t count, int64_t added,
+// responses: with those of the next block.
+bool extension_create(const GrowingBasis *basis, int64_t responses, int64_t count, int64_t added,
                       Extension *x, Error *err)
 {
     int64_t m = basis->interface_count;
     *x = (Extension){.m = m, .count = count, .added = added};
     for (int term = 0; term < BULK_TERMS; term++) {
-        x->gram[term] = NEW_ARRAY(double, answers *added, err);
+        x->gram[term] = NEW_ARRAY(double, responses *added, err);
         if (term != BULK_STIFFNESS) x->beside[term] = NEW_ARRAY(double, m *added, err);
         x->old[term] = NEW_ARRAY(double, count *added, err);
         x->own[term] = NEW_ARRAY(double, added *added, err);
     }
     x->statics = NEW_ARRAY(double, m *added, err);
-    x->others = NEW_ARRAY(double, (answers - m) * added, err);
+    x->others = NEW_ARRAY(double, (responses - m) * added, err);
     x->parts = NEW_ARRAY(double, m *added, err);
     x->load = NEW_ARRAY(double, added, err);
     x->lower = NEW_ARRAY(double, added *added, err);
@@ -58,11 +58,12 @@ void extension_of_modes(const GrowingBasis *basis, const Extension *x, int64_t o
 {
     DenseView statics = dense_view(x->statics, x->m, x->added);
     if (basis->mix)
-        dense_multiply_transposed_halves(dense_view(basis->mix, others, x->count),
-                                         dense_view(x->others, others, x->added), 1, 0, out);
+        dense_multiply_transposed_threaded(dense_view(basis->mix, others, x->count),
+                                           dense_view(x->others, others, x->added), 1, 0, out);
     else
         memcpy(out, x->others, (size_t)(x->count * x->added) * sizeof *out);
-    dense_multiply_transposed_halves(dense_view(basis->parts, x->m, x->count), statics, -1, 1, out);
+    dense_multiply_transposed_threaded(dense_view(basis->parts, x->m, x->count), statics, -1, 1,
+                                       out);
 }
 
 // Of L L', from above.
@@ -89,7 +90,7 @@ bool extension_factor(const GrowingBasis *basis, Extension *x)
     if (count > 0) {
         dense_lower_divide(basis->lower, (int32_t)count, (int32_t)added, x->along);
         DenseView along = dense_view(x->along, count, added);
-        dense_multiply_transposed_halves(along, along, -1, 1, x->lower);
+        dense_multiply_transposed_threaded(along, along, -1, 1, x->lower);
     }
     if (!dense_cholesky(x->lower, (int32_t)added)) return false;
     // `gram` is done with.
@@ -183,24 +184,24 @@ static bool turn(double **a, int64_t rows, DenseView rotation, Error *err)
 {
     double *turned = NEW_ARRAY(double, rows *rotation.columns, err);
     if (!turned) return false;
-    dense_multiply_halves(dense_view(*a, rows, rotation.rows), rotation, 1, 0, turned);
+    dense_multiply_threaded(dense_view(*a, rows, rotation.rows), rotation, 1, 0, turned);
     memory_free(*a);
     *a = turned;
     return true;
 }
 
-// Rows and columns for the next `answers`, of which the columns of `rotation` are new modes; NULL:
-// all of them.
-bool extension_grow_mix(GrowingBasis *basis, int64_t answers, const double *rotation, int64_t kept,
-                        Error *err)
+// Rows and columns for the next `responses`, of which the columns of `rotation` are new modes;
+// NULL: all of them.
+bool extension_grow_mix(GrowingBasis *basis, int64_t responses, const double *rotation,
+                        int64_t kept, Error *err)
 {
-    int64_t others = basis->answers.count - basis->interface_count, rows = others + answers;
+    int64_t others = basis->responses.count - basis->interface_count, rows = others + responses;
     int64_t r = basis->interior_count;
     if (!extension_grow(&basis->mix, others, r, rows, r + kept, err)) return false;
     for (int64_t j = 0; j < kept; j++) {
         double *column = basis->mix + (r + j) * rows + others;
         if (rotation)
-            memcpy(column, rotation + j * answers, (size_t)answers * sizeof *column);
+            memcpy(column, rotation + j * responses, (size_t)responses * sizeof *column);
         else
             column[j] = 1;
     }

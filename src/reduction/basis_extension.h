@@ -6,13 +6,13 @@
 
 #include "reduction/basis_state.h"
 
-// Work of one extension by `added` columns: the next block of answers without their static modes,
+// Work of one extension by `added` columns: the next block of responses without their static modes,
 // or at a renewal modes that were there.
 typedef struct Extension {
     int64_t m, count, added;   // count: columns of Phi before
-    double *gram[BULK_TERMS];   // [answers * added] X' (K, C, M) X_next
+    double *gram[BULK_TERMS];   // [responses * added] X' (K, C, M) X_next
     double *statics;   // [m * added] rows of one of these
-    double *others;   // [(answers - m) * added] likewise
+    double *others;   // [(responses - m) * added] likewise
     double *parts;   // [m * added]
     double *beside[BULK_TERMS];   // [m * added] Psi' (C, M) Y, Y the new columns
     double *old[BULK_TERMS];   // [count * added] Phi' (K, C, M) Y
@@ -20,12 +20,12 @@ typedef struct Extension {
     double *load;   // [added] f'Y
     double *lower;   // [added^2] of the factor of K
     double *along;   // [count * added] L^-1 Phi'K Y
-    double largest;   // energy in K of an answer
+    double largest;   // energy in K of a response
     double loss;   // how much larger that is than what is left of one
 } Extension;
 
-// answers: with those of the next block.
-bool extension_create(const GrowingBasis *basis, int64_t answers, int64_t count, int64_t added,
+// responses: with those of the next block.
+bool extension_create(const GrowingBasis *basis, int64_t responses, int64_t count, int64_t added,
                       Extension *x, Error *err);
 void extension_destroy(Extension *x);
 
@@ -53,10 +53,10 @@ bool extension_grow(double **a, int64_t rows, int64_t columns, int64_t new_rows,
 bool extension_append(double **a, int64_t rows, int64_t count, const double *columns, int64_t added,
                       Error *err);
 
-// Rows and columns of the mix for the next `answers`, of which the columns of `rotation` are new
+// Rows and columns of the mix for the next `responses`, of which the columns of `rotation` are new
 // modes; NULL: all of them.
-bool extension_grow_mix(GrowingBasis *basis, int64_t answers, const double *rotation, int64_t kept,
-                        Error *err);
+bool extension_grow_mix(GrowingBasis *basis, int64_t responses, const double *rotation,
+                        int64_t kept, Error *err);
 
 // The basis's mix as a matrix; as the unit matrix before.
 bool extension_spell_out_mix(GrowingBasis *basis, Error *err);

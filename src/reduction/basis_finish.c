@@ -3,7 +3,7 @@
 // Phi W, W = L^-T Q, has the unit matrix as K and the tridiagonal T as M.
 #include "reduction/basis_finish.h"
 
-#include "base/dense_halves.h"
+#include "base/dense_threaded.h"
 #include "base/memory.h"
 #include "reduction/basis_renew.h"
 
@@ -40,9 +40,9 @@ static bool turn_create(const GrowingBasis *basis, Turn *turn, Error *err)
     dense_lower_divide_transposed(basis->lower, (int32_t)r, (int32_t)r, turn->w);
     // K and M of the interior are done with.
     DenseView w = dense_view(turn->w, r, r), half = dense_view(basis->interior[BULK_MASS], r, r);
-    dense_multiply_halves(dense_view(basis->interior[BULK_DAMPING], r, r), w, 1, 0,
-                          basis->interior[BULK_MASS]);
-    dense_multiply_transposed_halves(w, half, 1, 0, turn->damping);
+    dense_multiply_threaded(dense_view(basis->interior[BULK_DAMPING], r, r), w, 1, 0,
+                            basis->interior[BULK_MASS]);
+    dense_multiply_transposed_threaded(w, half, 1, 0, turn->damping);
 cleanup:
     memory_free(work);
     return error_is_clean(err);
@@ -54,8 +54,8 @@ static double *put_together(const GrowingBasis *basis, BulkTerm term, const Turn
     int64_t m = basis->interface_count, r = basis->interior_count, all = m + r;
     double *square = NEW_ARRAY(double, all *all, err), *beside = NEW_ARRAY(double, m *r, err);
     if (!square || !beside) goto cleanup;
-    dense_multiply_halves(dense_view(basis->beside[term], m, r), dense_view(turn->w, r, r), 1, 0,
-                          beside);
+    dense_multiply_threaded(dense_view(basis->beside[term], m, r), dense_view(turn->w, r, r), 1, 0,
+                            beside);
     for (int64_t j = 0; j < m; j++)
         memcpy(square + j * all, basis->statics[term] + j * m, (size_t)m * sizeof *square);
     for (int64_t j = 0; j < r; j++)
@@ -73,7 +73,7 @@ static bool write_modes(const GrowingBasis *basis, const Turn *turn, ReducedBulk
     int64_t dofs = basis->full_dofs, m = basis->interface_count, r = basis->interior_count;
     double *modes = reduced->modes = NEW_ARRAY(double, dofs *(m + r), err);
     if (!modes) return false;
-    memcpy(modes, basis->answers.blocks[0].field, (size_t)(dofs * m) * sizeof *modes);
+    memcpy(modes, basis->responses.blocks[0].field, (size_t)(dofs * m) * sizeof *modes);
     return basis_form(basis, turn->w, r, modes + dofs * m, err);
 }
 

@@ -2,7 +2,7 @@
 // Modes are formed, made orthonormal and multiplied by the mesh.
 #include "reduction/basis_renew.h"
 
-#include "base/dense_halves.h"
+#include "base/dense_threaded.h"
 #include "base/memory.h"
 #include "reduction/basis_extension.h"
 
@@ -11,26 +11,26 @@
 bool basis_form(const GrowingBasis *basis, const double *turn, int64_t columns, double *field,
                 Error *err)
 {
-    const Answers *answers = &basis->answers;
+    const Responses *responses = &basis->responses;
     int64_t dofs = basis->full_dofs, m = basis->interface_count, r = basis->interior_count;
-    int64_t rows = answers->count, others = rows - m;
+    int64_t rows = responses->count, others = rows - m;
     double *all = NEW_ARRAY(double, rows *columns, err),
            *part = NEW_ARRAY(double, rows *columns, err);
     if (!all || !part) goto cleanup;
     DenseView turned = dense_view(turn, r, columns);
-    dense_multiply_halves(dense_view(basis->parts, m, r), turned, -1, 0, part);
+    dense_multiply_threaded(dense_view(basis->parts, m, r), turned, -1, 0, part);
     for (int64_t j = 0; j < columns; j++)
         memcpy(all + j * rows, part + j * m, (size_t)m * sizeof *all);
     if (basis->mix)
-        dense_multiply_halves(dense_view(basis->mix, others, r), turned, 1, 0, part);
+        dense_multiply_threaded(dense_view(basis->mix, others, r), turned, 1, 0, part);
     else
         memcpy(part, turn, (size_t)(r * columns) * sizeof *part);
     for (int64_t j = 0; j < columns; j++)
         memcpy(all + j * rows + m, part + j * others, (size_t)others * sizeof *all);
-    answers_combine(answers, 1, all, columns, field);
+    responses_combine(responses, 1, all, columns, field);
     // The interface's part is 0, to the last bit.
     for (int64_t j = 0; j < columns; j++)
-        for (int64_t i = 0; i < m; i++) field[j * dofs + answers->full->interface_dofs[i]] = 0;
+        for (int64_t i = 0; i < m; i++) field[j * dofs + responses->full->interface_dofs[i]] = 0;
 cleanup:
     memory_free(all);
     memory_free(part);
@@ -42,7 +42,7 @@ static bool turn_last(double *a, int64_t rows, int64_t first, DenseView turn, Er
 {
     double *turned = NEW_ARRAY(double, rows *turn.columns, err);
     if (!turned) return false;
-    dense_multiply_halves(dense_view(a, rows, turn.rows), turn, 1, 0, turned);
+    dense_multiply_threaded(dense_view(a, rows, turn.rows), turn, 1, 0, turned);
     memcpy(a + rows * first, turned, (size_t)(rows * turn.columns) * sizeof *a);
     memory_free(turned);
     return true;
@@ -52,19 +52,19 @@ static bool turn_last(double *a, int64_t rows, int64_t first, DenseView turn, Er
 static bool multiply_by_mesh(const GrowingBasis *basis, const double *turn, Extension *x,
                              Error *err)
 {
-    const Answers *answers = &basis->answers;
+    const Responses *responses = &basis->responses;
     int64_t dofs = basis->full_dofs, r = basis->interior_count, columns = 0;
-    double *field = NEW_ARRAY(double, dofs *ANSWERS_TOGETHER, err);
-    double *image = NEW_ARRAY(double, dofs *ANSWERS_TOGETHER, err);
+    double *field = NEW_ARRAY(double, dofs *RESPONSES_TOGETHER, err);
+    double *image = NEW_ARRAY(double, dofs *RESPONSES_TOGETHER, err);
     if (!field || !image) goto cleanup;
     for (int64_t from = 0; from < x->added; from += columns) {
-        columns = x->added - from < ANSWERS_TOGETHER ? x->added - from : ANSWERS_TOGETHER;
+        columns = x->added - from < RESPONSES_TOGETHER ? x->added - from : RESPONSES_TOGETHER;
         memset(field, 0, (size_t)(dofs * columns) * sizeof *field);
         TRY(basis_form(basis, turn + from * r, columns, field, err));
         for (int term = 0; term < BULK_TERMS; term++)
-            answers_project(answers, (BulkTerm)term, field, columns, image,
-                            x->gram[term] + from * answers->count);
-        dense_apply_transposed(dense_view(field, dofs, columns), answers->unit_load, 1, 0,
+            responses_project(responses, (BulkTerm)term, field, columns, image,
+                              x->gram[term] + from * responses->count);
+        dense_apply_transposed(dense_view(field, dofs, columns), responses->unit_load, 1, 0,
                                x->load + from);
     }
 cleanup:
@@ -103,7 +103,7 @@ static double *orthonormal(const GrowingBasis *basis, int64_t first, Error *err)
 bool basis_renew(GrowingBasis *basis, int32_t first, Error *err)
 {
     int64_t m = basis->interface_count, r = basis->interior_count, added = r - first;
-    int64_t rows = basis->answers.count, others = rows - m;
+    int64_t rows = basis->responses.count, others = rows - m;
     Extension x = {0};
     double *all = NEW_ARRAY(double, r *added, err), *turn = orthonormal(basis, first, err);
     if (!all || !turn) goto cleanup;

@@ -11,7 +11,7 @@ bool basis_form(const GrowingBasis *basis, const double *turn, int64_t columns, 
                 Error *err);
 
 // Makes Phi from column `first` on orthonormal in K and orthogonal to those before, and multiplies
-// it by the mesh: rounding that products of answers brought in goes.
+// it by the mesh: rounding that products of responses brought in goes.
 bool basis_renew(GrowingBasis *basis, int32_t first, Error *err);
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The basis of a reduced bulk while it is built: static modes Psi and, of answers X of the full
+// The basis of a reduced bulk while it is built: static modes Psi and, of responses X of the full
 // mesh, what is left without them,
 //
 //     Phi = X mix - Psi parts,
@@ -9,11 +9,11 @@
 #ifndef AMONTONS_REDUCTION_BASIS_STATE_H
 #define AMONTONS_REDUCTION_BASIS_STATE_H
 
-#include "reduction/answers.h"
+#include "reduction/responses.h"
 
 typedef struct GrowingBasis {
     int32_t full_dofs, interface_count, interior_count;   // m, r
-    Answers answers;   // the first m of them are Psi; owned, like all below
+    Responses responses;   // the first m of them are Psi; owned, like all below
     double loss_max;   // of digits, from which on new modes are multiplied by the mesh
     double *statics[BULK_TERMS];   // [m^2] Psi' (K, C, M) Psi
     double *beside[BULK_TERMS];   // [m * r] Psi' (C, M) Phi; none of K
@@ -21,7 +21,7 @@ typedef struct GrowingBasis {
     double *lower;   // [r^2] Cholesky factor of that of K
     double *load;   // [m + r] f' (Psi, Phi), f the unit load
     double *parts;   // [m * r]
-    double *mix;   // [(answers.count - m) * r]; NULL: the unit matrix
+    double *mix;   // [(responses.count - m) * r]; NULL: the unit matrix
 } GrowingBasis;
 
 #endif

@@ -42,7 +42,7 @@ static bool factor_slot(void *context, int32_t number, int32_t waiting, Error *e
     }
     point->full = interface_operator_create(&slot->system, slot->terms, err);
     if (!point->full) goto cleanup;
-    TRY(interface_operator_answer_held(point->full, def->load, point->held, point->pull, err));
+    TRY(interface_operator_respond_held(point->full, def->load, point->held, point->pull, err));
 cleanup:
     return error_is_clean(err);
 }

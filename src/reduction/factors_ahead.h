@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The full mesh's interface operators at points that are known beforehand, each with its answer to
-// the load, made in two threads in turns: one while the caller works with the one before,
+// The full mesh's interface operators at points that are known beforehand, each with its response
+// to the load, made in two threads in turns: one while the caller works with the one before,
 // both while it waits.
 // Called by reduction/reduction and reduction/far_samples.
 #ifndef AMONTONS_REDUCTION_FACTORS_AHEAD_H
@@ -12,7 +12,7 @@ typedef struct FactorsAhead FactorsAhead;
 
 typedef struct FactoredPoint {
     InterfaceOperator *full;
-    double *held;   // [dofs] the answer to the load, the interface held
+    double *held;   // [dofs] the response to the load, the interface held
     double *pull;   // [interface_count] what is condensed of it
 } FactoredPoint;
 

@@ -116,7 +116,7 @@ static void building_destroy(Building *work)
     far_patches_destroy(&work->patches);
 }
 
-// --- what the matrices are for the motions ------------------------------------------------------
+// --- what the matrices are for the modes ------------------------------------------------------
 
 // Rotation F = field * rotation, with which K/E is 1 to rounding and M diagonal: eigenvectors z of
 // (L^-1 M L^-T) z = mass z, K/E = L L', and L^-T z.
@@ -124,7 +124,7 @@ static bool rotate(double *stiffness, double *mass, int32_t q, double *values, E
 {
     double *work = NEW_ARRAY(double, dense_eigen_work(q), err);
     if (!work) goto cleanup;
-    if (!dense_cholesky(stiffness, q)) FAIL(err, ERROR_COMPUTE, "motions are not independent");
+    if (!dense_cholesky(stiffness, q)) FAIL(err, ERROR_COMPUTE, "modes are not independent");
     dense_divide_both_sides(stiffness, q, mass);
     if (!dense_eigen(mass, q, values, work)) FAIL(err, ERROR_LIBRARY, "LAPACK: no modes");
     for (int32_t j = 0; j < q; j++)
@@ -137,24 +137,24 @@ cleanup:
 static bool project(Building *work, int32_t p, Error *err)
 {
     FarPatch *patch = &work->block->patches[p];
-    const FarMotions *motions = &work->patches.motions[p];
-    int64_t q = motions->count, size = motions->size;
+    const PatchModes *modes = &work->patches.modes[p];
+    int64_t q = modes->count, size = modes->size;
     double *stiffness = NEW_ARRAY(double, q *q, err), *damping = NEW_ARRAY(double, q *q, err);
     double *half = NEW_ARRAY(double, q *q, err), *sum = NEW_ARRAY(double, q, err);
     double *load = NEW_ARRAY(double, size, err);
     if (!error_is_clean(err)) goto cleanup;
     double *const square[] = {
         [BULK_STIFFNESS] = stiffness, [BULK_DAMPING] = damping, [BULK_MASS] = patch->rotation};
-    TRY(far_motions_project(motions, work->bulk->mass, square, err));
+    TRY(patch_modes_project(modes, work->bulk->mass, square, err));
     TRY(rotate(stiffness, patch->rotation, (int32_t)q, patch->mass, err));
     DenseView rotation = dense_view(patch->rotation, q, q);
     dense_multiply(dense_view(damping, q, q), rotation, 1, 0, half);
     dense_multiply_transposed(rotation, dense_view(half, q, q), 1, 0, patch->damping);
-    for (int64_t i = 0; i < size; i++) load[i] = work->bulk->load[motions->dofs[i]];
-    dense_apply_transposed(dense_view(motions->field, size, q), load, 1, 0, sum);
+    for (int64_t i = 0; i < size; i++) load[i] = work->bulk->load[modes->dofs[i]];
+    dense_apply_transposed(dense_view(modes->field, size, q), load, 1, 0, sum);
     dense_apply_transposed(rotation, sum, 1, 0, patch->load);
-    memcpy(patch->dofs, motions->dofs, (size_t)size * sizeof *patch->dofs);
-    memcpy(patch->field, motions->field, (size_t)(size * q) * sizeof *patch->field);
+    memcpy(patch->dofs, modes->dofs, (size_t)size * sizeof *patch->dofs);
+    memcpy(patch->field, modes->field, (size_t)(size * q) * sizeof *patch->field);
 cleanup:
     memory_free(stiffness);
     memory_free(damping);
@@ -177,17 +177,17 @@ static int by_patch(const void *left, const void *right, void *of)
 static bool list_border(Building *work, int32_t p, int32_t *seen, Error *err)
 {
     const SparsePattern *pattern = &work->bulk->pattern;
-    const FarMotions *motions = &work->patches.motions[p];
+    const PatchModes *modes = &work->patches.modes[p];
     const int32_t *of = work->patches.of;
     Border *border = &work->borders[p];
     int32_t entries = 0;
-    for (int32_t i = 0; i < motions->size; i++)
-        entries += pattern->start[motions->dofs[i] + 1] - pattern->start[motions->dofs[i]];
+    for (int32_t i = 0; i < modes->size; i++)
+        entries += pattern->start[modes->dofs[i] + 1] - pattern->start[modes->dofs[i]];
     border->dofs = NEW_ARRAY(int32_t, entries, err);
     border->start = NEW_ARRAY(int32_t, (int64_t)entries + 1, err);
     if (!border->dofs || !border->start) return false;
-    for (int32_t i = 0; i < motions->size; i++) {
-        int32_t row = motions->dofs[i];
+    for (int32_t i = 0; i < modes->size; i++) {
+        int32_t row = modes->dofs[i];
         for (int32_t at = pattern->start[row]; at < pattern->start[row + 1]; at++) {
             int32_t other = pattern->index[at];
             if (of[other] >= p || seen[other] == p) continue;
@@ -209,30 +209,30 @@ static void multiply_border(const Building *work, int32_t p, const double *matri
     const Border *border = &work->borders[p];
     int64_t count = border->count;
     const SparsePattern *pattern = &work->bulk->pattern;
-    const FarMotions *motions = &work->patches.motions[p];
+    const PatchModes *modes = &work->patches.modes[p];
     for (int64_t j = 0; j < count; j++) {
         int32_t row = border->dofs[j];
         for (int32_t at = pattern->start[row]; at < pattern->start[row + 1]; at++) {
             if (work->patches.of[pattern->index[at]] != p) continue;
-            const double *moved = motions->field + work->patches.place[pattern->index[at]];
-            for (int64_t c = 0; c < motions->count; c++)
-                values[c * count + j] += matrix[at] * moved[c * motions->size];
+            const double *moved = modes->field + work->patches.place[pattern->index[at]];
+            for (int64_t c = 0; c < modes->count; c++)
+                values[c * count + j] += matrix[at] * moved[c * modes->size];
         }
     }
 }
 
-// out [coordinates of patch `before` * columns] := its motions' rows of the border, [values.rows]
+// out [coordinates of patch `before` * columns] := its modes' rows of the border, [values.rows]
 // of them from `rows` on, times `values`.
 static bool project_rows(const Building *work, int32_t before, const int32_t *rows,
                          DenseView values, double *out, Error *err)
 {
-    const FarMotions *motions = &work->patches.motions[before];
-    int64_t p = motions->count, q = values.columns, count = values.rows;
+    const PatchModes *modes = &work->patches.modes[before];
+    int64_t p = modes->count, q = values.columns, count = values.rows;
     double *moved = NEW_ARRAY(double, count *p, err), *half = NEW_ARRAY(double, p *q, err);
     if (!moved || !half) goto cleanup;
     for (int64_t c = 0; c < p; c++)
         for (int64_t j = 0; j < count; j++)
-            moved[c * count + j] = motions->field[c * motions->size + work->patches.place[rows[j]]];
+            moved[c * count + j] = modes->field[c * modes->size + work->patches.place[rows[j]]];
     dense_multiply_transposed(dense_view(moved, count, p), values, 1, 0, half);
     dense_multiply_transposed(dense_view(work->block->patches[before].rotation, p, p),
                               dense_view(half, p, q), 1, 0, out);
@@ -292,21 +292,21 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Sizes of patches and couplings from the motions that were found.
+// Sizes of patches and couplings from the modes that were found.
 static void list_sizes(const Building *work)
 {
     FarBlock *block = work->block;
     FarCoupling *coupling = block->couplings;
     for (int32_t p = 0; p < block->patch_count; p++) {
         const Border *border = &work->borders[p];
-        block->patches[p].size = work->patches.motions[p].size;
-        block->patches[p].count = work->patches.motions[p].count;
+        block->patches[p].size = work->patches.modes[p].size;
+        block->patches[p].count = work->patches.modes[p].count;
         for (int32_t g = 0; g < border->group_count; g++, coupling++) {
             coupling->patch = p;
             coupling->before = work->patches.of[border->dofs[border->start[g]]];
             coupling->count = coupling->before == NO_PATCH
                                   ? border->start[g + 1] - border->start[g]
-                                  : work->patches.motions[coupling->before].count;
+                                  : work->patches.modes[coupling->before].count;
         }
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is far from the interface moves in few ways only: a motion of wave number k has fallen by
-// exp(-k d) at a distance d. So unknowns far from it are replaced by those few motions, patch by
+// What is far from the interface moves in few ways only: a wave of wave number k has fallen by
+// exp(-k d) at a distance d. So unknowns far from it are replaced by a few modes, patch by
 // patch, the deeper the larger (reduction/far_patches):
 //
 //     u = [ 1          ] [ u_near ]     K, C = [ sparse  K01 F1     K02 F2    ]
@@ -8,12 +8,12 @@
 //         [      F2    ] [ a2     ]            [   .        .      F2'K22 F2 ]   and so on,
 //
 // with blocks beside the diagonal where two patches touch. M is diagonal: F'MF is made so. The
-// error in S is measured at a point that the motions were not made at; where it is no small part of
+// error in S is measured at a point that the modes were not made at; where it is no small part of
 // what is allowed nothing is replaced.
 //
 // The bulk may be the upper block alone, its interface the line that it stands on
-// (reduction/upper_block): then all this serves every design that has this block. The energy of an
-// answer is the sum of that below and that above the line, so that S of the contact is off by no
+// (reduction/upper_block): then all this serves every design that has this block. The energy of a
+// response is the sum of that below and that above the line, so that S of the contact is off by no
 // larger part than S of the line.
 // Called by reduction/reduction and model/obtain; stored by model/far_cache; used by
 // reduction/far_field.
@@ -34,7 +34,7 @@ typedef struct FarCoupling {
 typedef struct FarPatch {
     int32_t size;   // unknowns that are replaced
     int32_t *dofs;   // [size] which of the bulk, ascending
-    int32_t count;   // their motions, columns of F = field * rotation, F'(K/E)F = 1
+    int32_t count;   // their modes, columns of F = field * rotation, F'(K/E)F = 1
     double *field;   // [size * count]; NULL: read from a cache and not asked for
     double *rotation;   // [count^2]
     double *damping;   // [count^2] F'CF

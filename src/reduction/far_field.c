@@ -104,7 +104,7 @@ static bool make_room(Filling *work, Error *err)
     for (int64_t i = 0; i < size; i++) {
         work->cursor[i] = (int32_t)entries;
         entries += bulk->pattern.start[i + 1];
-        if (entries > INT32_MAX) FAIL(err, ERROR_COMPUTE, "too many motions are left");
+        if (entries > INT32_MAX) FAIL(err, ERROR_COMPUTE, "too many modes are left");
         bulk->pattern.start[i + 1] = (int32_t)entries;
     }
     bulk->pattern.index = NEW_ARRAY(int32_t, entries, err);
@@ -139,7 +139,7 @@ static void fill_near(Filling *work)
     }
 }
 
-// Of near unknowns: that of the bulk that the motions are of need not be that of the mesh.
+// Of near unknowns: that of the bulk that the modes are of need not be that of the mesh.
 static int by_row(const void *left, const void *right, void *context)
 {
     const Filling *work = context;
@@ -228,14 +228,14 @@ bool far_field_measure(FarField *far, FarBlock *block, Error *err)
     return error_is_clean(err);
 }
 
-bool far_field_expand(const FarField *far, const double *motions, int32_t columns, double *full,
+bool far_field_expand(const FarField *far, const double *reduced, int32_t columns, double *full,
                       Error *err)
 {
     int64_t dofs = far->bulk.dof_count, mesh = far->mesh_dofs;
     double *turned = NULL, *fields = NULL;
     for (int64_t j = 0; j < columns; j++)
         for (int64_t i = 0; i < far->near_count; i++)
-            full[j * mesh + far->near[i]] = motions[j * dofs + i];
+            full[j * mesh + far->near[i]] = reduced[j * dofs + i];
     for (int32_t p = 0; p < far->block->patch_count; p++) {
         const FarPatch *patch = &far->block->patches[p];
         memory_free(turned);
@@ -244,7 +244,7 @@ bool far_field_expand(const FarField *far, const double *motions, int32_t column
         fields = NEW_ARRAY(double, (int64_t)patch->size *columns, err);
         if (!turned || !fields) goto cleanup;
         dense_multiply_rows(dense_view(patch->rotation, patch->count, patch->count),
-                            motions + far->first[p], dofs, columns, 1, turned);
+                            reduced + far->first[p], dofs, columns, 1, turned);
         dense_multiply(dense_view(patch->field, patch->size, patch->count),
                        dense_view(turned, patch->count, columns), 1, 0, fields);
         for (int64_t j = 0; j < columns; j++)

@@ -23,12 +23,12 @@ bool far_field_create(const Bulk *mesh, const int32_t *interface_dofs, int32_t i
                       double unit, FarField *far, Error *err);
 void far_field_destroy(FarField *far);
 
-// block: that of `far`, of all of its mesh, created just now: measures what its motions leave, on
+// block: that of `far`, of all of its mesh, created just now: measures what its modes leave, on
 // that mesh; nothing is replaced where it is too much.
 bool far_field_measure(FarField *far, FarBlock *block, Error *err);
 
-// full [mesh_dofs * columns] from motions of `far->bulk`, [its dofs * columns].
-bool far_field_expand(const FarField *far, const double *motions, int32_t columns, double *full,
+// full [mesh_dofs * columns] from those of `far->bulk`, reduced, [its dofs * columns].
+bool far_field_expand(const FarField *far, const double *reduced, int32_t columns, double *full,
                       Error *err);
 
 #endif

@@ -30,9 +30,9 @@ typedef struct Reach {
 
 void far_patches_destroy(FarPatches *patches)
 {
-    for (int32_t p = 0; patches->motions && p < patches->count; p++)
-        far_motions_destroy(&patches->motions[p]);
-    memory_free(patches->motions);
+    for (int32_t p = 0; patches->modes && p < patches->count; p++)
+        patch_modes_destroy(&patches->modes[p]);
+    memory_free(patches->modes);
     memory_free(patches->of);
     memory_free(patches->place);
     *patches = (FarPatches){0};
@@ -143,18 +143,17 @@ static bool number_patches(const Reach *reach, int32_t m, int32_t dofs, FarPatch
 static bool list_dofs(int32_t dofs, FarPatches *patches, Error *err)
 {
     patches->place = NEW_ARRAY(int32_t, dofs, err);
-    patches->motions = NEW_ARRAY(FarMotions, patches->count, err);
+    patches->modes = NEW_ARRAY(PatchModes, patches->count, err);
     if (!error_is_clean(err)) return false;
     for (int32_t k = 0; k < dofs; k++)
-        if (patches->of[k] != NO_PATCH) patches->place[k] = patches->motions[patches->of[k]].size++;
+        if (patches->of[k] != NO_PATCH) patches->place[k] = patches->modes[patches->of[k]].size++;
     for (int32_t p = 0; p < patches->count; p++) {
-        FarMotions *motions = &patches->motions[p];
-        motions->dofs = NEW_ARRAY(int32_t, motions->size, err);
-        if (!motions->dofs) return false;
+        PatchModes *modes = &patches->modes[p];
+        modes->dofs = NEW_ARRAY(int32_t, modes->size, err);
+        if (!modes->dofs) return false;
     }
     for (int32_t k = 0; k < dofs; k++)
-        if (patches->of[k] != NO_PATCH)
-            patches->motions[patches->of[k]].dofs[patches->place[k]] = k;
+        if (patches->of[k] != NO_PATCH) patches->modes[patches->of[k]].dofs[patches->place[k]] = k;
     return true;
 }
 
@@ -162,24 +161,24 @@ static bool copy_matrices(const Bulk *bulk, double unit, const FarPatches *patch
                           Error *err)
 {
     const SparsePattern *from = &bulk->pattern;
-    FarMotions *motions = &patches->motions[p];
-    const int32_t *dofs = motions->dofs;
-    int32_t size = motions->size, entries = 0, filled = 0;
+    PatchModes *modes = &patches->modes[p];
+    const int32_t *dofs = modes->dofs;
+    int32_t size = modes->size, entries = 0, filled = 0;
     for (int32_t j = 0; j < size; j++) entries += from->start[dofs[j] + 1] - from->start[dofs[j]];
-    motions->pattern = (SparsePattern){.size = size,
-                                       .start = NEW_ARRAY(int32_t, (int64_t)size + 1, err),
-                                       .index = NEW_ARRAY(int32_t, entries, err)};
-    motions->stiffness = NEW_ARRAY(double, entries, err);
-    motions->damping = NEW_ARRAY(double, entries, err);
+    modes->pattern = (SparsePattern){.size = size,
+                                     .start = NEW_ARRAY(int32_t, (int64_t)size + 1, err),
+                                     .index = NEW_ARRAY(int32_t, entries, err)};
+    modes->stiffness = NEW_ARRAY(double, entries, err);
+    modes->damping = NEW_ARRAY(double, entries, err);
     if (!error_is_clean(err)) return false;
     for (int32_t j = 0; j < size; j++) {
         for (int32_t k = from->start[dofs[j]]; k < from->start[dofs[j] + 1]; k++) {
             if (patches->of[from->index[k]] != p) continue;
-            motions->pattern.index[filled] = patches->place[from->index[k]];
-            motions->stiffness[filled] = bulk->stiffness[k] / unit;
-            motions->damping[filled++] = bulk->damping[k];
+            modes->pattern.index[filled] = patches->place[from->index[k]];
+            modes->stiffness[filled] = bulk->stiffness[k] / unit;
+            modes->damping[filled++] = bulk->damping[k];
         }
-        motions->pattern.start[j + 1] = filled;
+        modes->pattern.start[j + 1] = filled;
     }
     return true;
 }
@@ -189,7 +188,7 @@ bool far_patches_begin(const Bulk *bulk, double unit, int32_t expected, FarPatch
 {
     for (int32_t p = 0; p < patches->count; p++) {
         TRY(copy_matrices(bulk, unit, patches, p, err));
-        TRY(far_motions_make_room(&patches->motions[p], expected, err));
+        TRY(patch_modes_make_room(&patches->modes[p], expected, err));
     }
 cleanup:
     return error_is_clean(err);

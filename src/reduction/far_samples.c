@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Answers are asked at rest, then elastic and viscous in turns at inertias 6 apart, from where
+// Responses are asked at rest, then elastic and viscous in turns at inertias 6 apart, from where
 // inertia leaves something of them far from the interface downwards, at last with all viscosities.
 #include "reduction/far_samples.h"
 
@@ -14,20 +14,20 @@
 #include <stdatomic.h>
 #include <string.h>
 
-// Motions asked at once; where fewer than NEW_SHARE of them are new to a patch it takes no more at
-// that point.
+// Boundary motions asked at once; where fewer than NEW_SHARE of them are new to a patch it takes no
+// more at that point.
 enum { CHUNK = 24 };
 static const double NEW_SHARE = 0.75;
 
-enum { ROOM = 4 * CHUNK };   // motions of a patch that there is room for at first
+enum { ROOM = 4 * CHUNK };   // modes of a patch that there is room for at first
 
-// The energy of what a random motion, of energy 1, may lack: a part of tolerance^2, and at rest.
-// What all motions lack adds up in it, so that the worst lacks less.
+// The energy of what a random boundary motion, of energy 1, may lack: a part of tolerance^2, and at
+// rest. What all boundary motions lack adds up in it, so that the worst lacks less.
 static const double LEAST = 0.25, LEAST_AT_REST = 1e-12;
 
 static const double INERTIA_STEP = 6;
 
-// e^-5 of an answer has come through the elements between at most, where inertia is asked last.
+// e^-5 of a response has come through the elements between at most, where inertia is asked last.
 static const double FALLEN = 5;
 
 // S of what the far field leaves is not below that of the mesh; beyond this part of what is allowed
@@ -37,7 +37,7 @@ static const double NEGATIVE = 1e-3;
 // Of the mean diagonal: S of K alone is lifted by it, where rigid motions cost nothing.
 static const double LIFT = 1;
 
-enum { LEVELS_MAX = 16, POINTS_MAX = STRIP_VISCOSITIES_MAX * (LEVELS_MAX + 1) + 1 };
+enum { LEVELS_MAX = 16, POINTS_MAX = TRAINING_VISCOSITIES_MAX * (LEVELS_MAX + 1) + 1 };
 
 typedef struct Sampling {
     const Bulk *bulk;
@@ -45,17 +45,17 @@ typedef struct Sampling {
     FarSamples *samples;   // not owned
     BulkOperator mesh;
     InterfaceOperator *statics;
-    StripPoint points[POINTS_MAX];   // [count], then that at which S is compared
+    ParameterPoint points[POINTS_MAX];   // [count], then that at which S is compared
     OperatorTerms terms[POINTS_MAX];
     int32_t count;
-    double viscosity[STRIP_VISCOSITIES_MAX];   // [viscosity_count]
+    double viscosity[TRAINING_VISCOSITIES_MAX];   // [viscosity_count]
     int32_t viscosity_count;
     double top;   // the largest inertia
     FactorsAhead *ahead;
     const double *lower;   // [m^2] Cholesky factor of S at a point; not owned
     double *lifted;   // [m^2] that of S of K alone
-    double *asked;   // [m * CHUNK] motions of the interface
-    double *fields;   // [dofs * (CHUNK + 1)] answers
+    double *asked;   // [m * CHUNK] boundary motions
+    double *fields;   // [dofs * (CHUNK + 1)] responses
     uint64_t drawn;   // random numbers
     bool *busy;   // [patches] whether a patch still finds much that is new
     FarRoom room[2];   // of two threads
@@ -100,10 +100,10 @@ static double draw_sign(uint64_t *drawn)
     return (z ^ (z >> 31)) >> 63 ? 1 : -1;
 }
 
-static void add_point(Sampling *work, StripPoint point)
+static void add_point(Sampling *work, ParameterPoint point)
 {
     work->points[work->count] = point;
-    work->terms[work->count] = strip_terms(point, &work->def->scales);
+    work->terms[work->count] = parameter_terms(point, &work->def->scales);
     work->terms[work->count++].lower_only = true;
 }
 
@@ -111,19 +111,20 @@ static void add_point(Sampling *work, StripPoint point)
 static void add_level(Sampling *work, int32_t level, double inertia)
 {
     for (int32_t k = level % 2; k < work->viscosity_count; k += 2)
-        add_point(work, (StripPoint){work->viscosity[k], inertia});
+        add_point(work, (ParameterPoint){work->viscosity[k], inertia});
 }
 
 // Those that are asked whatever the slowest mode is, as many as are factored ahead at least.
 static void list_first_points(Sampling *work, double element_inertia)
 {
-    Strip strip;
+    TrainingPoints training;
     ReductionErrors levels = {0};
     const FarFieldDef *def = work->def;
-    strip_list(&def->materials, &def->scales, element_inertia, element_inertia, &levels, &strip);
-    work->viscosity_count = strip_viscosities(&def->materials, &def->scales, work->viscosity);
-    // Half a step below where answers no longer reach that far.
-    work->top = strip.element_inertia * pow(FALLEN / work->samples->patches->distance, 2) /
+    training_points_list(&def->materials, &def->scales, element_inertia, element_inertia, &levels,
+                         &training);
+    work->viscosity_count = training_viscosities(&def->materials, &def->scales, work->viscosity);
+    // Half a step below where responses no longer reach that far.
+    work->top = training.element_inertia * pow(FALLEN / work->samples->patches->distance, 2) /
                 sqrt(INERTIA_STEP);
     add_level(work, 0, work->top);
     add_level(work, 1, work->top / INERTIA_STEP);
@@ -133,22 +134,23 @@ static void list_first_points(Sampling *work, double element_inertia)
 // which S is compared: where one is asked half way, with the other viscosity.
 static void list_points(Sampling *work, double slowest, double element_inertia)
 {
-    Strip strip;
+    TrainingPoints training;
     ReductionErrors levels = {0};
     const FarFieldDef *def = work->def;
-    strip_list(&def->materials, &def->scales, slowest, element_inertia, &levels, &strip);
+    training_points_list(&def->materials, &def->scales, slowest, element_inertia, &levels,
+                         &training);
     double lowest = levels.inertia[0], second = work->top / INERTIA_STEP;
     int32_t steps =
         (int32_t)fmin(fmax(round(log(second / lowest) / log(INERTIA_STEP)), 1), LEVELS_MAX - 2);
     for (int32_t k = 1; k < steps; k++)
         add_level(work, 1 + k, second * pow(lowest / second, (double)k / steps));
-    StripPoint compared = work->points[(work->count + 1) / 2];
+    ParameterPoint compared = work->points[(work->count + 1) / 2];
     compared.viscosity = work->viscosity[compared.viscosity < 0.5 ? 1 : 0];
     for (int32_t k = 1; k < work->viscosity_count; k++)
-        add_point(work, (StripPoint){work->viscosity[k], lowest});
+        add_point(work, (ParameterPoint){work->viscosity[k], lowest});
     add_point(work, compared);
     work->terms[--work->count].lower_only = false;
-    work->samples->allowed = strip_allowed(&strip, compared, def->tolerance);
+    work->samples->allowed = parameter_error_allowed(&training, compared, def->tolerance);
 }
 
 static bool begin_patches(Sampling *work, Error *err)
@@ -159,7 +161,7 @@ static bool begin_patches(Sampling *work, Error *err)
     if (!work->busy) goto cleanup;
     TRY(far_patches_begin(work->bulk, work->def->scales.stiffness, ROOM, patches, err));
     for (int32_t p = 0; p < patches->count; p++)
-        if (patches->motions[p].size > size) size = patches->motions[p].size;
+        if (patches->modes[p].size > size) size = patches->modes[p].size;
     for (int which = 0; which < 2; which++)
         TRY(far_room_create(size, CHUNK + 1, &work->room[which], err));
 cleanup:
@@ -192,7 +194,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The answer to the load, of energy 1, behind the others; 0: there is no load.
+// The response to the load, of energy 1, behind the others; 0: there is no load.
 static int32_t take_load(const Sampling *work, const double *held)
 {
     int32_t dofs = work->bulk->dof_count;
@@ -203,7 +205,7 @@ static int32_t take_load(const Sampling *work, const double *held)
     return 1;
 }
 
-// Patches that found much that was new in the answers before, two at a time.
+// Patches that found much that was new in the responses before, two at a time.
 typedef struct Turn {
     Sampling *work;
     DenseView fields;
@@ -221,7 +223,7 @@ static void add_in_turn(void *context, int32_t which)
     for (int32_t p = atomic_fetch_add(&turn->next, 1); p < count;
          p = atomic_fetch_add(&turn->next, 1)) {
         if (!work->busy[p]) continue;
-        if (!far_motions_add(&patches->motions[p], turn->fields, turn->least, &work->room[which],
+        if (!patch_modes_add(&patches->modes[p], turn->fields, turn->least, &work->room[which],
                              &added))
             atomic_store(&turn->failed, true);
         work->busy[p] = added > NEW_SHARE * turn->fields.columns;
@@ -236,28 +238,28 @@ static bool add_to_patches(Sampling *work, int32_t columns, double least, int32_
                  .fields = dense_view(work->fields, work->bulk->dof_count, columns),
                  .least = least};
     for (int32_t p = 0; p < patches->count; p++)
-        if (work->busy[p]) TRY(far_motions_make_room(&patches->motions[p], columns, err));
+        if (work->busy[p]) TRY(patch_modes_make_room(&patches->modes[p], columns, err));
     share_in_two(add_in_turn, &turn);
     if (turn.failed)
-        FAIL(err, ERROR_LIBRARY, "LAPACK: no energies of motions far from the interface");
+        FAIL(err, ERROR_LIBRARY, "LAPACK: no energies of modes far from the interface");
     *left = 0;
     for (int32_t p = 0; p < patches->count; p++) *left += work->busy[p];
 cleanup:
     return error_is_clean(err);
 }
 
-// Motions of energy 1 on average, of S = L L': L^-T times signs.
+// Boundary motions of energy 1 on average, of S = L L': L^-T times signs.
 static bool sample(Sampling *work, InterfaceOperator *full, const double *held, double least,
                    Error *err)
 {
     int32_t m = work->mesh.interface_count;
     int32_t left = work->samples->patches->count;
     for (int32_t p = 0; p < left; p++) work->busy[p] = true;
-    // m motions are all there are.
+    // m boundary motions are all there are.
     for (int32_t loads = take_load(work, held), asked = 0; left > 0 && asked < m; asked += CHUNK) {
         for (int32_t k = 0; k < m * CHUNK; k++) work->asked[k] = draw_sign(&work->drawn);
         dense_lower_divide_transposed(work->lower, m, CHUNK, work->asked);
-        TRY(interface_operator_answer(full, work->asked, CHUNK, work->fields, err));
+        TRY(interface_operator_respond(full, work->asked, CHUNK, work->fields, err));
         TRY(add_to_patches(work, CHUNK + loads, least, &left, err));
         loads = 0;
     }
@@ -284,7 +286,7 @@ static bool sample_statics(Sampling *work, Error *err)
     double *held = NEW_ARRAY(double, work->bulk->dof_count, err);
     double *pull = NEW_ARRAY(double, work->mesh.interface_count, err);
     if (!held || !pull) goto cleanup;
-    TRY(interface_operator_answer_held(work->statics, work->bulk->load, held, pull, err));
+    TRY(interface_operator_respond_held(work->statics, work->bulk->load, held, pull, err));
     TRY(factor_statics(work, err));
     work->lower = work->lifted;
     TRY(sample(work, work->statics, held, LEAST_AT_REST, err));
@@ -316,7 +318,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Few motions are above what is allowed, or S is of no use.
+// Few boundary motions are above what is allowed, or S is of no use.
 static bool find_largest(const InterfaceOperator *full, const double *excess, int32_t m,
                          double allowed, double *error, Error *err)
 {

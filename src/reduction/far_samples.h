@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Motions of what is far from the interface, from answers of the whole mesh to motions of the
-// interface drawn at random (Halko, Martinsson, Tropp, SIAM Review 53, 2011; for substructures:
+// Modes of what is far from the interface, from responses of the whole mesh to boundary motions
+// drawn at random (Halko, Martinsson, Tropp, SIAM Review 53, 2011; for substructures:
 // Buhr and Smetana, SIAM J. Sci. Comput. 40, 2018). Used by reduction/far_block
 // and reduction/far_field.
 #ifndef AMONTONS_REDUCTION_FAR_SAMPLES_H
 #define AMONTONS_REDUCTION_FAR_SAMPLES_H
 
 #include "reduction/far_patches.h"
-#include "reduction/strip.h"
+#include "reduction/training_points.h"
 
 typedef struct FarFieldDef {
     double tolerance;   // of the reduction

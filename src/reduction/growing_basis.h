@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How a basis begins and what each block of answers adds to it. Called by reduction/reduction.
+// How a basis begins and what each block of responses adds to it. Called by reduction/reduction.
 #ifndef AMONTONS_REDUCTION_GROWING_BASIS_H
 #define AMONTONS_REDUCTION_GROWING_BASIS_H
 
@@ -10,10 +10,10 @@ bool basis_create(const BulkOperator *full, const BulkScales *scales, GrowingBas
                   Error *err);
 void basis_destroy(GrowingBasis *basis);
 
-// Static modes, and the static answer to the load. statics: the full mesh at K alone.
+// Static modes, and the static response to the load. statics: the full mesh at K alone.
 bool basis_start(GrowingBasis *basis, InterfaceOperator *statics, Error *err);
 
-// Adds what the next block of answers has beside all modes.
+// Adds what the next block of responses has beside all modes.
 bool basis_extend(GrowingBasis *basis, Error *err);
 
 #endif

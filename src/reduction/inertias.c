@@ -23,7 +23,7 @@ bool inertia_slowest(const BulkOperator *full, const BulkScales *scales, Interfa
         for (int32_t k = 0; k < dofs; k++) rhs[k] /= scales->mass;
         double size = sqrt(dense_dot(x, rhs, dofs));
         for (int32_t k = 0; k < dofs; k++) rhs[k] /= size;
-        TRY(interface_operator_answer_held(statics, rhs, x, pull, err));
+        TRY(interface_operator_respond_held(statics, rhs, x, pull, err));
         *slowest = 1 / dense_dot(x, rhs, dofs);
     }
 cleanup:

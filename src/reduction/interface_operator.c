@@ -187,9 +187,9 @@ static bool condense_sparse(InterfaceOperator *condensed, OperatorTerms terms, E
     return true;
 }
 
-// Memory of a reduced one: m^2 + r^2 + r m doubles, m interface and r interior unknowns, of halves
-// m^2 and half of the rest; of a full one the sparse factor and 2 m^2. That of C alone, for the
-// certificate, is taken from the reduction.
+// Memory of a reduced one: m^2 + r^2 + r m doubles, m interface and r interior unknowns, of two
+// parts m^2 and half of the rest; of a full one the sparse factor and 2 m^2. That of C alone, for
+// the certificate, is taken from the reduction.
 InterfaceOperator *interface_operator_create(BulkOperator *system, OperatorTerms terms, Error *err)
 {
     int64_t m = system->interface_count;
@@ -266,14 +266,14 @@ bool interface_operator_expand(InterfaceOperator *condensed, const double *inter
     return true;
 }
 
-bool interface_operator_answer(InterfaceOperator *condensed, const double *motions, int32_t count,
-                               double *v, Error *err)
+bool interface_operator_respond(InterfaceOperator *condensed, const double *boundary, int32_t count,
+                                double *v, Error *err)
 {
-    return sparse_expand_many(condensed->factor, motions, count, v, err);
+    return sparse_expand_many(condensed->factor, boundary, count, v, err);
 }
 
-bool interface_operator_answer_held(InterfaceOperator *condensed, const double *rhs, double *v,
-                                    double *g, Error *err)
+bool interface_operator_respond_held(InterfaceOperator *condensed, const double *rhs, double *v,
+                                     double *g, Error *err)
 {
     double *still = NEW_ARRAY(double, condensed->system->interface_count, err);
     bool done = still && interface_operator_condense(condensed, rhs, g, err) &&
@@ -318,7 +318,7 @@ void bulk_operator_hash(const BulkOperator *system, Hash *hash)
         hash_numbers(hash, bulk->stiffness, entries);
         hash_numbers(hash, bulk->damping, entries);
     } else {
-        for (int h = 0; h < (reduced->half ? 2 : 1); h++)
-            hash_reduced(hash, reduced->half ? &reduced->half[h] : reduced);
+        for (int p = 0; p < (reduced->part ? 2 : 1); p++)
+            hash_reduced(hash, reduced->part ? &reduced->part[p] : reduced);
     }
 }

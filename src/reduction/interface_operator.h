@@ -88,15 +88,15 @@ double interface_operator_release(const InterfaceOperator *condensed, double *ve
 bool interface_operator_expand(InterfaceOperator *condensed, const double *interface, double *v,
                                Error *err);
 
-// Answers v [dof_count * count] of the full mesh to `count` motions v_b [interface_count * count],
-// nothing pressing inside.
-bool interface_operator_answer(InterfaceOperator *condensed, const double *motions, int32_t count,
-                               double *v, Error *err);
+// Responses v [dof_count * count] of the full mesh to `count` boundary motions v_b [interface_count
+// * count], nothing pressing inside.
+bool interface_operator_respond(InterfaceOperator *condensed, const double *boundary, int32_t count,
+                                double *v, Error *err);
 
-// The answer v [dof_count] to `rhs`, the interface held, and what is condensed of it, g
+// The response v [dof_count] to `rhs`, the interface held, and what is condensed of it, g
 // [interface_count].
-bool interface_operator_answer_held(InterfaceOperator *condensed, const double *rhs, double *v,
-                                    double *g, Error *err);
+bool interface_operator_respond_held(InterfaceOperator *condensed, const double *rhs, double *v,
+                                     double *g, Error *err);
 
 // The load, which a caller may have changed, and the counters; all else is the model's.
 void bulk_operator_archive(BulkOperator *system, Archive *archive);

@@ -3,25 +3,25 @@
 // each other: motions that are alike on both sides (u_x opposite, u_z the same) and motions that
 // are opposite. Sparse factors, products and eigenvalues of both together take a quarter to a half
 // of what the whole does. Forces need not be alike on both sides.
-// Called by model/obtain; reduced by reduction/mirrored_reduction.
+// Called by model/obtain; reduced by reduction/symmetry_reduction.
 #ifndef AMONTONS_REDUCTION_MIRROR_H
 #define AMONTONS_REDUCTION_MIRROR_H
 
 #include "fem/assembly.h"
-#include "reduction/fold.h"
+#include "reduction/symmetry_map.h"
 
-// Unknowns of the half's bulk are those of `unknowns`, in their order.
-typedef struct MirrorHalf {
+// Unknowns of the part's bulk are those of `unknowns`, in their order.
+typedef struct MirrorPart {
     Bulk bulk;   // owned, like all below
-    Fold unknowns;   // of the whole bulk
-    Fold border;   // of the interface and, behind it, images that are not on it
-    int32_t *border_dofs;   // [border.count] unknowns of the half's bulk
-} MirrorHalf;
+    SymmetryMap unknowns;   // of the whole bulk
+    SymmetryMap border;   // of the interface and, behind it, mirror images that are not on it
+    int32_t *border_dofs;   // [border.count] unknowns of the part's bulk
+} MirrorPart;
 
 typedef struct Mirror {
     bool found;   // else all is empty
-    int32_t images;   // of interface unknowns, as of rod nodes, that are not on it
-    MirrorHalf half[2];
+    int32_t mirrored;   // images of interface unknowns, as of rod nodes, that are not on it
+    MirrorPart part[2];
 } Mirror;
 
 // node_image: [nodes] (reduction/mirror_nodes). interface_dofs: [m] unknowns of `bulk`. No error if

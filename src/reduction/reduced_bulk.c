@@ -8,16 +8,16 @@
 #include <string.h>
 
 // Those that lie in the whole's storage.
-static void forget_matrices(ReducedBulk *half)
+static void forget_matrices(ReducedBulk *part)
 {
-    half->mass = half->damping = half->stiffness = half->viscous = half->load = NULL;
+    part->mass = part->damping = part->stiffness = part->viscous = part->load = NULL;
 }
 
 void reduced_bulk_destroy(ReducedBulk *reduced)
 {
-    for (int h = 0; reduced->half && h < 2; h++) {
-        if (reduced->storage) forget_matrices(&reduced->half[h]);
-        reduced_bulk_destroy(&reduced->half[h]);
+    for (int p = 0; reduced->part && p < 2; p++) {
+        if (reduced->storage) forget_matrices(&reduced->part[p]);
+        reduced_bulk_destroy(&reduced->part[p]);
     }
     if (reduced->storage) forget_matrices(reduced);
     memory_free(reduced->storage);
@@ -27,21 +27,21 @@ void reduced_bulk_destroy(ReducedBulk *reduced)
     memory_free(reduced->viscous);
     memory_free(reduced->load);
     memory_free(reduced->modes);
-    if (reduced->halves) halves_destroy(reduced->halves);
-    memory_free(reduced->halves);
-    memory_free(reduced->half);
+    if (reduced->symmetry) symmetry_parts_destroy(reduced->symmetry);
+    memory_free(reduced->symmetry);
+    memory_free(reduced->part);
     *reduced = (ReducedBulk){0};
 }
 
 void reduced_bulk_set_scales(ReducedBulk *reduced, BulkScales scales)
 {
     reduced->scales = scales;
-    for (int h = 0; reduced->half && h < 2; h++) reduced->half[h].scales = scales;
+    for (int p = 0; reduced->part && p < 2; p++) reduced->part[p].scales = scales;
 }
 
 bool reduced_bulk_has_modes(const ReducedBulk *reduced)
 {
-    return reduced->half ? reduced->half[0].modes : reduced->modes;
+    return reduced->part ? reduced->part[0].modes : reduced->modes;
 }
 
 static void apply_modes(const ReducedBulk *reduced, int32_t count, const double *const *states,
@@ -51,17 +51,17 @@ static void apply_modes(const ReducedBulk *reduced, int32_t count, const double 
     dense_apply_each(modes, count, states, full);
 }
 
-// Work of the halves of several states.
+// Work of the parts of several states.
 typedef struct Recovery {
-    double *storage, **local[2], **field[2];   // [count] each of [half's count], [half's full_dofs]
+    double *storage, **local[2], **field[2];   // [count] each of [part's count], [part's full_dofs]
     double *border;
 } Recovery;
 
 static void recovery_destroy(Recovery *work)
 {
-    for (int h = 0; h < 2; h++) {
-        memory_free(work->local[h]);
-        memory_free(work->field[h]);
+    for (int p = 0; p < 2; p++) {
+        memory_free(work->local[p]);
+        memory_free(work->field[p]);
     }
     memory_free(work->storage);
     memory_free(work->border);
@@ -72,34 +72,36 @@ static bool recovery_create(const ReducedBulk *reduced, int32_t count, Recovery 
     int64_t size = reduced->count + reduced->full_dofs;
     double *next = work->storage = memory_bytes(8 * size * count, err);
     work->border = NEW_ARRAY(double, reduced->count, err);
-    for (int h = 0; h < 2; h++) {
-        work->local[h] = NEW_ARRAY(double *, count, err);
-        work->field[h] = NEW_ARRAY(double *, count, err);
+    for (int p = 0; p < 2; p++) {
+        work->local[p] = NEW_ARRAY(double *, count, err);
+        work->field[p] = NEW_ARRAY(double *, count, err);
     }
     if (!error_is_clean(err)) return false;
-    for (int h = 0; h < 2; h++) {
+    for (int p = 0; p < 2; p++) {
         for (int32_t k = 0; k < count; k++) {
-            work->local[h][k] = next;
-            work->field[h][k] = next + reduced->half[h].count;
-            next += reduced->half[h].count + reduced->half[h].full_dofs;
+            work->local[p][k] = next;
+            work->field[p][k] = next + reduced->part[p].count;
+            next += reduced->part[p].count + reduced->part[p].full_dofs;
         }
     }
     return true;
 }
 
-static bool recover_halves(const ReducedBulk *reduced, int32_t count, const double *const *states,
-                           double *const *full, Error *err)
+static bool recover_parts(const ReducedBulk *reduced, int32_t count, const double *const *states,
+                          double *const *full, Error *err)
 {
     Recovery work = {0};
     TRY(recovery_create(reduced, count, &work, err));
     for (int32_t k = 0; k < count; k++)
-        halves_split_motion(reduced->halves, states[k],
-                            (double *const[]){work.local[0][k], work.local[1][k]}, work.border);
-    for (int h = 0; h < 2; h++)
-        apply_modes(&reduced->half[h], count, (const double *const *)work.local[h], work.field[h]);
+        symmetry_parts_split_motion(reduced->symmetry, states[k],
+                                    (double *const[]){work.local[0][k], work.local[1][k]},
+                                    work.border);
+    for (int p = 0; p < 2; p++)
+        apply_modes(&reduced->part[p], count, (const double *const *)work.local[p], work.field[p]);
     for (int32_t k = 0; k < count; k++) {
         memset(full[k], 0, (size_t)reduced->full_dofs * sizeof(double));
-        for (int h = 0; h < 2; h++) fold_add(&reduced->halves->mesh[h], work.field[h][k], full[k]);
+        for (int p = 0; p < 2; p++)
+            symmetry_map_add(&reduced->symmetry->mesh[p], work.field[p][k], full[k]);
     }
 cleanup:
     recovery_destroy(&work);
@@ -109,7 +111,7 @@ cleanup:
 bool reduced_bulk_recover(const ReducedBulk *reduced, int32_t count, const double *const *states,
                           double *const *full, Error *err)
 {
-    if (reduced->half) return recover_halves(reduced, count, states, full, err);
+    if (reduced->part) return recover_parts(reduced, count, states, full, err);
     apply_modes(reduced, count, states, full);
     return true;
 }
@@ -121,9 +123,9 @@ static const double BETWEEN = 1.5;
 double reduced_bulk_error(const ReducedBulk *reduced, double inertia)
 {
     const ReductionErrors *errors = &reduced->errors;
-    if (reduced->half)
-        return fmax(reduced_bulk_error(&reduced->half[0], inertia),
-                    reduced_bulk_error(&reduced->half[1], inertia));
+    if (reduced->part)
+        return fmax(reduced_bulk_error(&reduced->part[0], inertia),
+                    reduced_bulk_error(&reduced->part[1], inertia));
     if (errors->count == 0) return 0;
     int32_t above = 0;
     while (above < errors->count - 1 && errors->inertia[above] < inertia) above++;

@@ -6,7 +6,7 @@
 //         [ Psi Phi ] [ q   ]          [ 0   I ]          [ M_qb T    ],
 //
 // T tridiagonal: a product with M or K costs m r, not (m + r)^2. A block that is its own mirror
-// image is kept as two of half the size, which share no entry (reduction/halves).
+// image is kept as two of half the size, which share no entry (reduction/symmetry_parts).
 //
 // All matrices are normalised: K/E, C/eta, M/(rho L^2) with lengths over L; so one serves every
 // size and stiffness of a shape. Built by reduction/reduction, stored by model/basis_cache, used
@@ -14,7 +14,7 @@
 #ifndef AMONTONS_REDUCTION_REDUCED_BULK_H
 #define AMONTONS_REDUCTION_REDUCED_BULK_H
 
-#include "reduction/halves.h"
+#include "reduction/symmetry_parts.h"
 
 // Factors from the normalised matrices to those of a scene.
 typedef struct BulkScales {
@@ -50,13 +50,14 @@ typedef struct ReducedBulk {
     double *storage;   // the array that those above lie in (a file's); owned; NULL: none
     ReductionErrors errors;
     BulkScales scales;
-    Halves *halves;   // how it is put together of two: matrices above but `load` are NULL, errors
-        // are theirs, interior unknowns begin with those of images; owned; NULL: it is one
-    struct ReducedBulk *half;   // [2] those two; owned
+    // How it is put together of two parts: matrices above but `load` are NULL, errors are theirs,
+    // interior unknowns begin with the mirrored ones; owned; NULL: it is in one piece.
+    SymmetryParts *symmetry;
+    struct ReducedBulk *part;   // [2] those two; owned
 } ReducedBulk;
 
 void reduced_bulk_destroy(ReducedBulk *reduced);
-// Of normalised matrices and of those of its halves.
+// Of normalised matrices and of those of its parts.
 void reduced_bulk_set_scales(ReducedBulk *reduced, BulkScales scales);
 bool reduced_bulk_has_modes(const ReducedBulk *reduced);
 

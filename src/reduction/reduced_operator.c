@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Of two halves S on the border (reduction/halves) is the sum of theirs, and its images R are
-// eliminated like all that is inside:
+// Of two parts S on the border (reduction/symmetry_parts) is the sum of theirs, and its mirrored
+// unknowns R are eliminated like all that is inside:
 //
 //     E = S_RR^-1 S_Rb,   S = S_bb - S_bR E,   g = g_b - E' g_R,   u_R = S_RR^-1 g_R - E u_b.
 #include "reduction/reduced_operator.h"
@@ -13,25 +13,25 @@
 
 struct ReducedOperator {
     const ReducedBulk *reduced;   // not owned
-    ReducedPart part[2];   // one, or two halves
-    double *local[2], *image[2];   // of halves: [count] of each, work; owned
-    double *border;   // of halves: [interface and images] work; owned
+    ReducedPart part[2];   // one, or the two of a symmetric block
+    double *local[2], *image[2];   // of two parts: [count] of each, work; owned
+    double *border;   // of two parts: [interface + mirrored] work; owned
 };
 
 struct CondensedBulk {
     const ReducedOperator *system;   // not owned
     CondensedPart part[2];
-    FollowingImages images;   // of halves; owned, like the rest
-    double *pushed;   // [interface + images] g on the border, of images S_RR^-1 g_R
+    MirroredDofs mirrored;   // of two parts; owned, like the rest
+    double *pushed;   // [interface + mirrored] g on the border, of mirrored unknowns S_RR^-1 g_R
 };
 
 void reduced_operator_destroy(ReducedOperator *system)
 {
     if (!system) return;
-    for (int h = 0; h < 2; h++) {
-        reduced_part_destroy(&system->part[h]);
-        memory_free(system->local[h]);
-        memory_free(system->image[h]);
+    for (int p = 0; p < 2; p++) {
+        reduced_part_destroy(&system->part[p]);
+        memory_free(system->local[p]);
+        memory_free(system->image[p]);
     }
     memory_free(system->border);
     memory_free(system);
@@ -40,17 +40,18 @@ void reduced_operator_destroy(ReducedOperator *system)
 ReducedOperator *reduced_operator_create(const ReducedBulk *reduced, Error *err)
 {
     ReducedOperator *system = NEW_ARRAY(ReducedOperator, 1, err);
-    const Halves *halves = reduced->halves;
+    const SymmetryParts *symmetry = reduced->symmetry;
     if (!system) goto cleanup;
     system->reduced = reduced;
-    for (int h = 0; h < (halves ? 2 : 1); h++) {
-        const ReducedBulk *part = halves ? &reduced->half[h] : reduced;
-        TRY(reduced_part_create(part, &system->part[h], err));
-        if (!halves) continue;
-        system->local[h] = NEW_ARRAY(double, part->count, err);
-        system->image[h] = NEW_ARRAY(double, part->count, err);
+    for (int p = 0; p < (symmetry ? 2 : 1); p++) {
+        const ReducedBulk *part = symmetry ? &reduced->part[p] : reduced;
+        TRY(reduced_part_create(part, &system->part[p], err));
+        if (!symmetry) continue;
+        system->local[p] = NEW_ARRAY(double, part->count, err);
+        system->image[p] = NEW_ARRAY(double, part->count, err);
     }
-    if (halves) system->border = NEW_ARRAY(double, halves->interface_count + halves->images, err);
+    if (symmetry)
+        system->border = NEW_ARRAY(double, symmetry->interface_count + symmetry->mirrored, err);
 cleanup:
     if (error_is_clean(err)) return system;
     reduced_operator_destroy(system);
@@ -60,48 +61,48 @@ cleanup:
 void reduced_operator_apply(const ReducedOperator *system, BulkTerm term, const double *x,
                             double *y)
 {
-    const Halves *halves = system->reduced->halves;
-    if (!halves) {
+    const SymmetryParts *symmetry = system->reduced->symmetry;
+    if (!symmetry) {
         reduced_part_apply(&system->part[0], term, x, y);
         return;
     }
-    halves_split_motion(halves, x, system->local, system->border);
-    for (int h = 0; h < 2; h++)
-        reduced_part_apply(&system->part[h], term, system->local[h], system->image[h]);
-    halves_join_force(halves, (const double *const *)system->image, y, system->border);
+    symmetry_parts_split_motion(symmetry, x, system->local, system->border);
+    for (int p = 0; p < 2; p++)
+        reduced_part_apply(&system->part[p], term, system->local[p], system->image[p]);
+    symmetry_parts_join_force(symmetry, (const double *const *)system->image, y, system->border);
 }
 
 void condensed_bulk_destroy(CondensedBulk *condensed)
 {
     if (!condensed) return;
-    for (int h = 0; h < 2; h++) condensed_part_destroy(&condensed->part[h]);
-    images_destroy(&condensed->images);
+    for (int p = 0; p < 2; p++) condensed_part_destroy(&condensed->part[p]);
+    mirrored_dofs_destroy(&condensed->mirrored);
     memory_free(condensed->pushed);
     memory_free(condensed);
 }
 
-static bool condense_halves(CondensedBulk *condensed, OperatorTerms terms, double *schur,
-                            bool *taken, Error *err)
+static bool condense_parts(CondensedBulk *condensed, OperatorTerms terms, double *schur,
+                           bool *taken, Error *err)
 {
     const ReducedBulk *reduced = condensed->system->reduced;
-    const Halves *halves = reduced->halves;
-    int64_t size = halves->interface_count + halves->images;
-    double *border = NEW_ARRAY(double, size *size, err), *half = NULL;
+    const SymmetryParts *symmetry = reduced->symmetry;
+    int64_t size = symmetry->interface_count + symmetry->mirrored;
+    double *border = NEW_ARRAY(double, size *size, err), *part = NULL;
     if (!border) goto cleanup;
-    for (int h = 0; h < 2; h++) {
-        int64_t m = reduced->half[h].interface_count;
-        memory_free(half);
-        half = NEW_ARRAY(double, m *m, err);
-        TRY(half);
-        TRY(condensed_part_create(&reduced->half[h], terms, &condensed->part[h], half, taken, err));
-        fold_add_square(&halves->border[h], half, (int32_t)size, border);
+    for (int p = 0; p < 2; p++) {
+        int64_t m = reduced->part[p].interface_count;
+        memory_free(part);
+        part = NEW_ARRAY(double, m *m, err);
+        TRY(part);
+        TRY(condensed_part_create(&reduced->part[p], terms, &condensed->part[p], part, taken, err));
+        symmetry_map_add_square(&symmetry->border[p], part, (int32_t)size, border);
     }
     condensed->pushed = NEW_ARRAY(double, size, err);
-    TRY(images_condense(border, halves->interface_count, halves->images, &condensed->images, schur,
-                        err));
+    TRY(mirrored_dofs_condense(border, symmetry->interface_count, symmetry->mirrored,
+                               &condensed->mirrored, schur, err));
 cleanup:
     memory_free(border);
-    memory_free(half);
+    memory_free(part);
     return error_is_clean(err);
 }
 
@@ -111,8 +112,8 @@ CondensedBulk *condensed_bulk_create(const ReducedOperator *system, OperatorTerm
     CondensedBulk *condensed = NEW_ARRAY(CondensedBulk, 1, err);
     if (!condensed) goto cleanup;
     condensed->system = system;
-    if (system->reduced->halves)
-        TRY(condense_halves(condensed, terms, schur, taken, err));
+    if (system->reduced->symmetry)
+        TRY(condense_parts(condensed, terms, schur, taken, err));
     else
         TRY(condensed_part_create(system->reduced, terms, &condensed->part[0], schur, taken, err));
 cleanup:
@@ -125,44 +126,44 @@ void condensed_bulk_condense(CondensedBulk *condensed, const double *rhs, double
 {
     const ReducedOperator *system = condensed->system;
     const ReducedBulk *reduced = system->reduced;
-    const Halves *halves = reduced->halves;
-    if (!halves) {
+    const SymmetryParts *symmetry = reduced->symmetry;
+    if (!symmetry) {
         condensed_part_condense(reduced, &condensed->part[0], rhs, g);
         return;
     }
-    int32_t m = halves->interface_count, n = halves->images;
-    halves_split_force(halves, rhs, system->local, system->border);
+    int32_t m = symmetry->interface_count, n = symmetry->mirrored;
+    symmetry_parts_split_force(symmetry, rhs, system->local, system->border);
     memset(condensed->pushed, 0, (size_t)(m + n) * sizeof *g);
-    for (int h = 0; h < 2; h++) {
-        condensed_part_condense(&reduced->half[h], &condensed->part[h], system->local[h],
-                                system->image[h]);
-        fold_add(&halves->border[h], system->image[h], condensed->pushed);
+    for (int p = 0; p < 2; p++) {
+        condensed_part_condense(&reduced->part[p], &condensed->part[p], system->local[p],
+                                system->image[p]);
+        symmetry_map_add(&symmetry->border[p], system->image[p], condensed->pushed);
     }
     memcpy(g, condensed->pushed, (size_t)m * sizeof *g);
-    dense_apply_transposed(dense_view(condensed->images.follow, n, m), condensed->pushed + m, -1, 1,
-                           g);
-    dense_lower_solve(condensed->images.lower, n, condensed->pushed + m);
-    dense_lower_solve_transposed(condensed->images.lower, n, condensed->pushed + m);
+    dense_apply_transposed(dense_view(condensed->mirrored.follow, n, m), condensed->pushed + m, -1,
+                           1, g);
+    dense_lower_solve(condensed->mirrored.lower, n, condensed->pushed + m);
+    dense_lower_solve_transposed(condensed->mirrored.lower, n, condensed->pushed + m);
 }
 
 void condensed_bulk_expand(CondensedBulk *condensed, const double *interface, double *v)
 {
     const ReducedOperator *system = condensed->system;
     const ReducedBulk *reduced = system->reduced;
-    const Halves *halves = reduced->halves;
-    if (!halves) {
+    const SymmetryParts *symmetry = reduced->symmetry;
+    if (!symmetry) {
         condensed_part_expand(reduced, &condensed->part[0], interface, v);
         return;
     }
-    int32_t m = halves->interface_count, n = halves->images;
+    int32_t m = symmetry->interface_count, n = symmetry->mirrored;
     double *border = system->border;
     memcpy(border, interface, (size_t)m * sizeof *border);
     memcpy(border + m, condensed->pushed + m, (size_t)n * sizeof *border);
-    dense_apply(dense_view(condensed->images.follow, n, m), interface, -1, 1, border + m);
-    for (int h = 0; h < 2; h++) {
-        fold_take(&halves->border[h], border, system->image[h]);
-        condensed_part_expand(&reduced->half[h], &condensed->part[h], system->image[h],
-                              system->local[h]);
+    dense_apply(dense_view(condensed->mirrored.follow, n, m), interface, -1, 1, border + m);
+    for (int p = 0; p < 2; p++) {
+        symmetry_map_take(&symmetry->border[p], border, system->image[p]);
+        condensed_part_expand(&reduced->part[p], &condensed->part[p], system->image[p],
+                              system->local[p]);
     }
-    halves_join_motion(halves, (const double *const *)system->local, v, system->border);
+    symmetry_parts_join_motion(symmetry, (const double *const *)system->local, v, system->border);
 }

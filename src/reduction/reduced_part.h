@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A reduced bulk in one piece, the whole or one of two halves: products, and its A condensed on the
-// interface. It keeps, for each A, the inverse of its interior block and the map
+// A reduced bulk in one piece, the whole or one of two symmetry parts: products, and its A
+// condensed on the interface. It keeps, for each A, the inverse of its interior block and the map
 //
 //     B = A_qq^-1 A_qb,   S = A_bb - A_bq B,   g = rhs_b - B' rhs_q,   v_q = A_qq^-1 rhs_q - B v_b.
 //
@@ -13,7 +13,7 @@
 #include "reduction/reduced_bulk.h"
 
 typedef struct ReducedPart {
-    const ReducedBulk *reduced;   // one without halves; not owned
+    const ReducedBulk *reduced;   // one without parts; not owned
     double *interior_mass;   // [2, interior] diagonal of M_qq, what is beside it; owned; NULL: M_qq
         // has more than that
 } ReducedPart;

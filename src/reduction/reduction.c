@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A greedy basis whose error is known where it is built. At a point (viscosity, inertia) of the
-// strip, with S of the full mesh from its factor and S_r of what the basis holds so far, the
+// A greedy basis whose error is known where it is built. At each training point (viscosity,
+// inertia), with S of the full mesh from its factor and S_r of what the basis holds so far, the
 // eigenvectors of
 //
 //     (S_r - S) y = mu S y,    y_j' S y_k = 1 if j = k, else 0,
 //
-// are the motions of the interface with the largest errors, mu the relative error of each. The
-// difference of responses e = R_r y - R y, with R y the answer of the full mesh, vanishes on the
-// interface, has the energy e'A e = mu and is A-orthogonal to Phi and to the other e. So adding
-// exactly the e with mu above the tolerance leaves no error above it at this point, with the
-// smallest number of new vectors.
+// are the boundary motions (of the interface) with the largest errors, mu the relative error of
+// each. The difference of responses e = R_r y - R y, with R y the response of the full mesh,
+// vanishes on the interface, has the energy e'A e = mu and is A-orthogonal to Phi and to the other
+// e. So adding exactly the e with mu above the tolerance leaves no error above it at this point,
+// with the smallest number of new vectors.
 #include "reduction/reduction.h"
 
 #include "base/dense.h"
@@ -22,16 +22,16 @@
 #include "reduction/far_field.h"
 #include "reduction/growing_basis.h"
 #include "reduction/inertias.h"
-#include "reduction/strip.h"
+#include "reduction/training_points.h"
 
 #include <math.h>
 #include <string.h>
 
-// A new mode is what is left of an answer when the others are taken out. If its energy is smaller
-// than the answer's by more than this, it is formed by the mesh, which takes three times as long as
-// all else: rounding of the reduced matrices stays below some 4e-14 of this. At a tolerance of 2e-2
-// the factor is 3e4 at most, at 2e-3 1e7. Where energies differ as it is (several materials, or C
-// unlike K by more than UNLIKE) it is always done.
+// A new mode is what is left of a response when the others are taken out. If its energy is smaller
+// than the response's by more than this, it is formed by the mesh, which takes three times as long
+// as all else: rounding of the reduced matrices stays below some 4e-14 of this. At a tolerance of
+// 2e-2 the factor is 3e4 at most, at 2e-3 1e7. Where energies differ as it is (several materials,
+// or C unlike K by more than UNLIKE) it is always done.
 static const double LOSS_MAX = 5e4, UNLIKE = 4;
 
 // S_r - S has no negative eigenvalue but for rounding. From this part of the allowed error on the
@@ -44,10 +44,10 @@ typedef struct Builder {
     const ReductionDef *def;
     GrowingBasis basis;
     ReducedBulk *reduced;   // not owned
-    Strip strip;
-    OperatorTerms terms[STRIP_VISITS_MAX];   // [strip.count] of its visits
+    TrainingPoints training;
+    OperatorTerms terms[TRAINING_POINTS_MAX];   // [training.count] of its points
     FactorsAhead *ahead;   // of these
-    double load_energy;   // at a point, of the basis's answer to the unit load
+    double load_energy;   // at a point, of the basis's response to the unit load
     const double *lower;   // [m^2] Cholesky factor of S at a point; not owned
     double *excess;   // [m^2] S_r - S
     double *values;   // [m] eigenvalues
@@ -81,13 +81,14 @@ cleanup:
     return error_is_clean(err);
 }
 
-static double allowed_error(const Builder *work, StripPoint point)
+static double allowed_error(const Builder *work, ParameterPoint point)
 {
-    return strip_allowed(&work->strip, point, work->def->tolerance);
+    return parameter_error_allowed(&work->training, point, work->def->tolerance);
 }
 
-// Where few motions are above `allowed`, or none. In place of the next eigenvalue is a bound of it,
-// 1 % above it at most, or a thousandth of what is allowed; in that of the first one `least`.
+// Where few boundary motions are above `allowed`, or none. In place of the next eigenvalue is a
+// bound of it, 1 % above it at most, or a thousandth of what is allowed; in that of the first one
+// `least`.
 static bool compare_largest(Builder *work, const double *schur, double allowed, double least,
                             bool *found, Error *err)
 {
@@ -129,10 +130,10 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Answers of the full mesh to the last `wanted` columns of `excess`, scaled so that what they
+// Responses of the full mesh to the last `wanted` columns of `excess`, scaled so that what they
 // differ by from the basis's has energy 1.
-static bool answer_motions(Builder *work, InterfaceOperator *full, int32_t wanted,
-                           AnswerBlock *next, Error *err)
+static bool take_responses(Builder *work, InterfaceOperator *full, int32_t wanted,
+                           ResponseBlock *next, Error *err)
 {
     int64_t m = work->basis.interface_count;
     double *first = work->excess + (m - wanted) * m;
@@ -145,23 +146,23 @@ static bool answer_motions(Builder *work, InterfaceOperator *full, int32_t wante
     dense_lower_divide_transposed(work->lower, (int32_t)m, wanted, first);
     for (int64_t k = 0; k < wanted; k++) {
         memcpy(next->reaction + k * (m + 1), pushed + k * m, (size_t)m * sizeof *pushed);
-        memcpy(next->motion + k * (m + 1), first + k * m, (size_t)m * sizeof *pushed);
+        memcpy(next->boundary + k * (m + 1), first + k * m, (size_t)m * sizeof *pushed);
     }
     memory_free(pushed);
-    return interface_operator_answer(full, first, wanted, next->field, err);
+    return interface_operator_respond(full, first, wanted, next->field, err);
 }
 
-// The answer to the load as the block's last column, scaled likewise: dropped unless the basis
+// The response to the load as the block's last column, scaled likewise: dropped unless the basis
 // lacks more than `allowed` of its energy.
 static void take_load(const Builder *work, const FactoredPoint *full, double allowed,
-                      AnswerBlock *next)
+                      ResponseBlock *next)
 {
     int64_t dofs = work->full->dof_count, m = work->basis.interface_count;
     double *x = next->field + (next->count - 1) * dofs;
     double *reaction = next->reaction + (next->count - 1) * (m + 1);
-    // The load does less work on a Galerkin answer than on the exact one, by the energy of the
+    // The load does less work on a Galerkin response than on the exact one, by the energy of the
     // difference.
-    double energy = dense_dot(full->held, work->basis.answers.unit_load, (int32_t)dofs);
+    double energy = dense_dot(full->held, work->basis.responses.unit_load, (int32_t)dofs);
     double missing = energy - work->load_energy;
     if (!(missing > allowed * energy)) {
         next->count--;
@@ -172,7 +173,7 @@ static void take_load(const Builder *work, const FactoredPoint *full, double all
     reaction[m] = 1 / sqrt(missing);
 }
 
-static bool condense_basis(Builder *work, StripPoint point, bool *definite, Error *err)
+static bool condense_basis(Builder *work, ParameterPoint point, bool *definite, Error *err)
 {
     const double factor[] = {[BULK_STIFFNESS] = 1 - point.viscosity,
                              [BULK_DAMPING] = point.viscosity,
@@ -182,11 +183,11 @@ static bool condense_basis(Builder *work, StripPoint point, bool *definite, Erro
 
 // Compares S_r with `schur`, S at the point. *negative: a Galerkin projection is too stiff, never
 // too soft; this one is, so it is none any more.
-static bool compare_at(Builder *work, StripPoint point, const double *schur, bool *negative,
+static bool compare_at(Builder *work, ParameterPoint point, const double *schur, bool *negative,
                        Error *err)
 {
     double allowed = allowed_error(work, point);
-    double least = -NEGATIVE_MAX * allowed - strip_allowed(&work->strip, point, 0);
+    double least = -NEGATIVE_MAX * allowed - parameter_error_allowed(&work->training, point, 0);
     bool definite = false;
     TRY(condense_basis(work, point, &definite, err));
     if (definite) TRY(compare(work, schur, allowed, least, err));
@@ -196,7 +197,7 @@ cleanup:
 }
 
 // Likewise, with the basis renewed where it has to be.
-static bool compare_well(Builder *work, StripPoint point, const double *schur, Error *err)
+static bool compare_well(Builder *work, ParameterPoint point, const double *schur, Error *err)
 {
     bool negative = false;
     TRY(compare_at(work, point, schur, &negative, err));
@@ -209,19 +210,20 @@ cleanup:
 }
 
 // Adds what the basis lacks at `point`; *left: the error of S there afterwards.
-static bool visit(Builder *work, StripPoint point, const FactoredPoint *full, double *left,
-                  Error *err)
+static bool train_at(Builder *work, ParameterPoint point, const FactoredPoint *full, double *left,
+                     Error *err)
 {
     int32_t m = work->basis.interface_count, wanted = 0;
     double allowed = allowed_error(work, point);
     work->lower = interface_operator_schur_lower(full->full);
     TRY(compare_well(work, point, interface_operator_schur(full->full), err));
-    // The error of what is added becomes 0; what is left is that of the first motion not added.
+    // The error of what is added becomes 0; what is left is that of the first boundary motion not
+    // added.
     while (wanted < m && work->values[m - 1 - wanted] > allowed) wanted++;
     *left = wanted < m ? fmax(work->values[m - 1 - wanted], 0) : 0;
-    AnswerBlock *next = answers_next(&work->basis.answers, point, wanted + 1, err);
+    ResponseBlock *next = responses_next(&work->basis.responses, point, wanted + 1, err);
     if (!next) goto cleanup;
-    TRY(answer_motions(work, full->full, wanted, next, err));
+    TRY(take_responses(work, full->full, wanted, next, err));
     take_load(work, full, allowed, next);
     if (next->count > 0) TRY(basis_extend(&work->basis, err));
 cleanup:
@@ -230,34 +232,34 @@ cleanup:
 }
 
 // The thread begins while the basis is started.
-static bool list_visits(Builder *work, double slowest, Error *err)
+static bool list_training_points(Builder *work, double slowest, Error *err)
 {
-    const Answers *answers = &work->basis.answers;
-    strip_list(&work->def->materials, &work->def->scales, slowest,
-               inertia_element(work->full->bulk, &work->def->scales, work->full->interface_dofs,
-                               work->full->interface_count),
-               &work->reduced->errors, &work->strip);
-    work->basis.answers.inertia_least = slowest / 20;
-    for (int32_t k = 0; k < work->strip.count; k++)
-        work->terms[k] = strip_terms(work->strip.visits[k].point, &work->def->scales);
+    const Responses *responses = &work->basis.responses;
+    training_points_list(&work->def->materials, &work->def->scales, slowest,
+                         inertia_element(work->full->bulk, &work->def->scales,
+                                         work->full->interface_dofs, work->full->interface_count),
+                         &work->reduced->errors, &work->training);
+    work->basis.responses.inertia_least = slowest / 20;
+    for (int32_t k = 0; k < work->training.count; k++)
+        work->terms[k] = parameter_terms(work->training.points[k].point, &work->def->scales);
     FactorsAheadDef def = {.system = work->full,
-                           .load = answers->unit_load,
+                           .load = responses->unit_load,
                            .terms = work->terms,
-                           .count = work->strip.count};
+                           .count = work->training.count};
     return factors_ahead_create(&def, &work->ahead, err);
 }
 
-static bool visit_strip(Builder *work, Error *err)
+static bool train_basis(Builder *work, Error *err)
 {
     ReductionErrors *errors = &work->reduced->errors;
-    for (int32_t k = 0; k < work->strip.count; k++) {
-        StripVisit now = work->strip.visits[k];
+    for (int32_t k = 0; k < work->training.count; k++) {
+        TrainingPoint now = work->training.points[k];
         FactoredPoint full;
         double left = 0;
         TRY(factors_ahead_next(work->ahead, &full, err));
-        TRY(visit(work, now.point, &full, &left, err));
+        TRY(train_at(work, now.point, &full, &left, err));
         // What the last one added is looked at, too.
-        if (k == work->strip.count - 1) TRY(visit(work, now.point, &full, &left, err));
+        if (k == work->training.count - 1) TRY(train_at(work, now.point, &full, &left, err));
         errors->error[now.level] = fmax(errors->error[now.level], left);
     }
 cleanup:
@@ -270,7 +272,7 @@ static bool compare_beyond(Builder *work, Error *err)
     ReductionErrors *errors = &work->reduced->errors;
     const BulkOperator *full = work->full;
     int64_t m = full->interface_count;
-    StripPoint point = {.viscosity = 0, .inertia = errors->inertia[errors->count - 1]};
+    ParameterPoint point = {.viscosity = 0, .inertia = errors->inertia[errors->count - 1]};
     double *schur = NEW_ARRAY(double, m *m, err), *lower = NEW_ARRAY(double, m *m, err);
     if (!schur || !lower) goto cleanup;
     for (int64_t j = 0; j < m; j++) {
@@ -293,7 +295,7 @@ static bool find_viscous(Builder *work, Error *err)
     int64_t m = work->basis.interface_count;
     double *viscous = work->reduced->viscous = NEW_ARRAY(double, m *m, err);
     bool definite = false;
-    if (!viscous || !condense_basis(work, (StripPoint){1, 0}, &definite, err)) return false;
+    if (!viscous || !condense_basis(work, (ParameterPoint){1, 0}, &definite, err)) return false;
     if (!definite) FAIL(err, ERROR_COMPUTE, "the viscous interior is not positive definite");
     memcpy(viscous, work->excess, (size_t)(m * m) * sizeof *viscous);
 cleanup:
@@ -311,11 +313,11 @@ static bool expand_modes(Builder *work, Error *err)
 {
     const FarField *far = &work->far;
     ReducedBulk *reduced = work->reduced;
-    double *motions = reduced->modes, *modes = NULL;
+    double *near = reduced->modes, *modes = NULL;
     int64_t size = far->mesh_dofs;
     reduced->modes = modes = NEW_ARRAY(double, size * reduced->count, err);
-    if (modes) far_field_expand(far, motions, reduced->count, modes, err);
-    memory_free(motions);
+    if (modes) far_field_expand(far, near, reduced->count, modes, err);
+    memory_free(near);
     return error_is_clean(err);
 }
 
@@ -328,7 +330,7 @@ static void add_far_field(const Builder *work)
     reduced->full_dofs = far->mesh_dofs;
     memcpy(reduced->stiffness, work->own.stiffness, (size_t)(m * m) * sizeof(double));
     for (int32_t level = 0; level < reduced->errors.count - 1; level++) {
-        StripPoint point = {.inertia = reduced->errors.inertia[level]};
+        ParameterPoint point = {.inertia = reduced->errors.inertia[level]};
         reduced->errors.error[level] += far->block->error * allowed_error(work, point);
     }
 }
@@ -340,15 +342,15 @@ static bool build_on(Builder *work, Error *err)
     OperatorTerms terms = {.stiffness = 1 / def->scales.stiffness, .lift = true};
     double slowest = work->own.samples.slowest;   // where the whole mesh was looked at
     TRY(builder_create(work, err));
-    if (slowest > 0) TRY(list_visits(work, slowest, err));
+    if (slowest > 0) TRY(list_training_points(work, slowest, err));
     if (!(statics = interface_operator_create(work->full, terms, err))) goto cleanup;
     if (!(slowest > 0)) {
         TRY(inertia_slowest(work->full, &def->scales, statics, &slowest, err));
-        TRY(list_visits(work, slowest, err));
+        TRY(list_training_points(work, slowest, err));
     }
     work->basis.loss_max = is_uniform(&def->materials) ? LOSS_MAX : 0;
     TRY(basis_start(&work->basis, statics, err));
-    TRY(visit_strip(work, err));
+    TRY(train_basis(work, err));
     TRY(compare_beyond(work, err));
     TRY(find_viscous(work, err));
     TRY(basis_finish(&work->basis, def->modes, work->reduced, err));
@@ -374,7 +376,7 @@ static bool find_statics(Builder *work, Error *err)
     return error_is_clean(err);
 }
 
-// What is far is that of the upper block, where its motions are known, else of the whole.
+// What is far is that of the upper block, where its modes are known, else of the whole.
 static bool replace_far(Builder *work, const Bulk *bulk, const int32_t *interface_dofs, int32_t m,
                         Error *err)
 {

@@ -10,9 +10,9 @@
 //
 //     A = (1 - viscosity) K + viscosity C + inertia M,     0 <= viscosity <= 1,  inertia >= 0,
 //
-// up to a factor, M, C and K normalised, and the basis is built to answer on all of that strip: one
-// serves every L, rho, E and eta of a shape, every load of the same pattern, every step. From the
-// slowest mode of the interior to the inertia that takes over within one element, and from all
+// up to a factor, M, C and K normalised, and the basis is built to respond on all of that domain:
+// one serves every L, rho, E and eta of a shape, every load of the same pattern, every step. From
+// the slowest mode of the interior to the inertia that takes over within one element, and from all
 // elastic to all viscous, S is compared with the full mesh, and the directions in which its error
 // is more than
 //

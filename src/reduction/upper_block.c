@@ -209,7 +209,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Loads on the interface do no work on what answers it: they are left to the whole.
+// Loads on the interface do no work on what responds to it: they are left to the whole.
 static bool assemble(const ReductionBlock *whole, UpperBlock *upper, Error *err)
 {
     Bulk *bulk = &upper->block.bulk;

@@ -47,7 +47,7 @@ static void assert_point(Rig *rig, OperatorTerms terms, const FactoredPoint *poi
     double *held = hand_matrix(dofs, 1), *pull = hand_matrix(m, 1);
     InterfaceOperator *here = interface_operator_create(&rig->system, terms, &err);
     assert_non_null(here);
-    assert_true(interface_operator_answer_held(here, rig->def.load, held, pull, &err));
+    assert_true(interface_operator_respond_held(here, rig->def.load, held, pull, &err));
     assert_all_near("S", interface_operator_schur(point->full), interface_operator_schur(here),
                     m * m, 1e-12);
     assert_all_near("held", point->held, held, dofs, 1e-12);

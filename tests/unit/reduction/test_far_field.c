@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The bulk whose unknowns far from the interface became few motions, against the mesh it was made
+// The bulk whose unknowns far from the interface became few replaced, against the mesh it was made
 // of: S by CHOLMOD's factor of all unknowns, rigid motions and statics in every node.
 #include "reduction/far_field.h"
 #include "random_numbers.h"
@@ -32,22 +32,22 @@ static void check_response(const BlockDef *shape, int32_t patches, double kept)
 {
     Error err = {0};
     ReducedBlock block;
-    FarBlock motions;
-    FarField far = {.block = &motions};
+    FarBlock replaced;
+    FarField far = {.block = &replaced};
     Random random = {.state = 5};
     reduced_block_build(shape, &MATERIAL, LOAD, 0, &block);
     int32_t m = block.interface_count;
     FarFieldDef def = far_def(&block);
-    if (!far_block_create(&block.bulk, block.dofs, m, &def, &motions, &err) ||
+    if (!far_block_create(&block.bulk, block.dofs, m, &def, &replaced, &err) ||
         !far_field_create(&block.bulk, block.dofs, m, MATERIAL.young, &far, &err))
         fail_msg("%s", err.message);
-    assert_int_equal(motions.patch_count, patches);
+    assert_int_equal(replaced.patch_count, patches);
     if (far.bulk.dof_count > kept * block.bulk.dof_count)
         fail_msg("%d of %d unknowns are left", far.bulk.dof_count, block.bulk.dof_count);
     for (int32_t k = 0; k < 8; k++) {
-        StripPoint point = {.viscosity = random_between(&random, 0, 1),
-                            .inertia = pow(10, random_between(&random, -2, 4))};
-        OperatorTerms terms = strip_terms(point, &def.scales);
+        ParameterPoint point = {.viscosity = random_between(&random, 0, 1),
+                                .inertia = pow(10, random_between(&random, -2, 4))};
+        OperatorTerms terms = parameter_terms(point, &def.scales);
         double *wanted = full_schur(&block, terms), least, largest;
         double *left = schur_of(&far.bulk, far.system.interface_dofs, m, terms);
         energy_differences(left, wanted, m, &least, &largest);
@@ -57,7 +57,7 @@ static void check_response(const BlockDef *shape, int32_t patches, double kept)
         free(wanted), free(left);
     }
     far_field_destroy(&far);
-    far_block_destroy(&motions);
+    far_block_destroy(&replaced);
     reduced_block_destroy(&block);
 }
 
@@ -78,7 +78,7 @@ static void recover_static(const ReducedBulk *reduced, const double *motion, dou
     free(state);
 }
 
-// Moves of the interface come out in every node as CHOLMOD's static answers; a shift and a
+// Moves of the interface come out in every node as CHOLMOD's static responses; a shift and a
 // rotation of it as the same of all nodes.
 static void test_statics_everywhere(void **state)
 {
@@ -97,10 +97,10 @@ static void test_statics_everywhere(void **state)
     InterfaceOperator *statics = interface_operator_create(&system, terms, &err);
     assert_non_null(statics);
     for (int32_t j = 0; j < m; j++) motion[j] = random_between(&random, -1, 1);
-    assert_true(interface_operator_answer(statics, motion, 1, wanted, &err));
+    assert_true(interface_operator_respond(statics, motion, 1, wanted, &err));
     recover_static(&block.reduced, motion, full);
     double size = dense_max_abs(wanted, dofs);
-    for (int32_t k = 0; k < dofs; k++) assert_near("answer", full[k], wanted[k], 1e-5 * size);
+    for (int32_t k = 0; k < dofs; k++) assert_near("response", full[k], wanted[k], 1e-5 * size);
 
     const double *position = block.mesh.position;
     for (int32_t k = 0; k < dofs; k++)
@@ -120,14 +120,14 @@ static void test_nothing_far(void **state)
     (void)state;
     Error err = {0};
     ReducedBlock block;
-    FarBlock motions;
+    FarBlock replaced;
     const BlockDef shape = {.kind = ELEMENT_Q4, .nx = 10, .nz = 30, .length = 1, .height = 1};
     reduced_block_build(&shape, &MATERIAL, LOAD, 0, &block);
     FarFieldDef def = far_def(&block);
     int32_t m = block.interface_count;
-    assert_true(far_block_create(&block.bulk, block.dofs, m, &def, &motions, &err));
-    assert_int_equal(motions.patch_count, 0);
-    far_block_destroy(&motions);
+    assert_true(far_block_create(&block.bulk, block.dofs, m, &def, &replaced, &err));
+    assert_int_equal(replaced.patch_count, 0);
+    far_block_destroy(&replaced);
     reduced_block_destroy(&block);
 }
 
@@ -142,18 +142,18 @@ static void test_memory_faults(void **state)
     bool done = false;
     for (int32_t k = 0; !done; k += 1 + k / 40) {   // later ones are alike, motion by motion
         Error err = {0};
-        FarBlock motions = {0};
-        FarField far = {.block = &motions};
+        FarBlock replaced = {0};
+        FarField far = {.block = &replaced};
         int32_t m = block.interface_count;
         memory_fail_after(k);
-        done = far_block_create(&block.bulk, block.dofs, m, &def, &motions, &err) &&
+        done = far_block_create(&block.bulk, block.dofs, m, &def, &replaced, &err) &&
                far_field_create(&block.bulk, block.dofs, m, MATERIAL.young, &far, &err) &&
-               far_field_measure(&far, &motions, &err);
+               far_field_measure(&far, &replaced, &err);
         memory_fail_after(-1);
         assert_int_equal(err.code, done ? ERROR_NONE : ERROR_MEMORY);
-        assert_int_equal(motions.patch_count > 0 || !done, 1);
+        assert_int_equal(replaced.patch_count > 0 || !done, 1);
         far_field_destroy(&far);
-        far_block_destroy(&motions);
+        far_block_destroy(&replaced);
         assert_int_equal(memory_counters().live, live);
         assert_true(k < 3000);
     }

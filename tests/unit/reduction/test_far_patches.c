@@ -71,7 +71,7 @@ static void test_lists(void **state)
     assert_true(patches.count > 2);
     int32_t listed = 0, far = 0;
     for (int32_t p = 0; p < patches.count; p++) {
-        const FarMotions *patch = &patches.motions[p];
+        const PatchModes *patch = &patches.modes[p];
         assert_true(patch->size > 0);
         for (int32_t i = 0; i < patch->size; i++, listed++) {
             assert_int_equal(patches.of[patch->dofs[i]], p);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The motions that a basis was given are answered as the mesh answers them, and a renewal brings
+// The boundary motions that a basis was given have the responses of the mesh, and a renewal brings
 // that back after the basis was spoiled within its span.
 #include "reduction/basis_condense.h"
 #include "reduction/basis_extension.h"
@@ -12,7 +12,7 @@ static const Material MATERIAL = {
     .young = 2.5, .poisson = 0.34, .density = 1.3, .eta1 = 0.8, .eta2 = 0.3};
 static const BlockDef SHAPE = {
     .kind = ELEMENT_Q4, .nx = 6, .nz = 5, .length = 1.4, .height = 0.5, .distortion = 0.2};
-static const StripPoint POINTS[] = {{0.2, 3}, {0.9, 500}};
+static const ParameterPoint POINTS[] = {{0.2, 3}, {0.9, 500}};
 
 enum { POINT_COUNT = 2, COLUMNS = 5 };
 
@@ -23,7 +23,7 @@ typedef struct Rig {
     InterfaceOperator *full[POINT_COUNT];
 } Rig;
 
-static InterfaceOperator *factor(Rig *rig, StripPoint point)
+static InterfaceOperator *factor(Rig *rig, ParameterPoint point)
 {
     Error err = {0};
     const BulkScales *scales = &rig->block.def.scales;
@@ -36,22 +36,22 @@ static InterfaceOperator *factor(Rig *rig, StripPoint point)
     return full;
 }
 
-// Answers to motions of the first COLUMNS unknowns of the interface, one each.
-static void add_answers(Rig *rig, int32_t which)
+// Responses to boundary motions of the first COLUMNS unknowns of the interface, one each.
+static void add_responses(Rig *rig, int32_t which)
 {
     Error err = {0};
     int64_t m = rig->block.interface_count;
-    double *motions = hand_matrix((int32_t)m, COLUMNS);
+    double *boundary = hand_matrix((int32_t)m, COLUMNS);
     const double *schur = interface_operator_schur(rig->full[which]);
-    AnswerBlock *next = answers_next(&rig->basis.answers, POINTS[which], COLUMNS, &err);
+    ResponseBlock *next = responses_next(&rig->basis.responses, POINTS[which], COLUMNS, &err);
     assert_non_null(next);
     for (int64_t j = 0; j < COLUMNS; j++) {
-        motions[j * m + j] = next->motion[j * (m + 1) + j] = 1;
+        boundary[j * m + j] = next->boundary[j * (m + 1) + j] = 1;
         memcpy(next->reaction + j * (m + 1), schur + j * m, (size_t)m * sizeof *schur);
     }
-    assert_true(interface_operator_answer(rig->full[which], motions, COLUMNS, next->field, &err));
+    assert_true(interface_operator_respond(rig->full[which], boundary, COLUMNS, next->field, &err));
     assert_true(basis_extend(&rig->basis, &err));
-    free(motions);
+    free(boundary);
 }
 
 static void start(Rig *rig)
@@ -63,13 +63,13 @@ static void start(Rig *rig)
                                      rig->block.interface_count, &rig->mesh, &err));
     assert_true(basis_create(&rig->mesh, &rig->block.def.scales, &rig->basis, &err));
     rig->basis.loss_max = 1e300;
-    rig->basis.answers.inertia_least = 0.1;
-    InterfaceOperator *statics = factor(rig, (StripPoint){0, 0});
+    rig->basis.responses.inertia_least = 0.1;
+    InterfaceOperator *statics = factor(rig, (ParameterPoint){0, 0});
     assert_true(basis_start(&rig->basis, statics, &err));
     interface_operator_destroy(statics);
     for (int32_t k = 0; k < POINT_COUNT; k++) {
         rig->full[k] = factor(rig, POINTS[k]);
-        add_answers(rig, k);
+        add_responses(rig, k);
     }
 }
 
@@ -82,7 +82,7 @@ static void end(Rig *rig)
 }
 
 // The largest part by which S of the basis differs from that of the mesh, in columns that it was
-// given. (Products of answers lose some 1e-12 here.)
+// given. (Products of responses lose some 1e-12 here.)
 static double largest_error(const Rig *rig)
 {
     Error err = {0};
@@ -108,7 +108,8 @@ static void spoil(Rig *rig, int32_t first)
 {
     Error err = {0};
     GrowingBasis *basis = &rig->basis;
-    int64_t m = basis->interface_count, r = basis->interior_count, rows = basis->answers.count - m;
+    int64_t m = basis->interface_count, r = basis->interior_count,
+            rows = basis->responses.count - m;
     assert_true(extension_spell_out_mix(basis, &err));
     for (int64_t j = first; j < r; j++) {
         for (int64_t i = 0; i < rows && j > 0; i++)
@@ -130,17 +131,17 @@ static void spoil(Rig *rig, int32_t first)
     }
 }
 
-// Of the static answer to the unit load, from what is known of the modes: f' K^-1 f.
+// Of the static response to the unit load, from what is known of the modes: f' K^-1 f.
 static double load_energy(const Rig *rig)
 {
     const GrowingBasis *basis = &rig->basis;
     int32_t m = basis->interface_count, r = basis->interior_count;
-    double *square = hand_matrix(r, r), *answer = hand_matrix(r, 1), energy = 0;
+    double *square = hand_matrix(r, r), *response = hand_matrix(r, 1), energy = 0;
     memcpy(square, basis->interior[BULK_STIFFNESS], (size_t)r * (size_t)r * sizeof *square);
-    memcpy(answer, basis->load + m, (size_t)r * sizeof *answer);
-    assert_true(hand_solve(square, r, answer, 1));
-    for (int32_t k = 0; k < r; k++) energy += answer[k] * basis->load[m + k];
-    free(square), free(answer);
+    memcpy(response, basis->load + m, (size_t)r * sizeof *response);
+    assert_true(hand_solve(square, r, response, 1));
+    for (int32_t k = 0; k < r; k++) energy += response[k] * basis->load[m + k];
+    free(square), free(response);
     return energy;
 }
 
@@ -174,7 +175,7 @@ static void test_renewed_at_once(void **state)
     Rig rig;
     start(&rig);
     rig.basis.loss_max = 0;
-    add_answers(&rig, 0);   // these again: nothing but rounding is left
+    add_responses(&rig, 0);   // these again: nothing but rounding is left
     assert_near("S", largest_error(&rig), 0, 1e-10);
     assert_int_equal(rig.basis.interior_count, 1 + POINT_COUNT * COLUMNS);
     assert_true(error_is_clean(&err));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The matrices of a basis that grows, against products of its modes with the mesh's own matrices,
-// whether what is new of an answer is made of products or by the mesh; and what it condenses to,
+// whether what is new of a response is made of products or by the mesh; and what it condenses to,
 // against elimination by hand.
 #include "reduction/basis_condense.h"
 #include "reduction/basis_finish.h"
@@ -21,7 +21,7 @@ typedef struct Rig {
     ReducedBulk reduced;   // what the basis becomes at the end
 } Rig;
 
-// The static modes, and the static answer to the load.
+// The static modes, and the static response to the load.
 static void start(Rig *rig, double loss_max)
 {
     Error err = {0};
@@ -31,7 +31,7 @@ static void start(Rig *rig, double loss_max)
                                      rig->block.interface_count, &rig->mesh, &err));
     assert_true(basis_create(&rig->mesh, &rig->block.def.scales, &rig->basis, &err));
     rig->basis.loss_max = loss_max;
-    rig->basis.answers.inertia_least = 0.1;
+    rig->basis.responses.inertia_least = 0.1;
     OperatorTerms terms = {.stiffness = 1 / rig->block.def.scales.stiffness, .lift = true};
     InterfaceOperator *statics = interface_operator_create(&rig->mesh, terms, &err);
     assert_non_null(statics);
@@ -47,11 +47,11 @@ static void end(Rig *rig)
     reduced_block_destroy(&rig->block);
 }
 
-// Answers to the first `columns` motions of one node, at a point.
-static void extend(Rig *rig, StripPoint point, int32_t columns)
+// Responses to the first `columns` motions of one node, at a point.
+static void extend(Rig *rig, ParameterPoint point, int32_t columns)
 {
     Error err = {0};
-    Answers *answers = &rig->basis.answers;
+    Responses *responses = &rig->basis.responses;
     const BulkScales *scales = &rig->block.def.scales;
     int64_t m = rig->block.interface_count;
     OperatorTerms terms = {.mass = point.inertia / scales->mass,
@@ -59,17 +59,17 @@ static void extend(Rig *rig, StripPoint point, int32_t columns)
                            .stiffness = (1 - point.viscosity) / scales->stiffness,
                            .lift = true};
     InterfaceOperator *full = interface_operator_create(&rig->mesh, terms, &err);
-    AnswerBlock *next = answers_next(answers, point, columns, &err);
+    ResponseBlock *next = responses_next(responses, point, columns, &err);
     assert_true(full && next);
-    double *motions = hand_matrix((int32_t)m, columns);
+    double *boundary = hand_matrix((int32_t)m, columns);
     for (int64_t j = 0; j < columns; j++) {
-        motions[j * m + j] = next->motion[j * (m + 1) + j] = 1;
+        boundary[j * m + j] = next->boundary[j * (m + 1) + j] = 1;
         memcpy(next->reaction + j * (m + 1), interface_operator_schur(full) + j * m,
-               (size_t)m * sizeof *motions);
+               (size_t)m * sizeof *boundary);
     }
-    assert_true(interface_operator_answer(full, motions, columns, next->field, &err));
+    assert_true(interface_operator_respond(full, boundary, columns, next->field, &err));
     if (!basis_extend(&rig->basis, &err)) fail_msg("%s", err.message);
-    free(motions);
+    free(boundary);
     interface_operator_destroy(full);
 }
 
@@ -115,7 +115,7 @@ static void assert_matrices(Rig *rig, double tolerance)
             assert_true(reduced->mass[i * count + j] == reduced->mass[j * count + i]);
             if (i >= m && i + 1 < j) assert_true(reduced->mass[j * count + i] == 0);
         }
-        for (int32_t k = 0; k < dofs; k++) load += z[k] * rig->basis.answers.unit_load[k];
+        for (int32_t k = 0; k < dofs; k++) load += z[k] * rig->basis.responses.unit_load[k];
         assert_near("f", reduced->load[j], load, tolerance);
     }
 }
@@ -123,7 +123,7 @@ static void assert_matrices(Rig *rig, double tolerance)
 static void test_matrices(void **state)
 {
     (void)state;
-    // Always made by the mesh; never, which costs some digits of what little of an answer is new.
+    // Always made by the mesh; never, which costs some digits of what little of a response is new.
     static const struct {
         double loss_max, tolerance;
     } cases[] = {{0, 1e-11}, {1e300, 1e-7}};
@@ -131,8 +131,8 @@ static void test_matrices(void **state)
         Rig rig;
         start(&rig, cases[k].loss_max);
         assert_int_equal(rig.basis.interior_count, 1);   // the load's
-        extend(&rig, (StripPoint){0, 0.4}, 3);
-        extend(&rig, (StripPoint){1, 30}, 2);
+        extend(&rig, (ParameterPoint){0, 0.4}, 3);
+        extend(&rig, (ParameterPoint){1, 30}, 2);
         assert_int_equal(rig.basis.interior_count, 6);
         assert_matrices(&rig, cases[k].tolerance);
         end(&rig);
@@ -140,13 +140,13 @@ static void test_matrices(void **state)
 }
 
 // What is in the basis already adds nothing to it.
-static void test_dependent_answers(void **state)
+static void test_dependent_responses(void **state)
 {
     (void)state;
     Rig rig;
     start(&rig, 0);
-    extend(&rig, (StripPoint){0, 0.4}, 3);
-    extend(&rig, (StripPoint){0, 0.4}, 3);
+    extend(&rig, (ParameterPoint){0, 0.4}, 3);
+    extend(&rig, (ParameterPoint){0, 0.4}, 3);
     assert_int_equal(rig.basis.interior_count, 4);
     assert_matrices(&rig, 1e-11);
     assert_int_equal(rig.reduced.count, rig.block.interface_count + 4);
@@ -160,12 +160,12 @@ static void test_condensed(void **state)
     Rig rig;
     Error err = {0};
     start(&rig, 1e300);
-    extend(&rig, (StripPoint){0, 0.4}, 4);
+    extend(&rig, (ParameterPoint){0, 0.4}, 4);
     const GrowingBasis *basis = &rig.basis;
     int32_t m = basis->interface_count, r = basis->interior_count, count = m + r;
     double factor[BULK_TERMS] = {0.7, 0.3, 5}, energy = 0, wanted = 0;
     double *a = hand_matrix(count, count), *schur = hand_matrix(m, m), *made = hand_matrix(m, m);
-    double *inner = hand_matrix(r, r), *answer = hand_matrix(r, 1);
+    double *inner = hand_matrix(r, r), *response = hand_matrix(r, 1);
     int32_t border[200];
     for (int32_t k = 0; k < m; k++) border[k] = k;
     for (int term = 0; term < BULK_TERMS; term++) {
@@ -185,15 +185,15 @@ static void test_condensed(void **state)
     assert_all_near("S", made, schur, m * m, 1e-11);
     for (int32_t j = 0; j < r; j++) {
         for (int32_t i = 0; i < r; i++) inner[j * r + i] = a[(m + j) * count + m + i];
-        answer[j] = basis->load[m + j];
+        response[j] = basis->load[m + j];
     }
-    assert_true(hand_solve(inner, r, answer, 1));
-    for (int32_t j = 0; j < r; j++) wanted += answer[j] * basis->load[m + j];
+    assert_true(hand_solve(inner, r, response, 1));
+    for (int32_t j = 0; j < r; j++) wanted += response[j] * basis->load[m + j];
     assert_near("energy", energy, wanted, 1e-12);
     factor[BULK_STIFFNESS] = -1e6;
     assert_true(basis_condense(basis, factor, made, &energy, &definite, &err));
     assert_false(definite);
-    free(a), free(schur), free(made), free(inner), free(answer);
+    free(a), free(schur), free(made), free(inner), free(response);
     end(&rig);
 }
 
@@ -201,7 +201,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_matrices),
-        cmocka_unit_test(test_dependent_answers),
+        cmocka_unit_test(test_dependent_responses),
         cmocka_unit_test(test_condensed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -126,7 +126,7 @@ static void test_rigid_motions_and_load(void **state)
     }
 }
 
-// The answer at rest to the load, the interface held, is the first interior mode: exact however
+// The response at rest to the load, the interface held, is the first interior mode: exact however
 // coarse the basis.
 static void test_static_load_is_exact(void **state)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the reduced bulk answers at the interface, S of any step of a block of any length, against
-// CHOLMOD's exact Schur complements of the full mesh: too stiff, never too soft, within the
+// The response of the reduced bulk at the interface, S of any step of a block of any length,
+// against CHOLMOD's exact Schur complements of the full mesh: too stiff, never too soft, within the
 // tolerance wherever the basis says so, and no further off anywhere than it says.
 #include "random_numbers.h"
 #include "reduced_block.h"
@@ -16,7 +16,7 @@ static OperatorTerms step_terms(double dt)
 }
 
 // A = (1 - viscosity) K + viscosity C + inertia M, normalised, as terms of the block's matrices.
-static OperatorTerms strip_terms(const BulkScales *scales, double viscosity, double inertia)
+static OperatorTerms parameter_terms(const BulkScales *scales, double viscosity, double inertia)
 {
     return (OperatorTerms){.mass = inertia / scales->mass,
                            .damping = viscosity / scales->damping,
@@ -47,9 +47,9 @@ static void assert_said(const ReducedBlock *block, OperatorTerms terms, double s
     free(turn);
 }
 
-// Anywhere on the strip, between the levels of the build and between all elastic and all viscous,
-// S is off by no more than the basis says of that inertia, and than the tolerance allows at the
-// next level. Two of three points lie where damping hardly, or almost alone, counts.
+// Anywhere in the parameter domain, between the levels of the build and between all elastic and all
+// viscous, S is off by no more than the basis says of that inertia, and than the tolerance allows
+// at the next level. Two of three points lie where damping hardly, or almost alone, counts.
 static void check_error_of(const BlockDef *shape, const Materials *materials, double layer,
                            double tolerance, Random *random)
 {
@@ -64,7 +64,7 @@ static void check_error_of(const BlockDef *shape, const Materials *materials, do
         double viscosity = random_between(random, 0, 1);
         if (k % 3 == 1) viscosity = pow(viscosity, 4);
         if (k % 3 == 2) viscosity = 1 - pow(viscosity, 4);
-        OperatorTerms terms = strip_terms(&block.def.scales, viscosity, inertia);
+        OperatorTerms terms = parameter_terms(&block.def.scales, viscosity, inertia);
         double error = response_error(&block, &block.reduced, terms);
         int32_t level = 0;   // the next above, one of those it is measured at
         while (errors->inertia[level] < inertia) level++;
@@ -153,7 +153,7 @@ static void test_error_of_many_nodes(void **state)
     const ReductionErrors *errors = &block.reduced.errors;
     double closest = INFINITY;
     for (int32_t level = 1; level < errors->count - 1; level++) {
-        OperatorTerms terms = strip_terms(&block.def.scales, 1, errors->inertia[level]);
+        OperatorTerms terms = parameter_terms(&block.def.scales, 1, errors->inertia[level]);
         double error = response_error(&block, &block.reduced, terms), said = errors->error[level];
         if (error > said + 1e-9) fail_msg("level %d: error %g, said %g", level, error, said);
         closest = fmin(closest, said / error);
@@ -173,7 +173,7 @@ static void test_shortest_steps(void **state)
     double element = errors->inertia[errors->count - 2];
     for (double inertia = 2 * element; inertia < 1e8 * element; inertia *= 20) {
         double error =
-            response_error(&block, &block.reduced, strip_terms(&block.def.scales, 1, inertia));
+            response_error(&block, &block.reduced, parameter_terms(&block.def.scales, 1, inertia));
         double said = reduced_bulk_error(&block.reduced, inertia);
         if (error > 1.0001 * said) fail_msg("inertia %g: error %g, said %g", inertia, error, said);
     }

@@ -171,8 +171,9 @@ static void check_points(const PadBlock *made, const FarField *far, ReducedBulk 
     double *rotation = hand_matrix(m, 1), least, largest;
     assert_true(bulk_operator_reduce(reduced, rotation, 1, &system, &err));
     for (int32_t k = 0; k < 6; k++) {
-        StripPoint point = {random_between(&random, 0, 1), pow(10, random_between(&random, -1, 4))};
-        OperatorTerms terms = strip_terms(point, &scales);
+        ParameterPoint point = {random_between(&random, 0, 1),
+                                pow(10, random_between(&random, -1, 4))};
+        OperatorTerms terms = parameter_terms(point, &scales);
         double *wanted = whole_schur(&made->block.bulk, made->dofs, m, terms);
         double *left = whole_schur(&far->bulk, far->system.interface_dofs, m, terms);
         double *small = reduced_schur(reduced, terms);
@@ -197,7 +198,7 @@ static void test_reused_motions(void **state)
     Error err = {0};
     PadBlock first, other;
     PadDesign moved = PAD_DESIGN;
-    FarBlock motions;
+    FarBlock replaced;
     ReducedBulk reduced;
     dense_use_one_thread();
     moved.n = 4;
@@ -205,18 +206,18 @@ static void test_reused_motions(void **state)
     pad_block_build(moved, &other);
     FarFieldDef def = far_def(&first);
     if (!far_block_create(&first.upper.block.bulk, first.upper.interface_dofs,
-                          first.upper.interface_count, &def, &motions, &err))
+                          first.upper.interface_count, &def, &replaced, &err))
         fail_msg("%s", err.message);
-    assert_int_equal(motions.patch_count, 5);
+    assert_int_equal(replaced.patch_count, 5);
     int32_t m = other.interface_count;
-    FarField far = {.block = &motions, .dofs = other.upper.dofs};
+    FarField far = {.block = &replaced, .dofs = other.upper.dofs};
     assert_true(m >= FAR_INTERFACE);
     assert_true(far_field_create(&other.block.bulk, other.dofs, m, 1, &far, &err));
     assert_true(far.bulk.dof_count < 0.7 * other.block.bulk.dof_count);
     ReductionDef how = {.tolerance = TOLERANCE,
                         .scales = def.scales,
                         .materials = def.materials,
-                        .above = {&motions, other.upper.dofs}};
+                        .above = {&replaced, other.upper.dofs}};
     if (!reduction_build(&other.block.bulk, other.dofs, m, &how, &reduced, &err))
         fail_msg("%s", err.message);
     check_points(&other, &far, &reduced);
@@ -228,7 +229,7 @@ static void test_reused_motions(void **state)
     free(wanted);
     reduced_bulk_destroy(&reduced);
     far_field_destroy(&far);
-    far_block_destroy(&motions);
+    far_block_destroy(&replaced);
     pad_block_destroy(&other);
     pad_block_destroy(&first);
 }

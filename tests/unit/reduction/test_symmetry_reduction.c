@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A block reduced by halves against its full matrices, dense and by hand: S within what the
-// reduction allows, products and solves to rounding, rigid motions without interior coordinates.
-// The load pushes to one side, and the rod is on one: only the block is its own mirror image.
+// A block reduced in its symmetric and its antisymmetric part against its full matrices, dense and
+// by hand: S within what the reduction allows, products and solves to rounding, rigid motions
+// without interior coordinates. The load pushes to one side, and the rod is on one: only the block
+// is its own mirror image.
 #include "base/memory.h"
 #include "reduction/mirror_nodes.h"
-#include "reduction/mirrored_reduction.h"
+#include "reduction/symmetry_reduction.h"
 #include "unit/reduction/reduced_checks.h"
 
 static const Material MATERIAL = {
@@ -35,7 +36,7 @@ static void find_mirror(const ReducedBlock *block, Mirror *mirror)
     free(position), free(image);
 }
 
-// `block` with its reduced bulk by halves.
+// `block` with its reduced bulk in two parts.
 static void build(const BlockDef *shape, ReducedBlock *block)
 {
     Error err = {0};
@@ -44,10 +45,10 @@ static void build(const BlockDef *shape, ReducedBlock *block)
     block->def.tolerance = TOLERANCE;
     find_mirror(block, &mirror);
     assert_true(mirror.found);
-    assert_int_equal(mirror.images, 1);   // of the rod node's x
-    assert_int_equal(mirror.half[0].bulk.dof_count + mirror.half[1].bulk.dof_count,
+    assert_int_equal(mirror.mirrored, 1);   // of the rod node's x
+    assert_int_equal(mirror.part[0].bulk.dof_count + mirror.part[1].bulk.dof_count,
                      block->bulk.dof_count);
-    if (!mirrored_reduction_build(&mirror, block->interface_count, &block->def, &block->reduced,
+    if (!symmetry_reduction_build(&mirror, block->interface_count, &block->def, &block->reduced,
                                   &err))
         fail_msg("%s", err.message);
     mirror_destroy(&mirror);
@@ -141,9 +142,9 @@ static void test_what_is_none(void **state)
     reduced_block_destroy(&block);
 }
 
-// Without a rod node there is no image; with those of the contact's left half there are as many as
-// on the contact's right half, which is too one-sided. What is likely is found.
-static void test_images(void **state)
+// Without a rod node nothing is mirrored; with those of the contact's left half there are as many
+// as on the contact's right half, which is too one-sided. What is likely is found.
+static void test_mirrored(void **state)
 {
     (void)state;
     Error err = {0};
@@ -156,11 +157,11 @@ static void test_images(void **state)
         block.interface_count -= less == 0 ? 1 : 2;   // the rod's x, then contact nodes at one end
         find_mirror(&block, &mirror);
         assert_true(mirror.found);
-        assert_int_equal(mirror.images, 2 * less);
+        assert_int_equal(mirror.mirrored, 2 * less);
         assert_true(mirror_is_likely(&block.bulk, block.mesh.position, block.dofs,
                                      block.interface_count, &likely, &err));
         assert_true(likely);
-        assert_true(mirrored_reduction_build(&mirror, block.interface_count, &block.def,
+        assert_true(symmetry_reduction_build(&mirror, block.interface_count, &block.def,
                                              &block.reduced, &err));
         OperatorTerms terms = {.stiffness = 1, .mass = 3};
         double least, largest, *full = full_schur(&block, terms);
@@ -196,7 +197,7 @@ static void test_memory_faults(void **state)
         InterfaceOperator *rung = NULL;
         find_mirror(&block, &mirror);
         memory_fail_after(k);
-        done = mirrored_reduction_build(&mirror, block.interface_count, &block.def, &block.reduced,
+        done = symmetry_reduction_build(&mirror, block.interface_count, &block.def, &block.reduced,
                                         &err) &&
                bulk_operator_reduce(&block.reduced, turn, 1, &system, &err) &&
                (rung = interface_operator_create(
@@ -220,7 +221,7 @@ int main(void)
         cmocka_unit_test(test_operator),
         cmocka_unit_test(test_rigid_motions_and_load),
         cmocka_unit_test(test_what_is_none),
-        cmocka_unit_test(test_images),
+        cmocka_unit_test(test_mirrored),
         cmocka_unit_test(test_memory_faults),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "reduction/strip.h"
+#include "reduction/training_points.h"
 
 #include <math.h>
 
@@ -9,8 +9,8 @@
 // a factor of 10 apart. (Factors from 7 to 1000 give bases of the same error; of 1e6 not.)
 static const double LEVEL_RATIO = 100, LEVEL_LOWEST = 0.1, LEVEL_BEYOND = 1e6;
 
-// K and C are isotropic, so the static answer at a viscosity depends on the quotients of A's areal
-// and shear moduli alone, of all regions. At a viscosity v each is its elastic value times
+// K and C are isotropic, so the static response at a viscosity depends on the quotients of A's
+// areal and shear moduli alone, of all regions. At a viscosity v each is its elastic value times
 // 1 - v + v t, t its viscous time, and no quotient changes more than that of the longest and the
 // shortest time. The basis is built at viscosities where that quotient differs by this factor at
 // most, and at the lowest inertia, where the whole block moves, half way between, too.
@@ -68,10 +68,11 @@ static void normalised_times(const Materials *materials, const BulkScales *scale
 static int32_t viscosity_steps(double volume, double shear)
 {
     double parts = ceil(fabs(log(volume / shear)) / log(VISCOSITY_RATIO));
-    return (int32_t)fmin(fmax(parts, 1), STRIP_VISCOSITIES_MAX - 1);
+    return (int32_t)fmin(fmax(parts, 1), TRAINING_VISCOSITIES_MAX - 1);
 }
 
-int32_t strip_viscosities(const Materials *materials, const BulkScales *scales, double *viscosity)
+int32_t training_viscosities(const Materials *materials, const BulkScales *scales,
+                             double *viscosity)
 {
     double volume = 0, shear = 0;
     normalised_times(materials, scales, &volume, &shear);
@@ -81,27 +82,30 @@ int32_t strip_viscosities(const Materials *materials, const BulkScales *scales, 
     return steps + 1;
 }
 
-double strip_allowed(const Strip *strip, StripPoint point, double tolerance)
+double parameter_error_allowed(const TrainingPoints *training, ParameterPoint point,
+                               double tolerance)
 {
-    double share = point.inertia / strip->element_inertia;
+    double share = point.inertia / training->element_inertia;
     return fmax(tolerance * (tolerance + MESH_SHARE * share), ERROR_LEAST);
 }
 
-OperatorTerms strip_terms(StripPoint point, const BulkScales *scales)
+OperatorTerms parameter_terms(ParameterPoint point, const BulkScales *scales)
 {
     return (OperatorTerms){.mass = point.inertia / scales->mass,
                            .damping = point.viscosity / scales->damping,
                            .stiffness = (1 - point.viscosity) / scales->stiffness};
 }
 
-static void add(Strip *strip, const ReductionErrors *errors, double viscosity, int32_t level)
+static void add(TrainingPoints *training, const ReductionErrors *errors, double viscosity,
+                int32_t level)
 {
-    strip->visits[strip->count++] = (StripVisit){{viscosity, errors->inertia[level]}, level};
+    training->points[training->count++] =
+        (TrainingPoint){{viscosity, errors->inertia[level]}, level};
 }
 
 // Every other level first: at those between them less is missing.
-void strip_list(const Materials *materials, const BulkScales *scales, double slowest,
-                double element_inertia, ReductionErrors *errors, Strip *strip)
+void training_points_list(const Materials *materials, const BulkScales *scales, double slowest,
+                          double element_inertia, ReductionErrors *errors, TrainingPoints *training)
 {
     double volume = 0, shear = 0;
     normalised_times(materials, scales, &volume, &shear);
@@ -109,12 +113,12 @@ void strip_list(const Materials *materials, const BulkScales *scales, double slo
     if (materials->count > 1)
         widen(materials, scales->stiffness / scales->damping, &slowest, &element_inertia);
     list_levels(slowest, element_inertia, errors);
-    *strip = (Strip){.element_inertia = element_inertia};
+    *training = (TrainingPoints){.element_inertia = element_inertia};
     for (int32_t pass = 0; pass < 2; pass++) {
         for (int32_t level = pass; level < errors->count - 1; level += 2)
             for (int32_t k = 0; k <= steps; k++)
-                add(strip, errors, viscosity_at((double)k / steps, volume, shear), level);
+                add(training, errors, viscosity_at((double)k / steps, volume, shear), level);
         for (int32_t k = 0; pass == 0 && k < steps; k++)
-            add(strip, errors, viscosity_at((k + 0.5) / steps, volume, shear), 0);
+            add(training, errors, viscosity_at((k + 0.5) / steps, volume, shear), 0);
     }
 }

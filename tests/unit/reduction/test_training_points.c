@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Where a basis is asked: levels from well below the slowest mode to an element, with one between
 // two each, all viscosities at each, and between two of them at the lowest.
-#include "reduction/strip.h"
+#include "reduction/training_points.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -14,23 +14,25 @@
 
 #include "near.h"
 
-static Strip list(const Material *material, double slowest, double element, ReductionErrors *errors)
+static TrainingPoints list(const Material *material, double slowest, double element,
+                           ReductionErrors *errors)
 {
     Materials materials = materials_of(material);
     BulkScales scales = {.stiffness = material->young,
                          .damping = material->eta1 + material->eta2,
                          .mass = 1,
                          .load = 1};
-    Strip strip;
-    strip_list(&materials, &scales, slowest, element, errors, &strip);
-    return strip;
+    TrainingPoints training;
+    training_points_list(&materials, &scales, slowest, element, errors, &training);
+    return training;
 }
 
-static int32_t visits_of(const Strip *strip, int32_t level, double viscosity)
+static int32_t visits_of(const TrainingPoints *training, int32_t level, double viscosity)
 {
     int32_t found = 0;
-    for (int32_t k = 0; k < strip->count; k++)
-        found += strip->visits[k].level == level && strip->visits[k].point.viscosity == viscosity;
+    for (int32_t k = 0; k < training->count; k++)
+        found += training->points[k].level == level &&
+                 training->points[k].point.viscosity == viscosity;
     return found;
 }
 
@@ -39,11 +41,11 @@ static void test_one_material(void **state)
     (void)state;
     const Material paper = {.young = 1, .poisson = 0.34, .density = 1, .eta1 = 1, .eta2 = 1};
     ReductionErrors errors = {0};
-    Strip strip = list(&paper, 3.6, 4e4, &errors);
+    TrainingPoints training = list(&paper, 3.6, 4e4, &errors);
     int32_t top = errors.count - 2;
     assert_near("lowest", errors.inertia[0], 0.36, 1e-12);
     assert_near("element", errors.inertia[top], 4e4, 1e-8);
-    assert_near("element", strip.element_inertia, 4e4, 0);
+    assert_near("element", training.element_inertia, 4e4, 0);
     assert_true(errors.inertia[top + 1] > 1e5 * 4e4);
     assert_true(top % 2 == 0);   // levels and those between
     for (int32_t k = 0; k < top; k++) {
@@ -52,12 +54,12 @@ static void test_one_material(void **state)
         assert_true(ratio <= 10 * 1.000001);
     }
     for (int32_t k = 0; k <= top; k++)
-        assert_true(visits_of(&strip, k, 0) == 1 && visits_of(&strip, k, 1) == 1);
-    assert_int_equal(strip.count, 2 * (top + 1) + 1);   // one between elastic and viscous
-    for (int32_t k = 0; k < strip.count; k++) {
-        StripVisit visit = strip.visits[k];
-        assert_near("inertia", visit.point.inertia, errors.inertia[visit.level], 0);
-        assert_true(visit.point.viscosity == 0 || visit.point.viscosity == 1 || visit.level == 0);
+        assert_true(visits_of(&training, k, 0) == 1 && visits_of(&training, k, 1) == 1);
+    assert_int_equal(training.count, 2 * (top + 1) + 1);   // one between elastic and viscous
+    for (int32_t k = 0; k < training.count; k++) {
+        TrainingPoint now = training.points[k];
+        assert_near("inertia", now.point.inertia, errors.inertia[now.level], 0);
+        assert_true(now.point.viscosity == 0 || now.point.viscosity == 1 || now.level == 0);
     }
 }
 
@@ -68,15 +70,15 @@ static void test_unlike_damping(void **state)
     (void)state;
     const Material unlike = {.young = 2, .poisson = 0.3, .density = 1, .eta1 = 0.2, .eta2 = 4};
     ReductionErrors errors = {0};
-    Strip strip = list(&unlike, 50, 100, &errors);
+    TrainingPoints training = list(&unlike, 50, 100, &errors);
     double k_volume = 2 / (2 * (1 - 0.3)), k_shear = 2 / (2 * (1 + 0.3));
     double c_volume = 0.2 / 2 + 4, c_shear = 0.2 / 2, before = 0, unit = 2 / 4.2;
     int32_t found = 0;
     assert_near("lowest", errors.inertia[0], 100.0 / 100, 1e-12);   // 0.1 * 50 would be above
-    for (int32_t k = 0; k < strip.count; k++) {
-        StripVisit visit = strip.visits[k];
-        if (visit.level != errors.count - 2) continue;
-        double v = visit.point.viscosity;
+    for (int32_t k = 0; k < training.count; k++) {
+        TrainingPoint now = training.points[k];
+        if (now.level != errors.count - 2) continue;
+        double v = now.point.viscosity;
         double volume = (1 - v) * k_volume + v * unit * c_volume;
         double shear = (1 - v) * k_shear + v * unit * c_shear;
         if (found++ > 0) assert_true(volume / shear / before < 2.0001);

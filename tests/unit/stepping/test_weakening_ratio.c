@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The largest eigenvalue of A^-1 W against the roots of its characteristic equation, and the top of
 // a parabola against the parabola itself.
-#include "stepping/weakening_load.h"
+#include "stepping/weakening_ratio.h"
 
 #include "base/dense.h"
 #include "dense_by_hand.h"
@@ -29,26 +29,26 @@ static void test_two_unknowns(void **state)
         double largest = largest_root(a, list[0].weakening, list[1].weakening), work[2];
         int32_t pivots[2];
         assert_true(dense_lu(a, 2, pivots));
-        double load = weakening_load(&set, a, pivots, 2000, 1e-12, work);
-        assert_near("load", load, largest, 1e-8 * largest);
-        load = weakening_load(&set, a, pivots, 2, 0, work);   // too few: a bound
-        assert_true(load >= largest * (1 - 1e-12));
+        double ratio = weakening_ratio(&set, a, pivots, 2000, 1e-12, work);
+        assert_near("ratio", ratio, largest, 1e-8 * largest);
+        ratio = weakening_ratio(&set, a, pivots, 2, 0, work);   // too few: a bound
+        assert_true(ratio >= largest * (1 - 1e-12));
     }
     MovingSet none = {.count = 0};
-    assert_true(weakening_load(&none, NULL, NULL, 10, 1e-6, NULL) == 0);
+    assert_true(weakening_ratio(&none, NULL, NULL, 10, 1e-6, NULL) == 0);
 }
 
 static void test_top(void **state)
 {
     (void)state;
     for (double top = -0.45; top < 0.5; top += 0.1) {
-        double load[3], octaves;
-        for (int32_t k = 0; k < 3; k++) load[k] = 0.7 - 0.2 * (k - 1 - top) * (k - 1 - top);
-        assert_near("height", weakening_load_top(load, &octaves), 0.7, 1e-14);
+        double ratio[3], octaves;
+        for (int32_t k = 0; k < 3; k++) ratio[k] = 0.7 - 0.2 * (k - 1 - top) * (k - 1 - top);
+        assert_near("height", weakening_ratio_top(ratio, &octaves), 0.7, 1e-14);
         assert_near("place", octaves, top, 1e-13);
     }
     double octaves, rising[3] = {1, 2, 4};
-    assert_true(weakening_load_top(rising, &octaves) == 2 && octaves == 0);
+    assert_true(weakening_ratio_top(rising, &octaves) == 2 && octaves == 0);
 }
 
 int main(void)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Products of answers, at points alike in viscosity, in inertia, in both and in neither, against
+// Products of responses, at points alike in viscosity, in inertia, in both and in neither, against
 // x'K z, x'C z, x'M z formed by hand; combinations and projections likewise.
-#include "reduction/answers.h"
+#include "reduction/responses.h"
 
 #include "base/memory.h"
 #include "reduced_block.h"
@@ -11,14 +11,14 @@ static const Material MATERIAL = {
 static const BlockDef SHAPE = {
     .kind = ELEMENT_Q4, .nx = 6, .nz = 5, .length = 1.4, .height = 0.5, .distortion = 0.2};
 
-static const StripPoint POINTS[] = {{0, 0},     {0, 0},  {0, 0.4},   {1, 0.4}, {0.5, 0.4},
-                                    {0.4, 0.5}, {1, 30}, {0.4, 3e3}, {0, 3e3}, {0.9, 200}};
+static const ParameterPoint POINTS[] = {{0, 0},     {0, 0},  {0, 0.4},   {1, 0.4}, {0.5, 0.4},
+                                        {0.4, 0.5}, {1, 30}, {0.4, 3e3}, {0, 3e3}, {0.9, 200}};
 enum { POINT_COUNT = sizeof POINTS / sizeof *POINTS, COLUMNS = 5, MAX = POINT_COUNT * COLUMNS };
 
 typedef struct Rig {
     ReducedBlock block;   // not reduced
     BulkOperator mesh;
-    Answers answers;
+    Responses responses;
     Random random;
 } Rig;
 
@@ -29,19 +29,19 @@ static void start(Rig *rig)
     reduced_block_build(&SHAPE, &MATERIAL, 0.7, 0, &rig->block);
     assert_true(bulk_operator_create(&rig->block.bulk, NULL, rig->block.dofs,
                                      rig->block.interface_count, &rig->mesh, &err));
-    assert_true(answers_create(&rig->mesh, &rig->block.def.scales, &rig->answers, &err));
-    rig->answers.inertia_least = 0.1;
+    assert_true(responses_create(&rig->mesh, &rig->block.def.scales, &rig->responses, &err));
+    rig->responses.inertia_least = 0.1;
 }
 
 static void end(Rig *rig)
 {
-    answers_destroy(&rig->answers);
+    responses_destroy(&rig->responses);
     bulk_operator_destroy(&rig->mesh);
     reduced_block_destroy(&rig->block);
 }
 
-// The next block: answers to motions at random, the last column to the load.
-static void answer(Rig *rig, StripPoint point)
+// The next block: responses to boundary motions at random, the last column to the load.
+static void response(Rig *rig, ParameterPoint point)
 {
     Error err = {0};
     const BulkScales *scales = &rig->block.def.scales;
@@ -51,23 +51,23 @@ static void answer(Rig *rig, StripPoint point)
                            .stiffness = (1 - point.viscosity) / scales->stiffness,
                            .lift = true};
     InterfaceOperator *full = interface_operator_create(&rig->mesh, terms, &err);
-    AnswerBlock *next = answers_next(&rig->answers, point, COLUMNS, &err);
+    ResponseBlock *next = responses_next(&rig->responses, point, COLUMNS, &err);
     assert_true(full && next);
-    double *motions = hand_matrix((int32_t)m, COLUMNS);
+    double *boundary = hand_matrix((int32_t)m, COLUMNS);
     for (int64_t k = 0; k < m * (COLUMNS - 1); k++)
-        motions[k] = random_between(&rig->random, -1, 1);
-    assert_true(interface_operator_answer(full, motions, COLUMNS - 1, next->field, &err));
+        boundary[k] = random_between(&rig->random, -1, 1);
+    assert_true(interface_operator_respond(full, boundary, COLUMNS - 1, next->field, &err));
     for (int64_t j = 0; j < COLUMNS - 1; j++) {
-        memcpy(next->motion + j * (m + 1), motions + j * m, (size_t)m * sizeof *motions);
-        hand_apply(interface_operator_schur(full), (int32_t)m, (int32_t)m, motions + j * m,
+        memcpy(next->boundary + j * (m + 1), boundary + j * m, (size_t)m * sizeof *boundary);
+        hand_apply(interface_operator_schur(full), (int32_t)m, (int32_t)m, boundary + j * m,
                    next->reaction + j * (m + 1));
     }
     double *pull = next->reaction + (COLUMNS - 1) * (m + 1);
-    assert_true(interface_operator_answer_held(full, rig->answers.unit_load,
-                                               next->field + (COLUMNS - 1) * dofs, pull, &err));
+    assert_true(interface_operator_respond_held(full, rig->responses.unit_load,
+                                                next->field + (COLUMNS - 1) * dofs, pull, &err));
     for (int64_t i = 0; i < m; i++) pull[i] = -pull[i];
     pull[m] = 1;
-    free(motions);
+    free(boundary);
     interface_operator_destroy(full);
 }
 
@@ -85,7 +85,7 @@ static double product(const Rig *rig, BulkTerm term, const double *x, const doub
 
 static const double *column(const Rig *rig, int64_t k)
 {
-    return rig->answers.blocks[k / COLUMNS].field + k % COLUMNS * rig->mesh.dof_count;
+    return rig->responses.blocks[k / COLUMNS].field + k % COLUMNS * rig->mesh.dof_count;
 }
 
 // An equation loses what the other terms of it weigh more than the one it gives: 1e-10 of the
@@ -97,11 +97,11 @@ static void test_products(void **state)
     Rig rig;
     start(&rig);
     for (int32_t p = 0; p < POINT_COUNT; p++) {
-        answer(&rig, POINTS[p]);
+        response(&rig, POINTS[p]);
         int64_t all = (p + 1) * COLUMNS;
         double *gram[BULK_TERMS];
         for (int t = 0; t < BULK_TERMS; t++) gram[t] = hand_matrix((int32_t)all, COLUMNS);
-        assert_true(answers_multiply(&rig.answers, gram, &err));
+        assert_true(responses_multiply(&rig.responses, gram, &err));
         for (int t = 0; t < BULK_TERMS; t++) {
             for (int64_t j = 0; j < COLUMNS; j++) {
                 const double *z = column(&rig, all - COLUMNS + j);
@@ -114,7 +114,7 @@ static void test_products(void **state)
             }
             free(gram[t]);
         }
-        answers_keep(&rig.answers);
+        responses_keep(&rig.responses);
     }
     end(&rig);
 }
@@ -125,8 +125,8 @@ static void test_combination_and_projection(void **state)
     Rig rig;
     start(&rig);
     for (int32_t p = 0; p < 3; p++) {
-        answer(&rig, POINTS[p]);
-        answers_keep(&rig.answers);
+        response(&rig, POINTS[p]);
+        responses_keep(&rig.responses);
     }
     int32_t dofs = rig.mesh.dof_count, all = 3 * COLUMNS;
     double *c = hand_matrix(all, 2), *y = hand_matrix(dofs, 2), *wanted = hand_matrix(dofs, 2);
@@ -137,9 +137,9 @@ static void test_combination_and_projection(void **state)
         for (int32_t i = 0; i < all; i++)
             for (int32_t k = 0; k < dofs; k++)
                 wanted[j * dofs + k] -= 0.5 * c[j * all + i] * column(&rig, i)[k];
-    answers_combine(&rig.answers, -0.5, c, 2, y);
+    responses_combine(&rig.responses, -0.5, c, 2, y);
     assert_all_near("y - X c / 2", y, wanted, 2 * dofs, 1e-12);
-    answers_project(&rig.answers, BULK_DAMPING, y, 2, image, made);
+    responses_project(&rig.responses, BULK_DAMPING, y, 2, image, made);
     for (int32_t j = 0; j < 2; j++)
         for (int32_t i = 0; i < all; i++)
             assert_near("X'C y", made[j * all + i],
@@ -157,17 +157,18 @@ static void test_blocks(void **state)
     Rig rig;
     start(&rig);
     int64_t live = memory_counters().live;
-    assert_non_null(answers_next(&rig.answers, POINTS[0], 3, &err));
-    assert_non_null(answers_next(&rig.answers, POINTS[1], 2, &err));   // in its place
-    assert_non_null(answers_next(&rig.answers, POINTS[1], 200, &err));   // more than there was room
-    answers_drop(&rig.answers);
+    assert_non_null(responses_next(&rig.responses, POINTS[0], 3, &err));
+    assert_non_null(responses_next(&rig.responses, POINTS[1], 2, &err));   // in its place
+    assert_non_null(
+        responses_next(&rig.responses, POINTS[1], 200, &err));   // more than there was room
+    responses_drop(&rig.responses);
     assert_int_equal(memory_counters().live, live + 1);
-    assert_int_equal(rig.answers.count, 0);
-    for (int32_t k = 0; k < ANSWER_BLOCKS_MAX; k++) {
-        assert_non_null(answers_next(&rig.answers, POINTS[0], 1, &err));
-        answers_keep(&rig.answers);
+    assert_int_equal(rig.responses.count, 0);
+    for (int32_t k = 0; k < RESPONSE_BLOCKS_MAX; k++) {
+        assert_non_null(responses_next(&rig.responses, POINTS[0], 1, &err));
+        responses_keep(&rig.responses);
     }
-    assert_null(answers_next(&rig.answers, POINTS[0], 1, &err));
+    assert_null(responses_next(&rig.responses, POINTS[0], 1, &err));
     assert_non_null(strstr(err.message, "more than"));
     end(&rig);
 }

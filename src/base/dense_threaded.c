@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "base/dense_halves.h"
+#include "base/dense_threaded.h"
 
 #include "base/share.h"
 
@@ -31,13 +31,13 @@ static void multiply(Product *all)
         share_in_two(multiply_half, all);
 }
 
-void dense_multiply_transposed_halves(DenseView a, DenseView b, double factor, double keep,
-                                      double *c)
+void dense_multiply_transposed_threaded(DenseView a, DenseView b, double factor, double keep,
+                                        double *c)
 {
     multiply(&(Product){dense_multiply_transposed, a, b, factor, keep, c, a.columns});
 }
 
-void dense_multiply_halves(DenseView a, DenseView b, double factor, double keep, double *c)
+void dense_multiply_threaded(DenseView a, DenseView b, double factor, double keep, double *c)
 {
     multiply(&(Product){dense_multiply, a, b, factor, keep, c, a.rows});
 }

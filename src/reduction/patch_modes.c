@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "reduction/far_motions.h"
+#include "reduction/patch_modes.h"
 
 #include "base/dense.h"
 #include "base/memory.h"
@@ -16,15 +16,15 @@ static const double DIGITS = 1e-8;
 // Of the squares of some fields: taken out once more where less is left.
 static const double LITTLE = 1e-4;
 
-void far_motions_destroy(FarMotions *motions)
+void patch_modes_destroy(PatchModes *modes)
 {
-    memory_free(motions->dofs);
-    sparse_pattern_destroy(&motions->pattern);
-    memory_free(motions->stiffness);
-    memory_free(motions->damping);
-    memory_free(motions->field);
-    memory_free(motions->image);
-    *motions = (FarMotions){0};
+    memory_free(modes->dofs);
+    sparse_pattern_destroy(&modes->pattern);
+    memory_free(modes->stiffness);
+    memory_free(modes->damping);
+    memory_free(modes->field);
+    memory_free(modes->image);
+    *modes = (PatchModes){0};
 }
 
 bool far_room_create(int64_t size, int64_t columns, FarRoom *room, Error *err)
@@ -58,16 +58,16 @@ static bool lengthen(double **columns, int64_t filled, int64_t needed, Error *er
     return true;
 }
 
-bool far_motions_make_room(FarMotions *motions, int32_t columns, Error *err)
+bool patch_modes_make_room(PatchModes *modes, int32_t columns, Error *err)
 {
-    int64_t size = motions->size, filled = size * motions->count;
-    int64_t room = motions->room, needed = motions->count + columns;
+    int64_t size = modes->size, filled = size * modes->count;
+    int64_t room = modes->room, needed = modes->count + columns;
     if (needed <= room) return true;
     if (needed < 2 * room) needed = 2 * room;
-    if (!lengthen(&motions->field, filled, size * needed, err) ||
-        !lengthen(&motions->image, filled, size * needed, err))
+    if (!lengthen(&modes->field, filled, size * needed, err) ||
+        !lengthen(&modes->image, filled, size * needed, err))
         return false;
-    motions->room = (int32_t)needed;
+    modes->room = (int32_t)needed;
     return true;
 }
 
@@ -80,29 +80,28 @@ static double square_sum(const double *values, int64_t count)
 
 // Fields less what F has of them, and their image. Twice where little is left: what rounding put
 // back is large beside it.
-static void take_out(const FarMotions *motions, int64_t columns, FarRoom *room)
+static void take_out(const PatchModes *modes, int64_t columns, FarRoom *room)
 {
-    int64_t size = motions->size, count = motions->count;
+    int64_t size = modes->size, count = modes->count;
     DenseView fields = dense_view(room->rows, size, columns);
     for (bool again = count > 0; again;) {
         double before = square_sum(room->rows, size * columns);
-        dense_multiply_transposed(dense_view(motions->image, size, count), fields, 1, 0,
-                                  room->parts);
-        dense_multiply(dense_view(motions->field, size, count),
+        dense_multiply_transposed(dense_view(modes->image, size, count), fields, 1, 0, room->parts);
+        dense_multiply(dense_view(modes->field, size, count),
                        dense_view(room->parts, count, columns), -1, 1, room->rows);
         double after = square_sum(room->rows, size * columns);
         again = after > 0 && after < LITTLE * before;
     }
-    sparse_apply_many(&motions->pattern, motions->stiffness, room->rows, columns, room->next,
+    sparse_apply_many(&modes->pattern, modes->stiffness, room->rows, columns, room->next,
                       room->sparse);
 }
 
 // New columns of F and its image: those of the rows times eigenvectors of their energies; how many,
 // `most` of them. -1: LAPACK finds none. *again: some have few digits.
-static int32_t take_up(FarMotions *motions, int32_t columns, int32_t most, double least,
+static int32_t take_up(PatchModes *modes, int32_t columns, int32_t most, double least,
                        FarRoom *room, bool *again)
 {
-    int64_t size = motions->size, c = columns, first = c, end = size * motions->count;
+    int64_t size = modes->size, c = columns, first = c, end = size * modes->count;
     double *energies = room->energies, *values = room->values;
     DenseView fields = dense_view(room->rows, size, c), image = dense_view(room->next, size, c);
     dense_multiply_transposed(fields, image, 1, 0, energies);
@@ -114,52 +113,51 @@ static int32_t take_up(FarMotions *motions, int32_t columns, int32_t most, doubl
         for (int64_t i = 0; i < c; i++) energies[j * c + i] /= sqrt(values[j]);
     DenseView kept = dense_view(energies + first * c, c, c - first);
     if (first < c) {
-        dense_multiply(fields, kept, 1, 0, motions->field + end);
-        dense_multiply(image, kept, 1, 0, motions->image + end);
+        dense_multiply(fields, kept, 1, 0, modes->field + end);
+        dense_multiply(image, kept, 1, 0, modes->image + end);
     }
-    motions->count += (int32_t)(c - first);
+    modes->count += (int32_t)(c - first);
     return (int32_t)(c - first);
 }
 
-bool far_motions_add(FarMotions *motions, DenseView fields, double least, FarRoom *room,
+bool patch_modes_add(PatchModes *modes, DenseView fields, double least, FarRoom *room,
                      int32_t *added)
 {
-    int64_t size = motions->size, columns = fields.columns;
+    int64_t size = modes->size, columns = fields.columns;
     bool again = true;
     *added = 0;
     for (int64_t j = 0; j < columns; j++)
         for (int64_t i = 0; i < size; i++)
-            room->rows[j * size + i] = fields.values[j * fields.rows + motions->dofs[i]];
+            room->rows[j * size + i] = fields.values[j * fields.rows + modes->dofs[i]];
     while (again && *added < columns) {
-        take_out(motions, columns, room);
+        take_out(modes, columns, room);
         int32_t most = (int32_t)columns - *added;
-        int32_t taken = take_up(motions, (int32_t)columns, most, least, room, &again);
+        int32_t taken = take_up(modes, (int32_t)columns, most, least, room, &again);
         if (taken < 0) return false;
         *added += taken;
     }
     return true;
 }
 
-bool far_motions_project(const FarMotions *motions, const double *mass,
+bool patch_modes_project(const PatchModes *modes, const double *mass,
                          double *const square[BULK_TERMS], Error *err)
 {
-    int64_t size = motions->size, count = motions->count;
+    int64_t size = modes->size, count = modes->count;
     double *image = NEW_ARRAY(double, size *TOGETHER, err);
     double *work = NEW_ARRAY(double, size *SPARSE_WIDE, err);
     for (int64_t from = 0; image && work && from < count; from += TOGETHER) {
         int64_t columns = count - from < TOGETHER ? count - from : TOGETHER,
                 at = from * (count + 1);
-        const double *field = motions->field + from * size;
+        const double *field = modes->field + from * size;
         DenseView rest = dense_view(field, size, count - from),
                   part = dense_view(image, size, columns);
-        dense_multiply_transposed_rows(rest,
-                                       dense_view(motions->image + from * size, size, columns), 1,
-                                       0, square[BULK_STIFFNESS] + at, count);
-        sparse_apply_many(&motions->pattern, motions->damping, field, columns, image, work);
+        dense_multiply_transposed_rows(rest, dense_view(modes->image + from * size, size, columns),
+                                       1, 0, square[BULK_STIFFNESS] + at, count);
+        sparse_apply_many(&modes->pattern, modes->damping, field, columns, image, work);
         dense_multiply_transposed_rows(rest, part, 1, 0, square[BULK_DAMPING] + at, count);
         for (int64_t j = 0; j < columns; j++)
             for (int64_t i = 0; i < size; i++)
-                image[j * size + i] = mass[motions->dofs[i]] * field[j * size + i];
+                image[j * size + i] = mass[modes->dofs[i]] * field[j * size + i];
         dense_multiply_transposed_rows(rest, part, 1, 0, square[BULK_MASS] + at, count);
     }
     for (int term = 0; term < BULK_TERMS; term++) dense_mirror(square[term], count);

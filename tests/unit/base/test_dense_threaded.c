@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Products in two halves against the whole ones, small and large, of even and odd columns.
-#include "base/dense_halves.h"
+#include "base/dense_threaded.h"
 
 #include "dense_by_hand.h"
 #include "near.h"
@@ -26,9 +26,10 @@ static void check(int32_t m, int32_t n, int32_t k)
     for (int32_t j = 0; j < k; j++)
         for (int32_t i = 0; i < m; i++) turned[i * k + j] = a[j * m + i];
     dense_multiply(dense_view(a, m, k), dense_view(b, k, n), 0.5, -2, wanted);
-    dense_multiply_halves(dense_view(a, m, k), dense_view(b, k, n), 0.5, -2, c);
+    dense_multiply_threaded(dense_view(a, m, k), dense_view(b, k, n), 0.5, -2, c);
     assert_all_near("a b", c, wanted, m * n, 1e-12);
-    dense_multiply_transposed_halves(dense_view(turned, k, m), dense_view(b, k, n), 0.5, -2, also);
+    dense_multiply_transposed_threaded(dense_view(turned, k, m), dense_view(b, k, n), 0.5, -2,
+                                       also);
     assert_all_near("a' b", also, wanted, m * n, 1e-12);
     free(a), free(b), free(turned), free(c), free(wanted), free(also);
 }
