@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Energies need strains, which are not stored: they are taken at the nodes of each element from the
 // slopes of the shape functions, and the mean over the elements around a node is what it has, as
-// bulk/recovery does it for the stresses.
+// fem/recovery does it for the stresses.
 #include "render/figures/block.h"
 
 #include "base/memory.h"

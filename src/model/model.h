@@ -6,7 +6,7 @@
 #ifndef AMONTONS_MODEL_MODEL_H
 #define AMONTONS_MODEL_MODEL_H
 
-#include "bulk/reduced_bulk.h"
+#include "reduction/reduced_bulk.h"
 #include "contact/friction_law.h"
 #include "contact/rod.h"
 #include "io/cache/cache_file.h"

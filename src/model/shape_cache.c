@@ -80,7 +80,8 @@ static void hash_regions(const Scene *scene, Hash *hash)
 }
 
 // The lengths are in it, by the mesh's parameters: another length has another interface (x,
-// weights) and shares the basis only, which goes by the block's content (bulk/reduction_block).
+// weights) and shares the basis only, which goes by the block's content
+// (reduction/reduction_block).
 bool shape_key(const Scene *scene, double tolerance, char key[HASH_TEXT_SIZE], Error *err)
 {
     key[0] = 0;

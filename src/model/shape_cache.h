@@ -10,7 +10,7 @@
 #define AMONTONS_MODEL_SHAPE_CACHE_H
 
 #include "base/hash.h"
-#include "bulk/material.h"
+#include "fem/material.h"
 #include "contact/interface.h"
 #include "io/cache/cache_file.h"
 #include "model/model.h"

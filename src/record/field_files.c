@@ -20,7 +20,7 @@ static uint8_t vtk_cell_type(ElementKind kind)
     return types[kind];
 }
 
-// Of a point: points that follow the nodes stand where materials meet (bulk/recovery).
+// Of a point: points that follow the nodes stand where materials meet (fem/recovery).
 static int64_t node_of(const FieldFiles *files, int64_t point)
 {
     int64_t nodes = files->mesh->node_count;

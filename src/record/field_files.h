@@ -4,7 +4,7 @@
 #ifndef AMONTONS_RECORD_FIELD_FILES_H
 #define AMONTONS_RECORD_FIELD_FILES_H
 
-#include "bulk/recovery.h"
+#include "fem/recovery.h"
 #include "contact/interface.h"
 #include "io/fields/field_file.h"
 

@@ -126,7 +126,7 @@ class Style(unittest.TestCase):
                 ("    fprintf(stderr, \"x\");", "src/io/a.c", 1),
                 ("    fprintf(out, \"x\");", "src/io/a.c", 0), ("    exit(1);", "src/cli/a.c", 0),
                 ("    snprintf(a, 3, \"b\");", "src/io/a.c", 0),
-                ("    double *a = malloc(8);", "src/bulk/a.c", 1),
+                ("    double *a = malloc(8);", "src/fem/a.c", 1),
                 ("    void *a = aligned_alloc(64, 64);", "src/base/memory.c", 0),
                 ("    static int32_t calls = 0;", "src/io/a.c", 1),
                 ("    static char buffer[9];", "src/io/a.c", 1),

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The folders of src are layers: a file includes its own folder and those above it in the list; so are the rooms of a
-large folder. No two files include or call each other, neither directly nor through others.
+"""The folders of src are layers: a file includes its own folder and those above it in the list; contact/ and
+reduction/ are neighbours that do not know each other. The rooms of a large folder are layers, too. No two files
+include or call each other, neither directly nor through others.
 
 Also: nothing below scene/ knows a scene or the public header, no study knows another, render/ sees base/ and the result
 format only, cli/ sees the public headers only, and modules export amontons_ symbols only.
@@ -15,10 +16,11 @@ from pathlib import Path
 SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
 MODULES = Path(os.environ.get("AMONTONS_MODULES", SOURCE / "build/bin"))
 
-LAYERS = ["base", "io", "bulk", "contact", "stepping", "record", "scene", "model", "run", "study", "page", "cli"]
+LAYERS = ["base", "io", "fem", "contact", "reduction", "stepping", "record", "scene", "model", "run", "study", "page", "cli"]
 BELOW_SCENE = LAYERS[:LAYERS.index("scene")]
 PUBLIC = ("amontons.h", "amontons_cache.h", "amontons_model1d.h", "amontons_simulation.h", "amontons_stability.h")
 CAIRO = r"render/canvas/(canvas|drawing|text)\.[ch]"
+NEIGHBOURS = {"contact", "reduction"}
 STUDIES = ["study/stability", "study/line", "study/sweep"]
 # A room includes itself and the rows above it; rooms of a row do not know each other. What is in none includes all.
 ROOMS = {
@@ -30,7 +32,7 @@ OWN_INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
 
 
 def split(folder):
-    """("io", "mesh") of "io/mesh", ("bulk", "") of "bulk": where it stands, and which room of it."""
+    """("io", "mesh") of "io/mesh", ("fem", "") of "fem": where it stands, and which room of it."""
     home = next((home for home in ROOMS if folder.startswith(home + "/")), None)
     return (home, folder[len(home) + 1:]) if home else (folder, "")
 
@@ -45,7 +47,7 @@ def rooms_allow(folder, target):
 
 
 def allowed(folder, include):
-    """Whether a file in `folder` ("bulk", "render/plot", "" for amontons.h) may include `include`."""
+    """Whether a file in `folder` ("fem", "render/plot", "" for amontons.h) may include `include`."""
     layer = folder.split("/")[0]
     if include == "amontons_error.h":
         return folder in ("base", "")   # what base/error.h shows to everybody
@@ -75,6 +77,8 @@ def allowed(folder, include):
     target, *inner = include.split("/")[:-1]
     if target == layer == "study" and inner[:1] != folder.split("/")[1:2]:
         return False   # one kind of study knows nothing of another
+    if {target, layer} == NEIGHBOURS:
+        return False
     return target in LAYERS and LAYERS.index(target) <= LAYERS.index(layer)
 
 
@@ -169,8 +173,11 @@ class Layers(unittest.TestCase):
         """Each rule catches the file that breaks it, and nothing else."""
         faults = {
             "src/base/a.c": "io/hdf5/array_file.h",
-            "src/bulk/a.c": "contact/rod.h",
-            "src/bulk/b.c": "amontons_error.h",
+            "src/fem/a.c": "contact/rod.h",
+            "src/fem/b.c": "amontons_error.h",
+            "src/fem/c.c": "reduction/reduction.h",
+            "src/contact/b.c": "reduction/machine.h",
+            "src/reduction/a.h": "contact/rod.h",
             "src/stepping/a.h": "scene/scene.h",
             "src/contact/a.c": "amontons.h",
             "src/run/a.c": "cli/options.h",
@@ -190,10 +197,13 @@ class Layers(unittest.TestCase):
             "render/plot/a.c": "render/figures/zoom.h",
         }
         good = {
-            "src/io/mesh/good.c": ["io/mesh/mesh_file.h", "io/cache/cache_file.h", "io/files/folder.h", "base/error.h"],
+            "src/io/mesh/good.c": ["io/mesh/mesh_file.h", "io/cache/cache_folder.h", "io/files/folder.h", "base/error.h"],
             "src/study/sweep/good.c": ["study/sweep/showing/table.h", "study/sweep/refine.h"],
             "src/study/sweep/computing/good.c": ["study/sweep/reading/study.h", "run/simulation_state.h"],
-            "src/bulk/good.c": ["bulk/mesh.h", "io/mesh/mesh_file.h", "base/error.h"],
+            "src/fem/good.c": ["fem/mesh.h", "io/mesh/mesh_file.h", "base/error.h"],
+            "src/contact/good.c": ["contact/rod.h", "fem/mesh.h"],
+            "src/reduction/good.c": ["reduction/machine.h", "fem/mesh.h"],
+            "src/stepping/good.c": ["contact/rod.h", "reduction/machine.h"],
             "src/study/line/good.c": ["study/line/model1d.h", "run/simulation_state.h"],
             "src/run/good.c": ["amontons.h", "scene/scene.h", "stepping/state.h", "render/render.h"],
             "src/cli/good.c": ["amontons.h", "cli/options.h"],
@@ -205,11 +215,11 @@ class Layers(unittest.TestCase):
             for name, includes in [*((f, [i]) for f, i in faults.items()), *good.items()]:
                 (root / name).parent.mkdir(parents=True, exist_ok=True)
                 (root / name).write_text("".join(f'#include "{i}"\n' for i in includes))
-            for name in ("src/utils/list.c", "src/io/list.c", "src/bulk/list/list.c", "src/io/misc/list.c"):
+            for name in ("src/utils/list.c", "src/io/list.c", "src/fem/list/list.c", "src/io/misc/list.c"):
                 (root / name).parent.mkdir(exist_ok=True)
                 (root / name).write_text("")
             expected = [f"{name} includes {include}" for name, include in faults.items()]
-            expected += [f"src/{name}/list.c: {name} is not a layer" for name in ("utils", "io", "bulk/list", "io/misc")]
+            expected += [f"src/{name}/list.c: {name} is not a layer" for name in ("utils", "io", "fem/list", "io/misc")]
             self.assertEqual(sorted(violations(root)), sorted(expected))
 
     def test_no_library_below_its_layer(self):

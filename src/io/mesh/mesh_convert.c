@@ -123,7 +123,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Marks nodes on a surface or curve that are on no element of any kind, which bulk/mesh_build
+// Marks nodes on a surface or curve that are on no element of any kind, which fem/mesh_build
 // refuses. Nodes of points, and of curves and surfaces outside the physical groups, only help to
 // draw the geometry (centres of arcs) and are left out.
 static bool mark_orphans(const MeshRaw *raw, NodeTable *table, Error *err)

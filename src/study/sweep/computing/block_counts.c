@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // By the keys of the scene, without meshing: blocks that differ in their length alone share a basis
-// too (bulk/reduction_block), and are counted apart.
+// too (reduction/reduction_block), and are counted apart.
 #include "study/sweep/computing/block_counts.h"
 
 #include "base/memory.h"

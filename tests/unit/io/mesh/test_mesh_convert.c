@@ -95,7 +95,7 @@ static void test_tags_with_holes(void **state)
     if (!mesh_raw_convert(&made.raw, "a.msh", &mesh, &err)) fail_msg("%s", err.message);
     static const int64_t numbers[] = {10, 20, 35, 40, 50}, elements[] = {3, 7};
     static const int32_t nodes[] = {0, 1, 2, 0, 2, 4};   // of element 3, then of 7
-    assert_int_equal(mesh.node_count, 5);   // 40 is on a curve: bulk/mesh_build refuses it
+    assert_int_equal(mesh.node_count, 5);   // 40 is on a curve: fem/mesh_build refuses it
     assert_memory_equal(mesh.node_number, numbers, sizeof numbers);
     assert_memory_equal(mesh.element_number, elements, sizeof elements);
     assert_memory_equal(mesh.element_nodes, nodes, sizeof nodes);

@@ -327,7 +327,7 @@ static void test_group_lookup(void **state)
     mesh_file_destroy(&mesh);
 }
 
-// A node on no element stays in the arrays, for bulk/mesh to complain about (format 4.1 says which
+// A node on no element stays in the arrays, for fem/mesh to complain about (format 4.1 says which
 // surface it is on; with 2.2, gmsh drops it by itself).
 static void test_lone_node(void **state)
 {
