@@ -279,15 +279,11 @@ NOT_A_CHOICE = {
     "record/observation.h": {"RECORDERS_MAX": SIZE},
     "model/extremes.c": {"USUAL": "from which on a message names a quotient"},
     "model/gaps.c": {"ROUNDING": ROUNDING},
-    "model/basis_cache.c": {"WAIT_MAX": "seconds for another run's basis", "COUNTS": "stored", "PART_COUNTS": "stored",
-                            "WHOLE": "none"},
     "model/assemble.c": {"NODE_BYTES": "memory"},
     "stepping/growth.c": {"NO_RATE": "rounding, with room: 0 that is not 0"},
     "reduction/machine.c": {"LOOSE": "rounding, with room: a matrix that must not be singular"},
     "contact/contact_matrix.c": {"SWEEPS_KEPT": SIZE, "TOGETHER": "unknowns swept at once: time alone",
                                  "PAIR": "of a node"},
-    "model/far_cache.c": {"COUNTS": "stored"},
-    "model/shape_cache.c": {"NAME_NUMBERS": "stored", "BASIS_NUMBERS": "stored", "COUNTS": "stored"},
     "model/model.c": {
         "standard_middle": "the rod's default place", "standard_width": "the rod's default"},
     "model/obtain.c": {
