@@ -173,8 +173,8 @@ static void made_archive(Made *made, Archive *archive)
     archive_new_numbers(archive, &made->numbers, made->length);
     archive_new_counts(archive, &made->counts, made->length);
     archive_new_indices(archive, &made->indices, made->length, -1, 4);
-    archive_lend_numbers(archive, &made->lent, made->length);
     archive_new_octets(archive, &made->octets, made->length, 200);
+    archive_lend_numbers(archive, &made->lent, made->length);
     archive_require(archive, !made->refused);
 }
 
@@ -227,6 +227,7 @@ static bool read_made(Sent *sent, Made *made, Error *err)
     Archive archive = archive_read(sent->bytes, sent->size);
     archive.err = err;
     made_archive(made, &archive);
+    assert_true(archive.failed || archive.at <= sent->size);
     bool whole = !archive.failed && archive.at == sent->size;
     if (!whole) made_destroy(made);
     return whole;
@@ -268,11 +269,13 @@ static void test_made_arrays_are_checked(void **state)
         assert_int_equal(read_made(&sent, &found, &err), sent.size == size);
         made_destroy(&found);
     }
-    static const int32_t lengths[] = {-1, 2, 4, INT32_MAX};
+    static const int32_t lengths[] = {-1, 2, 4, (1 << 28) - 1, INT32_MAX};
     for (size_t k = 0; k < sizeof lengths / sizeof *lengths; k++) {
+        int64_t allocations = memory_counters().allocations;
         sent = send_made(made, 1000);
         memcpy(sent.bytes, &lengths[k], sizeof lengths[k]);
         assert_false(read_made(&sent, &found, &err));
+        if (lengths[k] > sent.size) assert_int_equal(memory_counters().allocations, allocations);
     }
     int32_t index = 4;
     uint8_t octet = 200;

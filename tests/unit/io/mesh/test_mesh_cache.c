@@ -26,7 +26,7 @@ static int64_t node_number[] = {1, 2, 3, 4, 7, 8, 9, 10, 11, 9007199254740991};
 static int64_t element_number[] = {5, 6, 123456789012};
 static uint8_t kind[] = {ELEMENT_T3, ELEMENT_T3, ELEMENT_Q8};
 static int32_t first_node[] = {0, 3, 6, 14};
-static int32_t element_nodes[] = {0, 1, 2, 0, 2, 3, 1, 4, 5, 2, 6, 7, 8, 9};
+static int32_t element_nodes[] = {0, 1, 2, 0, 2, 3, 1, 4, 5, 2, 6, 7, 8, 9, 0};   // one more
 static int32_t bottom[] = {0, 1, 1, 4}, bottom_nodes[] = {0, 1, 4}, corner[] = {3};
 static int32_t part[] = {0, 2};
 
@@ -83,7 +83,7 @@ static void test_back_to_the_bit(void **state)
     assert_memory_equal(mesh.element_number, element_number, sizeof element_number);
     assert_memory_equal(mesh.kind, kind, sizeof kind);
     assert_memory_equal(mesh.first_node, first_node, sizeof first_node);
-    assert_memory_equal(mesh.element_nodes, element_nodes, sizeof element_nodes);
+    assert_memory_equal(mesh.element_nodes, element_nodes, 14 * sizeof *element_nodes);
     for (int32_t k = 0; k < 3; k++) {
         const MeshGroup *seen = &mesh.groups[k];
         assert_string_equal(seen->name, groups[k].name);
@@ -127,6 +127,10 @@ static void test_what_cannot_be_is_not_believed(void **state)
     assert_false(believed_with(&known, &corner[0], 10));
     assert_false(believed_with(&known, &part[0], 3));
     assert_false(believed_with(&known, &first_node[0], 1));
+    for (int32_t k = 0; k < 4; k++) first_node[k]++;
+    mesh_cache_store(KEY, &known);
+    assert_false(load(&mesh));
+    for (int32_t k = 0; k < 4; k++) first_node[k]--;
     assert_false(believed_with(&known, &first_node[1], 4));
     assert_false(believed_with(&known, &known.node_count, 9));   // which elements have
     assert_false(believed_with(&known, &known.node_count, -1));
