@@ -6,7 +6,7 @@
 #define AMONTONS_TESTS_BLOCK_MESH_H
 
 #include "block_lattice.h"
-#include "bulk/mesh.h"
+#include "fem/mesh.h"
 
 // Where the nodes of an element lie in its cell, in half cells from the lower left corner.
 static inline const int8_t (*block_pattern(ElementKind kind, int32_t half))[2]

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Contact nodes come from the mesh's contact curves (bulk/mesh_contact: one a pad), rod nodes from
+// Contact nodes come from the mesh's contact curves (fem/mesh_contact: one a pad), rod nodes from
 // the strip of the face that is named. Weights are lumped: w_i is the integral of node i's shape
 // function along its curve, so that a pressure field p gives the nodal force p_i w_i (consistent
 // integration gave a resultant 17 % wrong).
 #include "contact/interface.h"
 
 #include "base/memory.h"
-#include "bulk/assembly.h"
+#include "fem/assembly.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -9,7 +9,7 @@
 #ifndef AMONTONS_CONTACT_INTERFACE_H
 #define AMONTONS_CONTACT_INTERFACE_H
 
-#include "bulk/mesh.h"
+#include "fem/mesh.h"
 
 typedef struct Interface {
     int32_t contact_count;

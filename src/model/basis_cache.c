@@ -4,56 +4,56 @@
 #include "model/basis_cache.h"
 
 #include "base/memory.h"
-#include "io/cache_file.h"
+#include "io/cache/cache_file.h"
 
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
-// The whole's sizes, and 1 more than its images where it is put together of two halves, else 0;
-// those of a half have names of their own.
-enum { COUNTS = 5, HALF_COUNTS = 4 };
+// The whole's sizes, and 1 more than its mirrored unknowns where it is put together of two parts,
+// else 0; those of a part have names of their own.
+enum { COUNTS = 5, PART_COUNTS = 4 };
 
-typedef struct FoldNames {
+typedef struct MapNames {
     const char *one, *other, *sign;
-} FoldNames;
-static const FoldNames BORDER_NAMES = {"one", "other", "sign"};
-static const FoldNames MESH_NAMES = {"mesh one", "mesh other", "mesh sign"};
+} MapNames;
+static const MapNames BORDER_NAMES = {"one", "other", "sign"};
+static const MapNames MESH_NAMES = {"mesh one", "mesh other", "mesh sign"};
 
 // s: the largest basis that model/obtain asks for takes a minute of a core to itself; twice
 // the work, done by both, is better than waiting for a process that was stopped.
 static const double WAIT_MAX = 300;
 
-// Of an array of half h: 0 or 1; of a basis in one piece h is WHOLE.
+// Of an array of part p: 0 or 1; of a basis in one piece p is WHOLE.
 enum { WHOLE = -1 };
-static const char *name_of(int h, const char *array, char name[CACHE_NAME_SIZE])
+static const char *name_of(int p, const char *array, char name[CACHE_NAME_SIZE])
 {
-    if (h == WHOLE)
+    if (p == WHOLE)
         snprintf(name, CACHE_NAME_SIZE, "%s", array);
     else
-        snprintf(name, CACHE_NAME_SIZE, "%s %d", array, h);
+        snprintf(name, CACHE_NAME_SIZE, "%s %d", array, p);
     return name;
 }
 
 // An array within the file's bytes, which the whole then owns.
-static double *borrow(const CacheFile *file, int h, const char *array, int64_t count)
+static double *borrow(const CacheFile *file, int p, const char *array, int64_t count)
 {
     char name[CACHE_NAME_SIZE];
-    return (double *)(uintptr_t)cache_file_array(file, name_of(h, array, name), count);   // nobody
+    return (double *)(uintptr_t)cache_file_array(file, name_of(p, array, name), count);   // nobody
     // writes to it
 }
 
 // false: an array is missing or of another length. found: with its sizes.
-static bool take_matrices(const CacheFile *file, int h, ReducedBulk *found)
+static bool take_matrices(const CacheFile *file, int p, ReducedBulk *found)
 {
     int64_t m = found->interface_count, all = found->count, levels = found->errors.count;
-    const double *inertia = borrow(file, h, "inertia", levels);
-    const double *error = borrow(file, h, "error", levels);
-    found->mass = borrow(file, h, "mass", all * all);
-    found->damping = borrow(file, h, "damping", all * all);
-    found->stiffness = borrow(file, h, "stiffness", m * m);
-    found->viscous = borrow(file, h, "viscous", m * m);
-    found->load = borrow(file, h, "load", all);
+    const double *inertia = borrow(file, p, "inertia", levels);
+    const double *error = borrow(file, p, "error", levels);
+    found->mass = borrow(file, p, "mass", all * all);
+    found->damping = borrow(file, p, "damping", all * all);
+    found->stiffness = borrow(file, p, "stiffness", m * m);
+    found->viscous = borrow(file, p, "viscous", m * m);
+    found->load = borrow(file, p, "load", all);
     if (!inertia || !error || !found->mass || !found->damping || !found->stiffness ||
         !found->viscous || !found->load)
         return false;
@@ -62,79 +62,79 @@ static bool take_matrices(const CacheFile *file, int h, ReducedBulk *found)
     return true;
 }
 
-static bool take_counts(const CacheFile *file, int h, ReducedBulk *found, int32_t *halved)
+static bool take_counts(const CacheFile *file, int p, ReducedBulk *found, int32_t *parted)
 {
     char name[CACHE_NAME_SIZE];
-    int32_t counts[COUNTS] = {0}, length = h == WHOLE ? COUNTS : HALF_COUNTS;
-    if (!cache_file_whole(file, name_of(h, "counts", name), length, CACHE_COUNT_LIMIT, counts) ||
+    int32_t counts[COUNTS] = {0}, length = p == WHOLE ? COUNTS : PART_COUNTS;
+    if (!cache_file_whole(file, name_of(p, "counts", name), length, CACHE_COUNT_LIMIT, counts) ||
         counts[3] > REDUCTION_LEVELS_MAX)
         return false;
     *found = (ReducedBulk){
         .full_dofs = counts[0], .interface_count = counts[1], .interior_count = counts[2]};
     found->count = counts[1] + counts[2];
     found->errors.count = counts[3];
-    *halved = counts[4];
+    *parted = counts[4];
     return true;
 }
 
-// Of `fold`, with room for `count`, unknowns of `whole`.
-static bool take_fold(const CacheFile *file, int h, const FoldNames *names, int32_t whole,
-                      int32_t count, Fold *fold)
+// Of `map`, with room for `count`, unknowns of `whole`.
+static bool take_map(const CacheFile *file, int p, const MapNames *names, int32_t whole,
+                     int32_t count, SymmetryMap *map)
 {
     char name[CACHE_NAME_SIZE];
-    const double *sign = borrow(file, h, names->sign, count);
-    if (!sign || !cache_file_whole(file, name_of(h, names->one, name), count, whole, fold->one) ||
-        !cache_file_whole(file, name_of(h, names->other, name), count, whole, fold->other))
+    const double *sign = borrow(file, p, names->sign, count);
+    if (!sign || !cache_file_whole(file, name_of(p, names->one, name), count, whole, map->one) ||
+        !cache_file_whole(file, name_of(p, names->other, name), count, whole, map->other))
         return false;
     for (int32_t k = 0; k < count; k++)
-        fold_append(fold, fold->one[k], fold->other[k], sign[k] < 0 ? -1 : 1);
+        symmetry_map_append(map, map->one[k], map->other[k], sign[k] < 0 ? -1 : 1);
     return true;
 }
 
 // The sizes of both fit the whole's.
 static bool is_split(const ReducedBulk *reduced)
 {
-    const ReducedBulk *half = reduced->half;
-    const Halves *halves = reduced->halves;
-    int64_t border = (int64_t)reduced->interface_count + halves->images;
-    return (int64_t)half[0].interface_count + half[1].interface_count == border &&
-           (int64_t)half[0].full_dofs + half[1].full_dofs == reduced->full_dofs &&
-           (int64_t)half[0].count + half[1].count == reduced->count;
+    const ReducedBulk *part = reduced->part;
+    const SymmetryParts *symmetry = reduced->symmetry;
+    int64_t border = (int64_t)reduced->interface_count + symmetry->mirrored;
+    return (int64_t)part[0].interface_count + part[1].interface_count == border &&
+           (int64_t)part[0].full_dofs + part[1].full_dofs == reduced->full_dofs &&
+           (int64_t)part[0].count + part[1].count == reduced->count;
 }
 
-static bool take_half(const CacheFile *file, int h, ReducedBulk *reduced, bool *found, Error *err)
+static bool take_part(const CacheFile *file, int p, ReducedBulk *reduced, bool *found, Error *err)
 {
-    int32_t none, border = reduced->interface_count + reduced->halves->images;
-    ReducedBulk *half = &reduced->half[h];
-    Fold *fold = &reduced->halves->border[h];
-    *found = take_counts(file, h, half, &none) && take_matrices(file, h, half);
+    int32_t none, border = reduced->interface_count + reduced->symmetry->mirrored;
+    ReducedBulk *part = &reduced->part[p];
+    SymmetryMap *map = &reduced->symmetry->border[p];
+    *found = take_counts(file, p, part, &none) && take_matrices(file, p, part);
     if (!*found) return true;
-    reduced->halves->interior[h] = half->interior_count;
-    if (!fold_create(half->interface_count, fold, err)) return false;
-    *found = take_fold(file, h, &BORDER_NAMES, border, half->interface_count, fold);
+    reduced->symmetry->interior[p] = part->interior_count;
+    if (!symmetry_map_create(part->interface_count, map, err)) return false;
+    *found = take_map(file, p, &BORDER_NAMES, border, part->interface_count, map);
     return true;
 }
 
-static bool take_halves(const CacheFile *file, int32_t images, ReducedBulk *reduced, bool *found,
-                        Error *err)
+static bool take_parts(const CacheFile *file, int32_t mirrored, ReducedBulk *reduced, bool *found,
+                       Error *err)
 {
-    int64_t m = reduced->interface_count, n = images;
-    Halves *halves = reduced->halves = NEW_ARRAY(Halves, 1, err);
-    reduced->half = NEW_ARRAY(ReducedBulk, 2, err);
+    int64_t m = reduced->interface_count, n = mirrored;
+    SymmetryParts *symmetry = reduced->symmetry = NEW_ARRAY(SymmetryParts, 1, err);
+    reduced->part = NEW_ARRAY(ReducedBulk, 2, err);
     const double *follow = borrow(file, WHOLE, "follow", n * m);
     const double *lower = borrow(file, WHOLE, "lower", n * n);
     if (!error_is_clean(err)) goto cleanup;
-    *halves = (Halves){.interface_count = (int32_t)m, .images = images};
+    *symmetry = (SymmetryParts){.interface_count = (int32_t)m, .mirrored = mirrored};
     reduced->load = borrow(file, WHOLE, "load", reduced->count);
     *found = reduced->load && follow && lower;
-    for (int h = 0; *found && h < 2; h++) TRY(take_half(file, h, reduced, found, err));
+    for (int p = 0; *found && p < 2; p++) TRY(take_part(file, p, reduced, found, err));
     *found = *found && is_split(reduced);
     if (!*found) goto cleanup;
-    halves->at_rest.follow = NEW_ARRAY(double, n *m, err);
-    halves->at_rest.lower = NEW_ARRAY(double, n *n, err);
+    symmetry->at_rest.follow = NEW_ARRAY(double, n *m, err);
+    symmetry->at_rest.lower = NEW_ARRAY(double, n *n, err);
     if (!error_is_clean(err)) goto cleanup;
-    memcpy(halves->at_rest.follow, follow, (size_t)(n * m) * sizeof *follow);
-    memcpy(halves->at_rest.lower, lower, (size_t)(n * n) * sizeof *lower);
+    memcpy(symmetry->at_rest.follow, follow, (size_t)(n * m) * sizeof *follow);
+    memcpy(symmetry->at_rest.lower, lower, (size_t)(n * n) * sizeof *lower);
 cleanup:
     return error_is_clean(err);
 }
@@ -142,20 +142,20 @@ cleanup:
 // The matrices stay where they were read to, whatever is found.
 static bool take_basis(CacheFile *file, ReducedBulk *reduced, bool *found, Error *err)
 {
-    int32_t halved = 0;
-    *found = take_counts(file, WHOLE, reduced, &halved);
+    int32_t parted = 0;
+    *found = take_counts(file, WHOLE, reduced, &parted);
     reduced->storage = file->bytes;
     file->bytes = NULL;
     if (!*found) return true;
-    if (halved > 0) return take_halves(file, halved - 1, reduced, found, err);
+    if (parted > 0) return take_parts(file, parted - 1, reduced, found, err);
     *found = take_matrices(file, WHOLE, reduced);
     return true;
 }
 
-static bool take_modes(const CacheFile *file, int h, ReducedBulk *reduced, bool *found, Error *err)
+static bool take_modes(const CacheFile *file, int p, ReducedBulk *reduced, bool *found, Error *err)
 {
     int64_t count = (int64_t)reduced->full_dofs * reduced->count;
-    const double *modes = borrow(file, h, "modes", count);
+    const double *modes = borrow(file, p, "modes", count);
     *found = modes != NULL;
     if (!modes) return true;
     reduced->modes = NEW_ARRAY(double, count, err);
@@ -171,14 +171,14 @@ static bool load_modes(const char *name, ReducedBulk *reduced, bool *found, char
     CacheFile file = {0};
     cache_file_path(name, "modes", path);
     TRY(cache_file_read(path, name, &file, found, reason, err));
-    if (*found && !reduced->half) TRY(take_modes(&file, WHOLE, reduced, found, err));
-    for (int h = 0; *found && reduced->half && h < 2; h++) {
-        ReducedBulk *half = &reduced->half[h];
-        Fold *fold = &reduced->halves->mesh[h];
-        TRY(fold_create(half->full_dofs, fold, err));
-        TRY(take_modes(&file, h, half, found, err));
+    if (*found && !reduced->part) TRY(take_modes(&file, WHOLE, reduced, found, err));
+    for (int p = 0; *found && reduced->part && p < 2; p++) {
+        ReducedBulk *part = &reduced->part[p];
+        SymmetryMap *map = &reduced->symmetry->mesh[p];
+        TRY(symmetry_map_create(part->full_dofs, map, err));
+        TRY(take_modes(&file, p, part, found, err));
         *found = *found &&
-                 take_fold(&file, h, &MESH_NAMES, reduced->full_dofs, half->full_dofs, fold);
+                 take_map(&file, p, &MESH_NAMES, reduced->full_dofs, part->full_dofs, map);
     }
 cleanup:
     cache_file_destroy(&file);
@@ -226,40 +226,40 @@ static void writing_destroy(Writing *file)
     for (int32_t k = 0; k < file->copy_count; k++) memory_free(file->copies[k]);
 }
 
-static void put(Writing *file, int h, const char *array, int64_t count, const double *values)
+static void put(Writing *file, int p, const char *array, int64_t count, const double *values)
 {
     CacheArray *next = &file->arrays[file->count++];
-    name_of(h, array, next->name);
+    name_of(p, array, next->name);
     next->count = count;
     next->values = values;
 }
 
-static bool put_fold(Writing *file, int h, const FoldNames *names, const Fold *fold, Error *err)
+static bool put_map(Writing *file, int p, const MapNames *names, const SymmetryMap *map, Error *err)
 {
-    double *one = file->copies[file->copy_count++] = NEW_ARRAY(double, fold->count, err);
-    double *other = file->copies[file->copy_count++] = NEW_ARRAY(double, fold->count, err);
-    for (int32_t k = 0; one && other && k < fold->count; k++) {
-        one[k] = fold->one[k];
-        other[k] = fold->other[k];
+    double *one = file->copies[file->copy_count++] = NEW_ARRAY(double, map->count, err);
+    double *other = file->copies[file->copy_count++] = NEW_ARRAY(double, map->count, err);
+    for (int32_t k = 0; one && other && k < map->count; k++) {
+        one[k] = map->one[k];
+        other[k] = map->other[k];
     }
-    put(file, h, names->one, fold->count, one);
-    put(file, h, names->other, fold->count, other);
-    put(file, h, names->sign, fold->count, fold->sign);
+    put(file, p, names->one, map->count, one);
+    put(file, p, names->other, map->count, other);
+    put(file, p, names->sign, map->count, map->sign);
     return error_is_clean(err);
 }
 
-static void put_matrices(Writing *file, int h, const ReducedBulk *reduced, const double *counts)
+static void put_matrices(Writing *file, int p, const ReducedBulk *reduced, const double *counts)
 {
     int64_t m = reduced->interface_count, all = reduced->count, levels = reduced->errors.count;
-    put(file, h, "counts", h == WHOLE ? COUNTS : HALF_COUNTS, counts);
-    put(file, h, "load", all, reduced->load);
-    if (reduced->half) return;
-    put(file, h, "inertia", levels, reduced->errors.inertia);
-    put(file, h, "error", levels, reduced->errors.error);
-    put(file, h, "mass", all * all, reduced->mass);
-    put(file, h, "damping", all * all, reduced->damping);
-    put(file, h, "stiffness", m * m, reduced->stiffness);
-    put(file, h, "viscous", m * m, reduced->viscous);
+    put(file, p, "counts", p == WHOLE ? COUNTS : PART_COUNTS, counts);
+    put(file, p, "load", all, reduced->load);
+    if (reduced->part) return;
+    put(file, p, "inertia", levels, reduced->errors.inertia);
+    put(file, p, "error", levels, reduced->errors.error);
+    put(file, p, "mass", all * all, reduced->mass);
+    put(file, p, "damping", all * all, reduced->damping);
+    put(file, p, "stiffness", m * m, reduced->stiffness);
+    put(file, p, "viscous", m * m, reduced->viscous);
 }
 
 static void list_counts(const ReducedBulk *reduced, double counts[COUNTS])
@@ -268,25 +268,25 @@ static void list_counts(const ReducedBulk *reduced, double counts[COUNTS])
     counts[1] = reduced->interface_count;
     counts[2] = reduced->interior_count;
     counts[3] = reduced->errors.count;
-    counts[4] = reduced->halves ? 1 + reduced->halves->images : 0;
+    counts[4] = reduced->symmetry ? 1 + reduced->symmetry->mirrored : 0;
 }
 
 static bool write_basis(const char *path, const char *name, const ReducedBulk *reduced, Error *err)
 {
     double counts[3][COUNTS];
-    const Halves *halves = reduced->halves;
+    const SymmetryParts *symmetry = reduced->symmetry;
     Writing file = {0};
     list_counts(reduced, counts[2]);
     put_matrices(&file, WHOLE, reduced, counts[2]);
-    for (int h = 0; halves && h < 2; h++) {
-        list_counts(&reduced->half[h], counts[h]);
-        put_matrices(&file, h, &reduced->half[h], counts[h]);
-        TRY(put_fold(&file, h, &BORDER_NAMES, &halves->border[h], err));
+    for (int p = 0; symmetry && p < 2; p++) {
+        list_counts(&reduced->part[p], counts[p]);
+        put_matrices(&file, p, &reduced->part[p], counts[p]);
+        TRY(put_map(&file, p, &BORDER_NAMES, &symmetry->border[p], err));
     }
-    if (halves) {
-        int64_t m = halves->interface_count, n = halves->images;
-        put(&file, WHOLE, "follow", n * m, halves->at_rest.follow);
-        put(&file, WHOLE, "lower", n * n, halves->at_rest.lower);
+    if (symmetry) {
+        int64_t m = symmetry->interface_count, n = symmetry->mirrored;
+        put(&file, WHOLE, "follow", n * m, symmetry->at_rest.follow);
+        put(&file, WHOLE, "lower", n * n, symmetry->at_rest.lower);
     }
     TRY(cache_file_write(path, name, file.arrays, file.count, err));
 cleanup:
@@ -297,12 +297,12 @@ cleanup:
 static bool write_modes(const char *path, const char *name, const ReducedBulk *reduced, Error *err)
 {
     Writing file = {0};
-    for (int h = 0; reduced->half && h < 2; h++) {
-        const ReducedBulk *half = &reduced->half[h];
-        put(&file, h, "modes", (int64_t)half->full_dofs * half->count, half->modes);
-        TRY(put_fold(&file, h, &MESH_NAMES, &reduced->halves->mesh[h], err));
+    for (int p = 0; reduced->part && p < 2; p++) {
+        const ReducedBulk *part = &reduced->part[p];
+        put(&file, p, "modes", (int64_t)part->full_dofs * part->count, part->modes);
+        TRY(put_map(&file, p, &MESH_NAMES, &reduced->symmetry->mesh[p], err));
     }
-    if (!reduced->half)
+    if (!reduced->part)
         put(&file, WHOLE, "modes", (int64_t)reduced->full_dofs * reduced->count, reduced->modes);
     TRY(cache_file_write(path, name, file.arrays, file.count, err));
 cleanup:
@@ -310,7 +310,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Processes that write it at once write the same bytes: io/part_file lets one of them through.
+// Processes that write it at once write the same bytes: io/files/part_file lets one of them
+// through.
 static bool store_basis(const char *name, const ReducedBulk *reduced, Error *err)
 {
     char path[CACHE_PATH_SIZE];

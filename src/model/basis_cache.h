@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Reduced bulks, kept on disk under what they depend on (bulk/reduction_block) and nothing else:
-// one serves every length, pressure, density, viscosity (eta2/eta1 alike), velocity and friction
-// law. Called by model/obtain.
+// Reduced bulks, kept on disk under what they depend on (reduction/reduction_block) and nothing
+// else: one serves every length, pressure, density, viscosity (eta2/eta1 alike), velocity and
+// friction law. Called by model/obtain.
 //
 //     CACHE/<name>.basis     sizes, reduced M, C, K and load, what it is off
 //     CACHE/<name>.modes     u = modes [u_b; q], kept and read only where fields of the bulk are
@@ -10,9 +10,9 @@
 #ifndef AMONTONS_MODEL_BASIS_CACHE_H
 #define AMONTONS_MODEL_BASIS_CACHE_H
 
-#include "bulk/reduced_bulk.h"
-#include "io/cache_file.h"
-#include "io/file_lock.h"
+#include "reduction/reduced_bulk.h"
+#include "io/cache/cache_file.h"
+#include "io/files/file_lock.h"
 
 // Fills `reduced`, scales left at 0. *found: false when there is nothing, or nothing that is valid:
 // `note` then says why. with_modes: the modes must be there too. name: empty for none.

@@ -3,7 +3,7 @@
 
 #include "base/computation.h"
 #include "base/memory.h"
-#include "bulk/far_field.h"
+#include "reduction/far_field.h"
 #include "model/basis_cache.h"
 
 #include <stdio.h>

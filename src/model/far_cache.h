@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The motions far above the line that a block stands on (bulk/upper_block, bulk/far_block), kept on
-// disk under what they depend on: the mesh above the line over L, materials as a basis has them,
-// load pattern, the rod's nodes, tolerance. A design whose contact or pads are others and whose
-// upper block is the same takes them from here. Called by model/obtain.
+// The modes of what is far above the line that a block stands on (reduction/upper_block,
+// reduction/far_block), kept on disk under what they depend on: the mesh above the line over L,
+// materials as a basis has them, load pattern, the rod's nodes, tolerance. A design whose contact
+// or pads are others and whose upper block is the same takes them from here. Called by
+// model/obtain.
 //
 //     CACHE/<name>.upper     layers, what K, C, M and f are for them, what S is off
-//     CACHE/<name>.field     the motions themselves, kept and read only where fields of the bulk
+//     CACHE/<name>.field     the modes themselves, kept and read only where fields of the bulk
 //                            are asked for
 #ifndef AMONTONS_MODEL_FAR_CACHE_H
 #define AMONTONS_MODEL_FAR_CACHE_H
 
-#include "bulk/upper_block.h"
-#include "bulk/far_block.h"
-#include "io/cache_file.h"
+#include "reduction/upper_block.h"
+#include "reduction/far_block.h"
+#include "io/cache/cache_file.h"
 
 typedef struct FarCacheDef {
     const UpperBlock *upper;

@@ -6,10 +6,10 @@
 #ifndef AMONTONS_MODEL_MODEL_H
 #define AMONTONS_MODEL_MODEL_H
 
-#include "bulk/reduced_bulk.h"
+#include "reduction/reduced_bulk.h"
 #include "contact/friction_law.h"
 #include "contact/rod.h"
-#include "io/cache_file.h"
+#include "io/cache/cache_file.h"
 #include "model/choice.h"
 #include "record/observation.h"
 #include "scene/scene.h"

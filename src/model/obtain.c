@@ -7,9 +7,9 @@
 #include "base/clock.h"
 #include "base/computation.h"
 #include "base/memory.h"
-#include "bulk/mirrored_reduction.h"
-#include "bulk/reduction_block.h"
-#include "io/cache_folder.h"
+#include "reduction/symmetry_reduction.h"
+#include "reduction/reduction_block.h"
+#include "io/cache/cache_folder.h"
 #include "model/assemble.h"
 #include "model/basis_cache.h"
 #include "model/contact_laws.h"
@@ -132,7 +132,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// By halves, where there are two.
+// By its symmetry, where it has one.
 static bool build_basis(Model *model, const ReductionBlock *block, const Interface *interface,
                         ReductionDef *def, Error *err)
 {
@@ -141,7 +141,7 @@ static bool build_basis(Model *model, const ReductionBlock *block, const Interfa
         TRY(mirror_find(&block->bulk, block->image, interface->dofs, interface->count, &mirror,
                         err));
     if (mirror.found)
-        TRY(mirrored_reduction_build(&mirror, interface->count, def, &model->reduced, err));
+        TRY(symmetry_reduction_build(&mirror, interface->count, def, &model->reduced, err));
     else
         TRY(build_upper(model, block, interface, def, err));
 cleanup:
@@ -262,7 +262,7 @@ static bool expect(Model *model, bool held, Error *err)
 {
     const Scene *scene = model->scene;
     const Mesh *mesh = &model->mesh;
-    bool mirrored = model->reduced.halves != NULL;
+    bool mirrored = model->reduced.symmetry != NULL;
     if (!held && is_reducible(scene))
         TRY(mirror_is_likely(&model->bulk, mesh->position, model->interface.dofs,
                              model->interface.count, &mirrored, err));
@@ -271,7 +271,7 @@ static bool expect(Model *model, bool held, Error *err)
         (ChoiceSizes){.unknowns = model->full_dofs,
                       .interface = model->interface.count,
                       .stages = stages_expect(scene, &drive),
-                      .halves = mirrored ? 2 : 1,
+                      .parts = mirrored ? 2 : 1,
                       .runs = scene->reduction.cache ? fmax(scene->reduction.runs, 1) : 1,
                       .several = model->materials.count > 1,
                       .held = held};

@@ -2,7 +2,7 @@
 #include "model/regions.h"
 
 #include "base/memory.h"
-#include "bulk/element_group.h"
+#include "fem/element_group.h"
 
 #include <math.h>
 

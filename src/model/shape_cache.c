@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Whether a scene's shape is known is decided without gmsh: by the bytes of its mesh file, the
 // parameters it is given, and the keys of the scene that choose nodes. A .geo that draws on more
-// than these (io/mesh_source) is meshed every time.
+// than these (io/mesh/mesh_source) is meshed every time.
 //
-// What is read is checked against the counts that stand in the file itself (io/cache_file checks
-// that the file is whole), and anything that does not fit means that the shape is made anew.
+// What is read is checked against the counts that stand in the file itself (io/cache/cache_file
+// checks that the file is whole), and anything that does not fit means that the shape is made anew.
 #include "model/shape_cache.h"
 
 #include "base/computation.h"
 #include "base/memory.h"
-#include "io/cache_file.h"
-#include "io/mesh_source.h"
+#include "io/cache/cache_file.h"
+#include "io/mesh/mesh_source.h"
 #include "model/basis_cache.h"
 #include "scene/materials.h"
 
@@ -80,7 +80,8 @@ static void hash_regions(const Scene *scene, Hash *hash)
 }
 
 // The lengths are in it, by the mesh's parameters: another length has another interface (x,
-// weights) and shares the basis only, which goes by the block's content (bulk/reduction_block).
+// weights) and shares the basis only, which goes by the block's content
+// (reduction/reduction_block).
 bool shape_key(const Scene *scene, double tolerance, char key[HASH_TEXT_SIZE], Error *err)
 {
     key[0] = 0;

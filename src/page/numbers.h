@@ -3,7 +3,7 @@
 #ifndef AMONTONS_PAGE_NUMBERS_H
 #define AMONTONS_PAGE_NUMBERS_H
 
-#include "io/html_writer.h"
+#include "io/text/html_writer.h"
 #include "page/run_source.h"
 
 // As text_estimate has it; that nothing is known of its error is said.

@@ -2,7 +2,7 @@
 // A run on a page, from the answer to how it was found.
 #include "page/pages.h"
 
-#include "io/json_reader.h"
+#include "io/text/json_reader.h"
 #include "page/history_part.h"
 #include "page/numbers.h"
 #include "page/scene_part.h"

@@ -5,14 +5,14 @@
 #include "base/memory.h"
 #include "base/module.h"
 #include "base/text.h"
-#include "io/array_file.h"
-#include "io/csv_reader.h"
-#include "io/json_reader.h"
+#include "io/hdf5/array_file.h"
+#include "io/text/csv_reader.h"
+#include "io/text/json_reader.h"
 #include "page/numbers.h"
 #include "page/scene_part.h"
 #include "page/sheet.h"
 #include "render/render.h"
-#include "study/sweep/warned.h"
+#include "study/sweep/showing/warned.h"
 
 #include <dirent.h>
 #include <limits.h>

@@ -13,7 +13,7 @@
 #ifndef AMONTONS_RECORD_ANSWERS_H
 #define AMONTONS_RECORD_ANSWERS_H
 
-#include "io/json_writer.h"
+#include "io/text/json_writer.h"
 #include "record/regime.h"
 
 typedef struct ErrorParts {   // NaN: not known

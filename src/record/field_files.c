@@ -2,7 +2,7 @@
 // Stresses of the bulk are found and written as .vtu, the interface as .vtp. What does
 // not change in a run (points, cells) is laid out once, in the 64-bit integers and three
 // coordinates that VTK wants; z of the model is VTK's y. VTK itself stays in its module:
-// io/field_file.
+// io/fields/field_file.
 #include "record/field_files.h"
 
 #include "base/memory.h"
@@ -20,7 +20,7 @@ static uint8_t vtk_cell_type(ElementKind kind)
     return types[kind];
 }
 
-// Of a point: points that follow the nodes stand where materials meet (bulk/recovery).
+// Of a point: points that follow the nodes stand where materials meet (fem/recovery).
 static int64_t node_of(const FieldFiles *files, int64_t point)
 {
     int64_t nodes = files->mesh->node_count;

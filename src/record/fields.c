@@ -10,7 +10,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "io/folder.h"
+#include "io/files/folder.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -234,7 +234,7 @@ static bool is_due(Fields *fields, const Observation *seen)
     return due || (fields->def.at_events && happens);
 }
 
-// A run that is killed keeps every file that was written, each whole (io/part_file).
+// A run that is killed keeps every file that was written, each whole (io/files/part_file).
 bool fields_record(void *self, const Observation *seen, Error *err)
 {
     Fields *fields = self;

@@ -3,8 +3,8 @@
 
 #include "amontons.h"
 #include "base/text.h"
-#include "io/folder.h"
-#include "io/json_writer.h"
+#include "io/files/folder.h"
+#include "io/text/json_writer.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -62,7 +62,7 @@ static void write_groups(const Mesh *mesh, FILE *out)
     }
 }
 
-// The aspect ratio is bulk/mesh_summary's: longest over shortest edge of an element.
+// The aspect ratio is fem/mesh_summary's: longest over shortest edge of an element.
 void info_write_mesh(const Mesh *mesh, FILE *out)
 {
     MeshSummary summary = mesh_summarise(mesh);

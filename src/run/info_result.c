@@ -5,9 +5,9 @@
 #include "base/apart.h"
 #include "base/memory.h"
 #include "base/text.h"
-#include "io/json_reader.h"
-#include "io/result_file.h"
-#include "io/text_file.h"
+#include "io/files/text_file.h"
+#include "io/hdf5/result_file.h"
+#include "io/text/json_reader.h"
 #include "run/result_folder.h"
 
 #include <math.h>
@@ -118,8 +118,8 @@ static void write_events(double *const column[EVENT_COLUMNS], int32_t count, FIL
     if (count > EVENTS_SHOWN_MAX) fprintf(out, "  ... and %d more\n", count - EVENTS_SHOWN_MAX);
 }
 
-// Of history.h5, or of history.h5.part where the run was killed: io/result_file opens whichever is
-// there.
+// Of history.h5, or of history.h5.part where the run was killed: io/hdf5/result_file opens
+// whichever is there.
 static bool write_history(const char *folder, FILE *out, Error *err)
 {
     static const ResultTable tables[EVENT_COLUMNS] = {EVENTS_KIND, EVENTS_U_START, EVENTS_U_STOP,

@@ -13,8 +13,8 @@
 #include "base/clock.h"
 #include "base/computation.h"
 #include "base/memory.h"
-#include "io/open_file.h"
-#include "io/part_file.h"
+#include "io/files/open_file.h"
+#include "io/files/part_file.h"
 #include "scene/keys.h"
 
 #include <errno.h>

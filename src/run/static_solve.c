@@ -8,7 +8,7 @@
 
 #include "base/dense.h"
 #include "base/memory.h"
-#include "bulk/element_group.h"
+#include "fem/element_group.h"
 #include "contact/contact_check.h"
 #include "model/contact_laws.h"
 #include "model/gaps.h"
@@ -126,8 +126,8 @@ static void find_reactions(const Model *model, StaticSolution *solution)
 
 // model: mesh, bulk and interface are there; supports are held and the rod is built here. K
 // alone may be singular (a block that only stands): its interface is lifted for the factor, and S
-// lowered again (bulk/interface_operator). ERROR_COMPUTE: no equilibrium, or K is singular in the
-// interior.
+// lowered again (reduction/interface_operator). ERROR_COMPUTE: no equilibrium, or K is singular in
+// the interior.
 static bool static_solve(Model *model, StaticSolution *solution, Error *err)
 {
     *solution = (StaticSolution){0};

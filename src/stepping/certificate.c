@@ -7,7 +7,7 @@
 #include "base/clock.h"
 #include "base/dense.h"
 #include "base/memory.h"
-#include "stepping/weakening_load.h"
+#include "stepping/weakening_ratio.h"
 
 #include <math.h>
 
@@ -15,13 +15,13 @@
 // this times its least, (sqrt 2 + 1/sqrt 2)/2.
 static const double BETWEEN_RUNGS = 1.0606601717798212;
 
-// A load that changes by less than this part in a power of the iteration has settled: enough to
+// A ratio that changes by less than this part in a power of the iteration has settled: enough to
 // tell it from 1. So many powers at most.
 static const double SETTLED = 1e-6;
 enum { POWERS_MAX = 200 };
 
 // S_C is condensed from C alone, lifted as C may be singular in the interface's own motion
-// (bulk/interface_operator), once for all states.
+// (reduction/interface_operator), once for all states.
 bool certificate_create(const Block *block, Certificate *certificate, Error *err)
 {
     *certificate = (Certificate){0};
@@ -160,9 +160,9 @@ bool certificate_finds_runaway(Certificate *certificate, const State *state, Lad
     return found;
 }
 
-double certificate_load(Certificate *certificate, const State *state, ContactMatrix *rung)
+double certificate_ratio(Certificate *certificate, const State *state, ContactMatrix *rung)
 {
-    double started = clock_seconds(), load = INFINITY;
+    double started = clock_seconds(), ratio = INFINITY;
     int32_t *pivots = certificate->pivots;
     const double *closed = close_matrix(state, rung);
     if (closed) {
@@ -170,24 +170,24 @@ double certificate_load(Certificate *certificate, const State *state, ContactMat
         fill_coupled(certificate, closed);
         certificate->checks++;
         if (dense_lu(certificate->matrix, certificate->moving.count, pivots))
-            load = weakening_load(&certificate->moving, certificate->matrix, pivots, POWERS_MAX,
-                                  SETTLED, certificate->vector);
+            ratio = weakening_ratio(&certificate->moving, certificate->matrix, pivots, POWERS_MAX,
+                                    SETTLED, certificate->vector);
     }
     certificate->seconds += clock_seconds() - started;
-    return load;
+    return ratio;
 }
 
 bool certificate_excludes_runaway(Certificate *certificate, const State *state, Ladder *ladder)
 {
-    double load[3] = {0}, octaves;
+    double ratio[3] = {0}, octaves;
     if (!ladder_fill(ladder)) return false;   // so is the parabola
     for (int32_t k = 0; k < ladder->rung_count; k++) {
         ContactMatrix *rung = ladder_contact(ladder, k);
-        load[0] = load[1];
-        load[1] = load[2];
-        load[2] = rung ? certificate_load(certificate, state, rung) : 0;
-        // Each by itself: fmax would lose a load that is not a number.
-        if (!(load[2] < 1) || !(weakening_load_top(load, &octaves) < 1)) return false;
+        ratio[0] = ratio[1];
+        ratio[1] = ratio[2];
+        ratio[2] = rung ? certificate_ratio(certificate, state, rung) : 0;
+        // Each by itself: fmax would lose a ratio that is not a number.
+        if (!(ratio[2] < 1) || !(weakening_ratio_top(ratio, &octaves) < 1)) return false;
     }
     return true;
 }

@@ -525,11 +525,15 @@ class Run(InFolder):
                 self.assertRegex(states[0], r"^\[[#.]+\] +\d+ %  U .* mu .* dt .* event")
 
     def test_progress_of_an_error_bar(self):
-        """Runs behind it are named, with no time left, which nobody knows: each ends once its answer is known."""
-        shown = self.run_on_terminal(80, "--to", "50%", "--within", "0.001s")
-        members = re.findall(r"mesh 1, run [12]  U [^\r]*", shown)
-        self.assertTrue(members)
-        self.assertEqual([line for line in members if "left" in line], [])
+        """Runs behind it are named. When the last of them ends nobody knows; what is left of --within is known."""
+        for words, left in (([], "none"), (["--within", "60s"], r"[01]:\d\d left$")):
+            shown = self.run_on_terminal(80, "--to", "50%", *words)
+            runs = re.findall(r"mesh [123], run [12], +\d+ %  U [^\r\x1b]*", shown)
+            self.assertLessEqual({f"mesh {mesh}, run {run}," for mesh in (1, 2, 3) for run in (1, 2)},
+                                 {" ".join(line.split()[:4]) for line in runs})
+            wrong = [line for line in runs if "left" in line] if left == "none" else \
+                [line for line in runs if not re.search(left, line)]
+            self.assertEqual(wrong, [])
 
     def run_on_terminal(self, columns, *words):
         ours, theirs = pty.openpty()

@@ -3,7 +3,7 @@
 // a shape or a basis must not be made of. The bytes are what follows the head; the end and the sum
 // are put on here.
 #include "base/hash.h"
-#include "io/cache_file.h"
+#include "io/cache/cache_file.h"
 #include "model/basis_cache.h"
 #include "model/shape_cache.h"
 #include "tests/fuzz/fuzz.h"

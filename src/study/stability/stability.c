@@ -196,7 +196,7 @@ static bool add_point(StabilityPath *path, const Observation *seen, Error *err)
                          .rate_re = rates.count > 0 ? rates.rate[0].re : NAN,
                          .rate_im = rates.count > 0 ? rates.rate[0].im : NAN,
                          .real_rate = rates.real.re,
-                         .load = growth_scan(path->growth, &path->last).load,
+                         .load = growth_scan(path->growth, &path->last).ratio,
                          .certified = certificate_holds(&path->control.certificate, &path->last)};
     double *mode = path->modes + 2 * (int64_t)path->count * interface->contact_count;
     keep_slip(interface, rates.mode_re, mode);

@@ -4,9 +4,9 @@
 #include "study/sweep/refine.h"
 
 #include "base/memory.h"
-#include "io/json_reader.h"
-#include "study/sweep/rank.h"
-#include "study/sweep/tally.h"
+#include "io/text/json_reader.h"
+#include "study/sweep/computing/tally.h"
+#include "study/sweep/showing/rank.h"
 
 #include <math.h>
 #include <stdlib.h>

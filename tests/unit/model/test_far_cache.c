@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Motions far above the line come back from the cache as they went in, with or without their
-// fields, and what is spoilt or cannot be is made anew, with a reason.
+// Modes of what is far above the line come back from the cache as they went in, with or without
+// their fields, and what is spoilt or cannot be is made anew, with a reason.
 #include "model/far_cache.h"
 
 #include "base/memory.h"
 #include "cache_fixture.h"
-#include "unit/bulk/pad_design.h"
+#include "unit/reduction/pad_design.h"
 
 #include <dirent.h>
 #include <unistd.h>

@@ -4,7 +4,7 @@
 #include "amontons.h"
 
 #include "base/memory.h"
-#include "io/result_file.h"
+#include "io/hdf5/result_file.h"
 #include "place_fixture.h"
 
 enum { EVENTS_MAX = 400 };

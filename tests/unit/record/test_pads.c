@@ -5,7 +5,7 @@
 
 #include "amontons.h"
 #include "base/memory.h"
-#include "io/result_file.h"
+#include "io/hdf5/result_file.h"
 #include "result_place.h"
 #include "run/simulation_state.h"
 #include "seen_by_hand.h"

@@ -3,7 +3,7 @@
 // allocation is an error and leaks nothing.
 #include "amontons.h"
 #include "base/memory.h"
-#include "io/result_file.h"
+#include "io/hdf5/result_file.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -7,7 +7,7 @@
 
 #include "base/dense.h"
 #include "block_mesh.h"
-#include "bulk/interface_operator.h"
+#include "reduction/interface_operator.h"
 #include "contact/rod.h"
 #include "stepping/state.h"
 #include "paper_material.h"

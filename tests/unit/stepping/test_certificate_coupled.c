@@ -207,7 +207,8 @@ static int sign_at(const Slip *slip, double part)
     return hand_sign(a, n);
 }
 
-// At 1/load of its weakening a state stands where the determinant changes sign, for the first time.
+// At 1/ratio of its weakening a state stands where the determinant changes sign, for the first
+// time.
 static void test_load(void **state)
 {
     (void)state;
@@ -223,24 +224,24 @@ static void test_load(void **state)
         random_state(&random, &on.rig, weak, &on.seen);
         Slip slip = {.rig = &on.rig, .seen = &on.seen, .schur = schur};
         list_moving(&slip);
-        double load = certificate_load(&on.certificate, &on.seen, rung);
-        assert_true(isfinite(load) && load >= 0);
-        if (load == 0) continue;
-        assert_int_equal(sign_at(&slip, 0.999 / load), 1);
-        assert_int_equal(sign_at(&slip, 1.001 / load), -1);
+        double ratio = certificate_ratio(&on.certificate, &on.seen, rung);
+        assert_true(isfinite(ratio) && ratio >= 0);
+        if (ratio == 0) continue;
+        assert_int_equal(sign_at(&slip, 0.999 / ratio), 1);
+        assert_int_equal(sign_at(&slip, 1.001 / ratio), -1);
         for (double part = 0; part < 0.99; part += 0.1)
-            assert_int_equal(sign_at(&slip, part / load), 1);
-        above += load > 1;
-        below += load < 1;
+            assert_int_equal(sign_at(&slip, part / ratio), 1);
+        above += ratio > 1;
+        below += ratio < 1;
     }
-    print_message("load above 1: %d times, below: %d\n", above, below);
+    print_message("ratio above 1: %d times, below: %d\n", above, below);
     assert_true(above > 20 && below > 20);
     certificate_rig_destroy(&on);
 }
 
 // All nodes slip, just below v_c, where mu_kinetic = 0 leaves no friction and S - W is symmetric.
 // Node i weakens by `part` of S's diagonal there, less `spread` of that times i: all nodes bear
-// nearly the same, as on a short step. Returns the largest load, from eigenvalues.
+// nearly the same, as on a short step. Returns the largest ratio, from eigenvalues.
 static double alike_state(const BlockRig *rig, const double *schur, double part, double spread,
                           State *seen)
 {
@@ -263,7 +264,7 @@ static double alike_state(const BlockRig *rig, const double *schur, double part,
     return 1 / values[0];
 }
 
-// Where loads lie so close that powers do not tell them apart, what comes out is no less than the
+// Where ratios lie so close that powers do not tell them apart, what comes out is no less than the
 // largest and a few parts in a hundred more at most: a step is not refused for that alone.
 static void test_load_of_nodes_alike(void **state)
 {
@@ -278,10 +279,10 @@ static void test_load_of_nodes_alike(void **state)
         ContactMatrix *rung = certificate_rig_rung(&on, k);
         for (double spread = 1e-1; spread > 1e-5; spread /= 3) {
             double largest = alike_state(&on.rig, rung->schur, 0.1, spread, &on.seen);
-            double load = certificate_load(&on.certificate, &on.seen, rung);
-            assert_true(load >= 0.999 * largest);
-            if (!(load <= 1.08 * largest)) fail_msg("load %g, not %g", load, largest);
-            apart += load > 1.01 * largest;
+            double ratio = certificate_ratio(&on.certificate, &on.seen, rung);
+            assert_true(ratio >= 0.999 * largest);
+            if (!(ratio <= 1.08 * largest)) fail_msg("ratio %g, not %g", ratio, largest);
+            apart += ratio > 1.01 * largest;
         }
     }
     print_message("powers did not settle: %d times\n", apart);
