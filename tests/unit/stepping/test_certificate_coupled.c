@@ -240,12 +240,12 @@ static void test_load(void **state)
 }
 
 // The largest load of a state on the rungs of `ladder` that are built.
-static double largest_load(CertificateRig *on, Ladder *ladder)
+static double largest_ratio(CertificateRig *on, Ladder *ladder)
 {
     double largest = 0;
     for (int32_t k = 0; k < ladder->rung_count; k++) {
         ContactMatrix *rung = ladder_contact(ladder, k);
-        if (rung) largest = fmax(largest, certificate_load(&on->certificate, &on->seen, rung));
+        if (rung) largest = fmax(largest, certificate_ratio(&on->certificate, &on->seen, rung));
     }
     return largest;
 }
@@ -289,11 +289,11 @@ static void check_holes(int32_t apart)
         ladder_init(&on.rig.system, longest, shortest, &on.ladder);
         build_rungs(&on.ladder, apart);
         random_state(&random, &on.rig, 1, &on.seen);
-        double largest = fmax(largest_load(&on, &all), largest_load(&on, &between));
+        double largest = fmax(largest_ratio(&on, &all), largest_ratio(&on, &between));
         double wanted = random_between(&random, 0.9, 1.2);
         if (largest == 0) continue;
         press(&on.rig.interface, wanted / largest, &on.seen);
-        bool seen = largest_load(&on, &on.ladder) >= 1;
+        bool seen = largest_ratio(&on, &on.ladder) >= 1;
         bool excludes = certificate_excludes_runaway(&on.certificate, &on.seen, &on.ladder);
         if (excludes ? wanted >= 1 : wanted < 0.98) fail_msg("load %.3f", wanted);
         excluded += excludes;
