@@ -31,7 +31,8 @@ static inline void hand_seen_init(HandSeen *hand)
         hand->status[i] = CONTACT_STICK;
     }
     for (int32_t k = 0; k < 2 * SEEN_NODES; k++) hand->dofs[k] = k;
-    hand->interface = (Interface){.contact_count = SEEN_NODES,
+    hand->interface = (Interface){.dim = 2,
+                                  .contact_count = SEEN_NODES,
                                   .count = 2 * SEEN_NODES,
                                   .x = hand->x,
                                   .weight = hand->weight,

@@ -152,8 +152,9 @@ bool model_hold_supports(Model *model, Error *err)
         bool found = mesh_curve(&model->mesh, support->group, &curve, err);
         if (!scene_blame(scene, "load.supports", found, err)) return false;
         for (int32_t i = 0; i < curve.node_count; i++) {
-            if (support->x) bulk_hold(2 * curve.nodes[i], &model->bulk);
-            if (support->z) bulk_hold(2 * curve.nodes[i] + 1, &model->bulk);
+            int32_t first = node_dof(model->mesh.dim, curve.nodes[i], 0);
+            if (support->x) bulk_hold(first, &model->bulk);
+            if (support->z) bulk_hold(first + model->mesh.dim - 1, &model->bulk);
         }
     }
     return true;

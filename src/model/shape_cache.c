@@ -18,7 +18,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { COUNTS = 4 };   // contact and rod nodes, pads, gaps
+enum { COUNTS = 5 };   // contact and rod nodes, pads, gaps, unknowns of a contact node
 
 // Names travel as the bytes of doubles, filled up with zeros.
 enum {
@@ -146,7 +146,7 @@ static bool read_shape(const CacheFile *file, Shape *shape, Error *err)
     if (!cache_file_whole(file, "counts", COUNTS, CACHE_COUNT_LIMIT, counts)) return false;
     if (!sizes || !basis || !face) return false;
     memcpy(&shape->sizes, sizes, sizeof shape->sizes);
-    double dofs = shape->sizes.full_dofs, nodes = dofs / 2;
+    double dofs = shape->sizes.full_dofs, nodes = dofs / fmax(counts[4], 1);
     if (!(dofs < INT32_MAX && shape->sizes.elements >= 0 && shape->sizes.elements < INT32_MAX))
         return false;
     const RodEnd *end = shape->sizes.rod_end;
@@ -157,10 +157,11 @@ static bool read_shape(const CacheFile *file, Shape *shape, Error *err)
     memcpy(shape->basis, basis, HASH_TEXT_SIZE);
     shape->basis[HASH_TEXT_SIZE - 1] = 0;
     Interface *interface = &shape->interface;
+    interface->dim = counts[4];
     interface->contact_count = counts[0];
     interface->rod_count = counts[1];
     interface->pad_count = counts[2];
-    interface->count = 2 * interface->contact_count + interface->rod_count;
+    interface->count = interface_rod(interface, interface->rod_count);
     memcpy(interface->rod_face, face, sizeof interface->rod_face);
     return read_indices(file, "node", interface->contact_count, nodes, &interface->node, err) &&
            read_numbers(file, "x", interface->contact_count, &interface->x, err) &&
@@ -217,7 +218,8 @@ static bool store_shape(const char *key, const Shape *shape, Error *err)
     char path[CACHE_PATH_SIZE];
     const Interface *interface = &shape->interface;
     int32_t contact = interface->contact_count, rod = interface->rod_count, m = interface->count;
-    double counts[COUNTS] = {contact, rod, interface->pad_count, interface->gap ? contact : 0},
+    double counts[COUNTS] = {contact, rod, interface->pad_count, interface->gap ? contact : 0,
+                             interface->dim},
            basis[BASIS_NUMBERS] = {0};
     int64_t names = (int64_t)interface->pad_count * NAME_NUMBERS;
     memcpy(basis, shape->basis, HASH_TEXT_SIZE);

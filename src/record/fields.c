@@ -128,7 +128,8 @@ bool fields_flush(Fields *fields, Error *err)
 // At the first time that is written: until then nobody knows the system.
 static bool start_writer(Fields *fields, const Observation *seen, Error *err)
 {
-    int64_t dofs = seen->system->dof_count, whole = 2 * (int64_t)fields->files.mesh->node_count;
+    const Mesh *mesh = fields->files.mesh;
+    int64_t dofs = seen->system->dof_count, whole = (int64_t)mesh->dim * mesh->node_count;
     int64_t line = (int64_t)FIELD_LINE_ARRAYS * seen->interface->contact_count;
     WorkerDef def = {.slots = FIELD_SLOTS, .work = write_time, .context = fields};
     if (fields->writer) return true;

@@ -69,7 +69,7 @@ static double foot_length(const Cut *cut, const Span *span)
     const Mesh *mesh = cut->mesh;
     const int32_t *nodes = mesh->element_nodes + mesh->first_node[span->element];
     ElementKind kind = (ElementKind)mesh->kind[span->element];
-    int32_t corners = kind == ELEMENT_T3 || kind == ELEMENT_T6 ? 3 : 4;
+    int32_t corners = element_corner_count(kind);
     double length = 0;
     for (int32_t k = 0; k < corners; k++) {
         const double *one = cut->position + 2 * nodes[k];
@@ -116,6 +116,7 @@ static bool list_nodes(const Cut *cut, UpperBlock *upper, Error *err)
         if (place[i] == UNKNOWN) nodes[count++] = i;
     mesh_sort_nodes(&by_place, nodes, count);
     upper->dofs = NEW_ARRAY(int32_t, 2 * (int64_t)count, err);
+    upper->mesh.dim = mesh->dim;
     upper->mesh.node_count = count;
     if (!upper->dofs) goto cleanup;
     for (int32_t i = 0; i < count; i++) {

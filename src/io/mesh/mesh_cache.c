@@ -66,6 +66,18 @@ static bool read_elements(const CacheFile *file, MeshFile *mesh, int32_t count, 
            cache_file_whole(file, "element_nodes", count, mesh->node_count, mesh->element_nodes);
 }
 
+// As many numbers a node as the elements have dimensions.
+static bool read_positions(const CacheFile *file, MeshFile *mesh, Error *err)
+{
+    if (mesh->element_count == 0) return false;
+    mesh->dim = element_dim((ElementKind)mesh->kind[0]);
+    int64_t numbers = (int64_t)mesh->dim * mesh->node_count;
+    const double *position = cache_file_array(file, "position", numbers);
+    if (!position || !(mesh->position = NEW_ARRAY(double, numbers, err))) return false;
+    memcpy(mesh->position, position, (size_t)numbers * sizeof(double));
+    return true;
+}
+
 // Copies `count` indices below `limit` from `values`.
 static bool take_indices(const double *values, int32_t count, int32_t limit, int32_t **out,
                          Error *err)
@@ -99,14 +111,13 @@ static bool take_head(const double *head, MeshGroup *group)
 // left: [3] ends of edges, nodes and elements of all groups together.
 static bool read_groups(const CacheFile *file, MeshFile *mesh, const int32_t *left, Error *err)
 {
-    int64_t edge_count = left[0], node_count = left[1], element_count = left[2];
-    int32_t count = mesh->group_count;
+    int64_t edge_count = left[1], node_count = left[2], element_count = left[3];
+    int32_t count = left[0];
     const double *names = cache_file_array(file, "group_names", (int64_t)count * NAME_NUMBERS);
     const double *heads = cache_file_array(file, "group_heads", (int64_t)count * HEADS);
     const double *edges = cache_file_array(file, "group_edges", edge_count);
     const double *nodes = cache_file_array(file, "group_nodes", node_count);
     const double *elements = cache_file_array(file, "group_elements", element_count);
-    mesh->group_count = 0;   // until there is memory for them
     if (!names || !heads || !edges || !nodes || !elements) return false;
     if (!(mesh->groups = NEW_ARRAY(MeshGroup, count, err))) return false;
     mesh->group_count = count;
@@ -138,19 +149,12 @@ static bool read_mesh(const CacheFile *file, MeshFile *mesh, Error *err)
 {
     int32_t counts[COUNTS];
     if (!cache_file_whole(file, "counts", COUNTS, CACHE_COUNT_LIMIT, counts)) return false;
-    const double *position = cache_file_array(file, "position", 2 * (int64_t)counts[0]);
     mesh->node_count = counts[0];
     mesh->element_count = counts[1];
-    mesh->group_count = counts[3];
-    if (!position || !(mesh->position = NEW_ARRAY(double, 2 * (int64_t)counts[0], err))) {
-        mesh->group_count = 0;
-        return false;
-    }
-    memcpy(mesh->position, position, 2 * (size_t)counts[0] * sizeof(double));
-    return read_groups(file, mesh, counts + 4, err) &&
+    return read_elements(file, mesh, counts[2], err) && read_positions(file, mesh, err) &&
+           read_groups(file, mesh, counts + 3, err) &&
            read_tags(file, "node_number", counts[0], &mesh->node_number, err) &&
-           read_tags(file, "element_number", counts[1], &mesh->element_number, err) &&
-           read_elements(file, mesh, counts[2], err);
+           read_tags(file, "element_number", counts[1], &mesh->element_number, err);
 }
 
 bool mesh_cache_load(const char *key, MeshFile *mesh, bool *found, Error *err)
@@ -226,7 +230,7 @@ static void copy_mesh(const MeshFile *mesh, const int64_t counts[COUNTS], Copies
     begin(copies, "counts");
     APPEND(copies, counts, COUNTS);
     begin(copies, "position");
-    APPEND(copies, mesh->position, 2 * (int64_t)mesh->node_count);
+    APPEND(copies, mesh->position, (int64_t)mesh->dim * mesh->node_count);
     begin(copies, "node_number");
     APPEND(copies, mesh->node_number, mesh->node_count);
     begin(copies, "element_number");
@@ -254,7 +258,7 @@ void mesh_cache_store(const char *key, const MeshFile *mesh)
     const int64_t counts[COUNTS] = {
         mesh->node_count, mesh->element_count, ends, mesh->group_count, edges, nodes, elements};
     copies.room = NEW_ARRAY(double,
-                            COUNTS + 3 * (int64_t)mesh->node_count +
+                            COUNTS + (mesh->dim + 1) * (int64_t)mesh->node_count +
                                 2 * (int64_t)mesh->element_count + ends + edges + nodes + elements +
                                 group_numbers,
                             &err);

@@ -20,8 +20,8 @@
 static bool build_interface(const Model1d *model, int32_t points, Interface *interface, Error *err)
 {
     double element = model->length / (points - 1);
-    *interface = (Interface){.contact_count = points, .pad_count = 1, .rod_count = 1};
-    interface->count = 2 * points + 1;
+    *interface = (Interface){.dim = 2, .contact_count = points, .pad_count = 1, .rod_count = 1};
+    interface->count = interface_rod(interface, 1);
     interface->node = NEW_ARRAY(int32_t, points, err);
     interface->x = NEW_ARRAY(double, points, err);
     interface->weight = NEW_ARRAY(double, points, err);

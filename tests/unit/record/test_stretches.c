@@ -44,7 +44,7 @@ static void test_shared_out(void **state)
     Stretches stretches;
     int32_t pad[NODES];
     for (int32_t i = 0; i < NODES; i++) pad[i] = i < 200 ? 0 : (i < 220 ? 1 : 2);
-    Interface interface = {.contact_count = NODES, .pad = pad, .pad_count = 3};
+    Interface interface = {.dim = 2, .contact_count = NODES, .pad = pad, .pad_count = 3};
     int64_t live = memory_counters().live;
     assert_true(stretches_create(&interface, &stretches, &err));
     assert_int_equal(stretches.count, 14 + 1 + 1);
