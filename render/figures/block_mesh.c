@@ -85,8 +85,8 @@ static void fill_lattice(const Block *block, const Axes *axes, int32_t e, const 
         for (int32_t i = 0; i <= (triangle ? last - j : last); ++i) {
             double at[2], x = 0, z = 0, value = 0;
             lattice_place(parts, triangle, i, j, at);
-            ShapeValues shape = triangle ? shape_at(kind, at[0], at[1])
-                                         : shape_at(kind, 2 * at[0] - 1, 2 * at[1] - 1);
+            for (int32_t d = 0; d < 2 && !triangle; ++d) at[d] = 2 * at[d] - 1;
+            ShapeValues shape = shape_at(kind, at);
             for (int32_t a = 0; a < count; ++a) {
                 x += shape.value[a] * block->place[nodes[a]][0];
                 z += shape.value[a] * block->place[nodes[a]][1];

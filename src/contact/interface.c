@@ -175,6 +175,11 @@ cleanup:
     return error_is_clean(err);
 }
 
+double interface_nodes_along(const Interface *interface)
+{
+    return pow(interface->contact_count, 1.0 / (interface->dim - 1));
+}
+
 void interface_destroy(Interface *interface)
 {
     memory_free(interface->node);

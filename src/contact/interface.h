@@ -48,18 +48,22 @@ static inline int32_t interface_unknown(const Interface *interface, int32_t i, i
 {
     return interface->dim * i + component;
 }
-static inline int32_t interface_tangent(int32_t i)
+static inline int32_t interface_tangent(const Interface *interface, int32_t i)
 {
-    return 2 * i;
+    return interface_unknown(interface, i, 0);
 }
-static inline int32_t interface_normal(int32_t i)
+static inline int32_t interface_normal(const Interface *interface, int32_t i)
 {
-    return 2 * i + 1;
+    return interface_unknown(interface, i, interface->dim - 1);
 }
 static inline int32_t interface_rod(const Interface *interface, int32_t j)
 {
     return interface->dim * interface->contact_count + j;
 }
+
+// How many contact nodes stand along its length, were they spread evenly over all its directions:
+// as many as there are in the plane, their root in space.
+double interface_nodes_along(const Interface *interface);
 
 static inline double interface_gap(const Interface *interface, int32_t i)
 {

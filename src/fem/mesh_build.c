@@ -175,13 +175,11 @@ static void set_probes(ProbePoints *probes)
         Quadrature rule = shape_quadrature((ElementKind)kind);
         int32_t count = 0;
         for (int32_t a = 0; a < element_node_count((ElementKind)kind); a++) {
-            double xi, eta;
-            shape_node((ElementKind)kind, a, &xi, &eta);
-            probes->shape[kind][count++] = shape_at((ElementKind)kind, xi, eta);
+            probes->shape[kind][count++] =
+                shape_at((ElementKind)kind, shape_node((ElementKind)kind, a));
         }
         for (int32_t q = 0; q < rule.count; q++)
-            probes->shape[kind][count++] =
-                shape_at((ElementKind)kind, rule.point[q][0], rule.point[q][1]);
+            probes->shape[kind][count++] = shape_at((ElementKind)kind, rule.point[q]);
         probes->count[kind] = count;
     }
 }
@@ -196,7 +194,7 @@ static void determinant_range(const Mesh *mesh, const ProbePoints *probes, int32
     range[0] = INFINITY, range[1] = -INFINITY;
     for (int32_t q = 0; q < probes->count[kind]; q++) {
         double determinant =
-            shape_jacobian(kind, &probes->shape[kind][q], (const MeshPlace *)position, NULL);
+            shape_jacobian(kind, &probes->shape[kind][q], (const MeshPlace *)position);
         range[0] = fmin(range[0], determinant);
         range[1] = fmax(range[1], determinant);
     }

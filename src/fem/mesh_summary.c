@@ -17,8 +17,8 @@ double mesh_element_area(const Mesh *mesh, int32_t e)
                 position);
     Quadrature rule = shape_quadrature(kind);
     for (int32_t q = 0; q < rule.count; q++) {
-        ShapeValues shape = shape_at(kind, rule.point[q][0], rule.point[q][1]);
-        area += rule.weight[q] * shape_jacobian(kind, &shape, (const MeshPlace *)position, NULL);
+        ShapeValues shape = shape_at(kind, rule.point[q]);
+        area += rule.weight[q] * shape_jacobian(kind, &shape, (const MeshPlace *)position);
     }
     return area;
 }

@@ -76,7 +76,7 @@ static int32_t place_in_row(NodalStress *stress, int32_t point, int32_t node)
 // To the row of `point`: `share` of what the mean areal strain of element e's group is above that
 // of its own slopes `b` there.
 static void add_areal(const Mesh *mesh, int32_t e, int32_t point, double share,
-                      const double b[3][ELEMENT_DOFS_MAX], NodalStress *stress)
+                      const double b[STRAINS_MAX][ELEMENT_DOFS_MAX], NodalStress *stress)
 {
     const int32_t *element = mesh->element_nodes + mesh->first_node[e];
     double mean[ELEMENT_DOFS_MAX];
@@ -100,11 +100,11 @@ static void add_to_row(const Mesh *mesh, int32_t e, int32_t at, double share, No
     const int32_t *element = mesh->element_nodes + mesh->first_node[e];
     int32_t nodes = mesh->first_node[e + 1] - mesh->first_node[e];
     int32_t point = nodal_stress_points(stress, mesh, e)[at];
-    MeshPlace position[ELEMENT_NODES_MAX], place;
-    double b[3][ELEMENT_DOFS_MAX];
+    MeshPlace position[ELEMENT_NODES_MAX];
+    double b[STRAINS_MAX][ELEMENT_DOFS_MAX];
     mesh_places(mesh, element, nodes, position);
-    shape_node(mesh->kind[e], at, &place[0], &place[1]);
-    element_strain_matrix(mesh->kind[e], (const MeshPlace *)position, place, b);
+    element_strain_matrix(mesh->kind[e], (const MeshPlace *)position, shape_node(mesh->kind[e], at),
+                          b);
     for (int32_t a = 0; a < nodes; a++) {
         int32_t k = place_in_row(stress, point, element[a]);
         for (int32_t d = 0; d < mesh->dim; d++)

@@ -8,7 +8,7 @@
 
 const char *const ANSWER_NAMES[ANSWER_KINDS] = {"mu_M", "mu_hold"};
 
-// Of mu, over nodes or cells: scatter of one mesh, and slope on the way to cells of no size.
+// Of mu, over nodes along the contact or cells: scatter of one mesh, and slope on the way to cells of no size.
 // Chosen on 78 of the 160 cases before those of promise.py and on strangers' problems for tuning
 // (validation/benchmark/priors.md). One contact has two lengths: by how much mu rises as slip comes
 // one cell farther goes with the contact's, whether slip is resolved with that which slips.
@@ -102,11 +102,11 @@ static double difference(const Levels *levels, int32_t level, AnswerKind kind)
                 level_value(&levels->list[level - 1], kind));
 }
 
-// Contact nodes of the coarsest level that has such an answer; 0: none has.
-static int32_t coarsest_nodes(const Levels *levels, AnswerKind kind)
+// Nodes along the contact of the coarsest level that has such an answer; 0: none has.
+static double coarsest_nodes(const Levels *levels, AnswerKind kind)
 {
     for (int32_t l = 0; l < levels->count; l++)
-        if (is_known(&levels->list[l], kind)) return levels->list[l].contact_nodes;
+        if (is_known(&levels->list[l], kind)) return levels->list[l].nodes_along;
     return 0;
 }
 
@@ -115,13 +115,13 @@ static int32_t coarsest_nodes(const Levels *levels, AnswerKind kind)
 static bool is_alone(const Levels *levels, AnswerKind kind)
 {
     const Level *last = &levels->list[levels->count - 1];
-    return !is_known(last, kind) || last->contact_nodes == coarsest_nodes(levels, kind);
+    return !is_known(last, kind) || last->nodes_along == coarsest_nodes(levels, kind);
 }
 
 double level_cells(const Level *level)
 {
-    if (level->pads > 1) return (double)level->contact_nodes / level->pads - 1;
-    return isnan(level->slip_cells) ? level->contact_nodes - 1 : level->slip_cells;
+    if (level->pads > 1) return level->nodes_along / level->pads - 1;
+    return isnan(level->slip_cells) ? level->nodes_along - 1 : level->slip_cells;
 }
 
 bool levels_resolved(const Levels *levels)
@@ -129,14 +129,14 @@ bool levels_resolved(const Levels *levels)
     return level_cells(&levels->list[levels->count - 1]) >= SLIP_CELLS_ENOUGH;
 }
 
-// What decides on a level, over its contact nodes, from all levels up to it: of each alone it is
+// What decides on a level, over its nodes along the contact, from all levels up to it: of each alone it is
 // counted in whole cells.
 static double deciding_part(const Levels *levels)
 {
     double cells = 0, nodes = 0;
     for (int32_t l = 0; l < levels->count; l++) {
         cells += fmax(level_cells(&levels->list[l]), 0.5);
-        nodes += levels->list[l].contact_nodes;
+        nodes += levels->list[l].nodes_along;
     }
     return cells / nodes;
 }
@@ -155,8 +155,8 @@ static double by_nodes(const Level *level, double part, const double constants[4
 static double scatter_of(const Level *level, double part, double origin)
 {
     const double constants[] = {SCATTER_PADS, SCATTER_WHOLE, SCATTER, SCATTER_SLIP};
-    double own = by_nodes(level, part, constants) / level->contact_nodes;
-    double few = fmax(SLIP_CELLS_ENOUGH / (part * level->contact_nodes), 1);
+    double own = by_nodes(level, part, constants) / level->nodes_along;
+    double few = fmax(SLIP_CELLS_ENOUGH / (part * level->nodes_along), 1);
     return hypot(own * few, level->end_wait / origin);
 }
 
@@ -166,7 +166,7 @@ static double variance_of_runs(const Level *level, double spread)
     return isnan(spread) ? 0 : spread * spread / level->run_count;
 }
 
-// What the levels say together: value = a + b / n on n contact nodes, each level off by a scatter
+// What the levels say together: value = a + b / n on n nodes along the contact, each level off by a scatter
 // that falls like 1 / n, and by what its few runs leave of their spread over branches; b is about
 // 0, as far as SLOPE, before anything is known.
 typedef struct Limit {
@@ -193,7 +193,7 @@ static Limit limit_of(const Levels *levels, AnswerKind kind, double spread)
     double weight[LEVELS_MAX] = {0};
     for (int32_t l = 0; l < levels->count; l++) {
         const Level *level = &levels->list[l];
-        double x = 1.0 / level->contact_nodes, v = level_value(level, kind) / origin - 1;
+        double x = 1.0 / level->nodes_along, v = level_value(level, kind) / origin - 1;
         if (!is_known(level, kind)) continue;
         double runs = variance_of_runs(level, spread) / (origin * origin);
         double own = scatter_of(level, part, origin), w = weight[l] = 1 / (own * own + runs);
@@ -206,7 +206,7 @@ static Limit limit_of(const Levels *levels, AnswerKind kind, double spread)
     Limit limit = {.value = origin * (1 + a)};
     for (int32_t l = 0; l < levels->count; l++) {
         const Level *level = &levels->list[l];
-        double c = weight[l] * (Sxx - Sx / level->contact_nodes) / determinant;
+        double c = weight[l] * (Sxx - Sx / level->nodes_along) / determinant;
         if (weight[l] > 0) add_level(level, kind, c, spread, &limit);
     }
     int32_t free = levels_known(levels, kind) - 1;
@@ -316,7 +316,7 @@ double levels_order(const Levels *levels)
 {
     int32_t last = levels->count - 1;
     if (last < 2) return NAN;
-    double ratio = (double)levels->list[last].contact_nodes / levels->list[last - 1].contact_nodes;
+    double ratio = levels->list[last].nodes_along / levels->list[last - 1].nodes_along;
     return log(difference(levels, last - 1, levels->asked) /
                difference(levels, last, levels->asked)) /
            log(ratio);

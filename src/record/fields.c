@@ -139,8 +139,8 @@ static bool start_writer(Fields *fields, const Observation *seen, Error *err)
         if (!copy->storage) copy->storage = memory_bytes(8 * (2 * dofs + 2 * whole + line), err);
         TRY(copy->storage);
         double *next = copy->storage;
-        for (int d = 0; d < 2; d++, next += dofs) copy->unknowns[d] = next;
-        for (int d = 0; d < 2; d++, next += whole) copy->whole[d] = next;
+        for (int which = 0; which < 2; which++, next += dofs) copy->unknowns[which] = next;
+        for (int which = 0; which < 2; which++, next += whole) copy->whole[which] = next;
         copy->line = next;
     }
     TRY(worker_create(&def, &fields->writer, err));
@@ -179,7 +179,7 @@ static void copy_line(const Fields *fields, const Observation *seen, double *lin
     double *columns[FIELD_LINE_ARRAYS];
     for (int k = 0; k < FIELD_LINE_ARRAYS; k++) columns[k] = line + k * count;
     for (int32_t i = 0; i < count; i++) {
-        int32_t t = interface_tangent(i), n = interface_normal(i);
+        int32_t t = interface_tangent(interface, i), n = interface_normal(interface, i);
         double slip_rate = state->slip_rate[t];
         columns[0][i] = slip_rate;
         columns[1][i] = state->displacement[dofs[t]];

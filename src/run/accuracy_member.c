@@ -210,6 +210,7 @@ bool accuracy_run_member(Accuracy *accuracy, double pressure, bool *coarse, Erro
     simulation->deadline = deadline;   // one step is made, whatever time there is
     const Interface *interface = &simulation->model.interface;
     level->contact_nodes = interface->contact_count;
+    level->nodes_along = interface_nodes_along(interface);
     level->pads = interface->pad_count;
     level->undamped = is_undamped(simulation);
     if (coarse && (*coarse = level->undamped || !contact_has_nodes(interface))) goto cleanup;

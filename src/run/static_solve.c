@@ -54,7 +54,7 @@ static void fill_bounds(const Model *model, const StaticSolution *solution, doub
     const Interface *interface = &model->interface;
     memset(bound, 0, (size_t)interface->count * sizeof(double));
     for (int32_t i = 0; i < interface->contact_count; i++)
-        bound[interface_normal(i)] = -interface_gap(interface, i);
+        bound[interface_normal(interface, i)] = -interface_gap(interface, i);
     for (int32_t j = 0; j < interface->rod_count; j++)
         bound[interface_rod(interface, j)] = solution->rod_way;
 }
@@ -188,8 +188,9 @@ static void sum_contact(const Model *model, const StaticSolution *solution, Stat
 {
     const Interface *interface = &model->interface;
     for (int32_t i = 0; i < interface->contact_count; i++) {
-        double normal = solution->reaction[interface->dofs[interface_normal(i)]];
-        summary->shear_force += solution->reaction[interface->dofs[interface_tangent(i)]];
+        double normal = solution->reaction[interface->dofs[interface_normal(interface, i)]];
+        summary->shear_force +=
+            solution->reaction[interface->dofs[interface_tangent(interface, i)]];
         summary->normal_force += normal;
         summary->pressure_moment += interface->x[i] * normal;
         summary->open += solution->status[i] == CONTACT_OPEN;

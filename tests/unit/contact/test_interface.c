@@ -3,6 +3,7 @@
 #include "contact/interface.h"
 
 #include "block_mesh.h"
+#include "plane.h"
 #include "contact/rod.h"
 
 #include <math.h>
@@ -42,8 +43,8 @@ static void test_nodes_and_weights(void **state)
             assert_near("x of the node", mesh.position[2 * node], interface.x[i], 0);
             assert_near("z of the node", mesh.position[2 * node + 1], 0, 0);
             assert_int_equal(interface.pad[i], 0);
-            assert_int_equal(interface.dofs[interface_tangent(i)], 2 * node);
-            assert_int_equal(interface.dofs[interface_normal(i)], 2 * node + 1);
+            assert_int_equal(interface.dofs[plane_tangent(i)], 2 * node);
+            assert_int_equal(interface.dofs[plane_normal(i)], 2 * node + 1);
             sum += interface.weight[i];
         }
         assert_near("weights", sum, 1, 1e-14);
