@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // M, C and K of the semi-discrete block, M u'' + C u' + K u = f, summed element by element (Hughes,
-// The Finite Element Method, ch. 2). K and C share one pattern of dim x dim blocks, one for each pair of
-// nodes with a common element; both triangles are stored. M is lumped: a vector.
+// The Finite Element Method, ch. 2). K and C share one pattern of dim x dim blocks, one for each
+// pair of nodes with a common element; both triangles are stored. M is lumped: a vector.
 //
 //     unknowns by node, from u_x to u_z;  row-compressed, columns ascending
 //

@@ -38,8 +38,8 @@ typedef struct Mesh {
     double z_min, z_max;
 } Mesh;
 
-// Of an array with `dim` numbers a node: the place of number d, 0 along x, dim - 1 along z; back from
-// there to the node, and to d.
+// Of an array with `dim` numbers a node: the place of number d, 0 along x, dim - 1 along z; back
+// from there to the node, and to d.
 static inline int32_t node_dof(int32_t dim, int32_t node, int32_t d)
 {
     return dim * node + d;

@@ -39,7 +39,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Edge k of an element runs from corner k to the next; mid-side node k of a quadratic one follows its corners: it is on the edge from corner k.
+// Edge k of an element runs from corner k to the next; mid-side node k of a quadratic one, which
+// follows its corners, is on it.
 static bool fill_edges(const Mesh *mesh, MeshEdges *table, Error *err)
 {
     for (int32_t e = 0; e < mesh->element_count; e++) {

@@ -13,7 +13,7 @@
 
 #include "reduction/upper_block.h"
 #include "reduction/far_block.h"
-#include "io/cache/cache_file.h"
+#include "io/cache/store.h"
 
 typedef struct FarCacheDef {
     const UpperBlock *upper;

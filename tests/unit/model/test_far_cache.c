@@ -100,50 +100,50 @@ static void test_comes_back(void **state)
     pad_block_destroy(&moved);
 }
 
-// The file with its `index`-th number of an array replaced, and a checksum that holds.
-static void replace_number(const char *path, const char *array, int64_t index, double number)
+// Where it stands in the file (model/far_cache.c): the error, how many patches and couplings; size
+// and columns of each patch; patch, before and rows of each coupling; the indices, their number
+// before them.
+enum { SIZES = 64 + 8 + 2 * 4, PATCH_BYTES = 2 * 4, COUPLING_BYTES = 3 * 4 };
+
+static size_t place_of_coupling(const FarBlock *block, int32_t coupling)
 {
-    Error err = {0};
-    char name[HASH_TEXT_SIZE], reason[CACHE_REASON_SIZE];
-    CacheFile file;
-    bool found = false, replaced = false;
-    snprintf(name, sizeof name, "%.32s", strrchr(path, '/') + 1);
-    assert_true(cache_file_read(path, name, &file, &found, reason, &err));
-    assert_true(found);
-    for (int32_t k = 0; k < file.array_count; k++) {
-        if (strcmp(file.arrays[k].name, array) != 0) continue;
-        assert_true(file.arrays[k].count > index);
-        ((double *)(uintptr_t)file.arrays[k].values)[index] = number;
-        replaced = true;
-    }
-    assert_true(replaced);
-    assert_true(cache_file_write(path, name, file.arrays, file.array_count, &err));
-    cache_file_destroy(&file);
+    return (size_t)(SIZES + PATCH_BYTES * block->patch_count + COUPLING_BYTES * coupling);
+}
+
+static size_t place_of_index(const FarBlock *block, int64_t index)
+{
+    return place_of_coupling(block, block->coupling_count) + 8 + 4 * (size_t)index;
 }
 
 // Numbers that cannot be: an unknown of the line that is replaced; a near row twice; a patch before
 // itself; rows that are not the coordinates of the patch before; couplings out of order.
-static void check_impossible(const FarCacheDef *def, const char *path, const FarBlock *first)
+static void check_impossible(const FarCacheDef *def, const char *name, const FarBlock *first)
 {
     int32_t line = def->upper->interface_dofs[0], last = first->coupling_count - 1;
     int32_t pair = last;   // a coupling of two patches
     while (first->couplings[pair].before < 0) pair--;
     const FarCoupling *coupling = &first->couplings[pair];
     const struct {
-        const char *array;
-        int64_t index;
-        double number;
-    } wrong[] = {{"indices", 0, line},
-                 {"indices", first->index_count - 1, first->indices[first->index_count - 2]},
-                 {"before", pair, coupling->patch + 1},
-                 {"rows", pair, coupling->count - 1},
-                 {"patch", last, 0},
-                 {"patch", 0, first->patch_count},
-                 {"sizes", 0, first->dof_count + 1}};
+        size_t at;
+        int32_t old, number;
+    } wrong[] = {{place_of_index(first, 0), first->indices[0], line},
+                 {place_of_index(first, first->index_count - 1),
+                  first->indices[first->index_count - 1], first->indices[first->index_count - 2]},
+                 {place_of_coupling(first, pair) + 4, coupling->before, coupling->patch},
+                 {place_of_coupling(first, pair) + 8, coupling->count, coupling->count - 1},
+                 {place_of_coupling(first, last), first->couplings[last].patch, 0},
+                 {place_of_coupling(first, 0), first->couplings[0].patch, first->patch_count},
+                 {SIZES, first->patches[0].size, first->dof_count + 1},
+                 {SIZES - 8, first->patch_count, 0}};
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
         char note[CACHE_NOTE_SIZE];
         FarBlock second;
-        replace_number(path, wrong[k].array, wrong[k].index, wrong[k].number);
+        size_t size;
+        char *bytes = cache_bytes(name, &size);
+        assert_memory_equal(bytes + wrong[k].at, &wrong[k].old, sizeof wrong[k].old);
+        memcpy(bytes + wrong[k].at, &wrong[k].number, sizeof wrong[k].number);
+        cache_put(name, bytes, size);
+        free(bytes);
         assert_false(obtain(def, &second, note));
         assert_non_null(strstr(note, "missing or wrong"));
         assert_same(first, &second, false);
@@ -176,7 +176,7 @@ static void test_spoilt(void **state)
     assert_true(obtain(&def, &second, note));
     far_block_destroy(&second);
 
-    check_impossible(&def, path, &first);
+    check_impossible(&def, strrchr(path, '/') + 1, &first);
     far_block_destroy(&first);
     pad_block_destroy(&made);
 }

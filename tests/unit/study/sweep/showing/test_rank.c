@@ -32,7 +32,7 @@ static Ranked *make(double error)
     made->sweep.study.rank.against = AGAINST_FIRST;
     made->sweep.points = made->points;
     made->table.records = made->values;
-    made->table.errors = made->errors;
+    made->table.errors = made->table.known_to = made->errors;
     made->table.has_error[0] = true;
     srand(7);
     for (int32_t k = 0; k < POINTS; k++) {
