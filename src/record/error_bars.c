@@ -168,8 +168,8 @@ static double variance_of_runs(const Level *level, double spread)
 }
 
 // What the levels say together: value = a + b / n on n nodes along the contact, each level off by a
-// scatter that falls like 1 / n, and by what its few runs leave of their spread over branches; b is about
-// 0, as far as SLOPE, before anything is known.
+// scatter that falls like 1 / n, and by what its few runs leave of their spread over branches; b is
+// about 0, as far as SLOPE, before anything is known.
 typedef struct Limit {
     double value;   // a: in the limit of ever smaller cells
     double mesh;   // of a, 95 %, from scatter and b; NaN: one level

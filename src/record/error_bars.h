@@ -9,12 +9,12 @@
 //              both weighed as the levels are
 //   mesh       value = a + b / n on n nodes along the contact is estimated from the levels together
 //              (Bayes: values scatter from mesh to mesh, as slip stops at nodes, and by what few
-//              runs leave of branches; the scatter of a level and the slope b are what they usually are,
-//              until levels are enough to say more).
+//              runs leave of branches; the scatter of a level and the slope b are what they
+//              usually are, until levels are enough to say more).
 //              a, the limit of ever smaller cells, is the answer, Student's 95 % of its deviation
 //              the part. At least what steps and reduction leave. Levels whose cells are too long
-//              for slip (`undamped`) have no part in it; where slip turns fast on too few cells they
-//              scatter more, and so where the last nodes of the contact hold the block: three
+//              for slip (`undamped`) have no part in it; where slip turns fast on too few cells
+//              they scatter more, and so where the last nodes of the contact hold the block: three
 //              times what mu rises by meanwhile (`end_wait`) is added. One level: its own
 //              value, nothing known.
 //
