@@ -99,8 +99,9 @@ static bool list_rotation(const Model *model, const ReductionBlock *block, Shape
     const Interface *interface = &shape->interface;
     shape->rotation = NEW_ARRAY(double, interface->count, err);
     for (int32_t k = 0; shape->rotation && k < interface->count; k++) {
-        const double *at = block->position + 2 * (interface->dofs[k] / 2);
-        double turned = interface->dofs[k] % 2 == 0 ? -at[1] : at[0];
+        int32_t dim = block->bulk.dim, dof = interface->dofs[k], up = dim - 1;
+        const double *at = block->position + dim * dof_node(dim, dof);
+        double turned = dof_axis(dim, dof) == 0 ? -at[up] : at[0];
         shape->rotation[k] = turned * model->length;
     }
     return shape->rotation != NULL;
@@ -201,7 +202,7 @@ static double rod_reach(const Model *model)
     const Mesh *mesh = &model->mesh;
     double reach = 0;
     for (int32_t j = 0; j < interface->rod_count; j++)
-        reach = fmax(reach, mesh->position[2 * interface->rod_node[j]] - mesh->x_min);
+        reach = fmax(reach, mesh_place(mesh, interface->rod_node[j])[0] - mesh->x_min);
     return reach / model->length;
 }
 
@@ -412,7 +413,8 @@ bool model_obtain(const Scene *scene, const StageNotice *notice, Model *model, E
     TRY(find_shape(model, key, &shape, &found, err));
     if (notice && (!found || wants_mesh(scene))) TRY(notice->tell(notice->self, "meshing", err));
     if (!found || wants_mesh(scene)) TRY(model_read_mesh(model, err));
-    if (found && wants_mesh(scene) && 2 * model->mesh.node_count != model->reduced.full_dofs)
+    if (found && wants_mesh(scene) &&
+        model->mesh.dim * model->mesh.node_count != model->reduced.full_dofs)
         found = forget_shape(model, &shape);
     if (notice && !found) TRY(notice->tell(notice->self, "reducing", err));
     if (!found) TRY(model_build_bulk(model, err));

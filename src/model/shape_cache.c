@@ -110,12 +110,16 @@ static bool is_possible(const ShapeSizes *sizes)
 static void archive_interface(Interface *interface, int32_t dofs, Archive *archive)
 {
     bool has_gap = interface->gap != NULL;
+    archive_length(archive, &interface->dim);
     archive_length(archive, &interface->contact_count);
     archive_length(archive, &interface->rod_count);
     archive_length(archive, &interface->pad_count);
+    archive_require(archive, interface->dim >= 2 && interface->dim <= DIM_MAX);
+    if (archive->failed) return;
     int32_t contact = interface->contact_count, rod = interface->rod_count;
-    interface->count = 2 * contact + rod;
-    archive_new_indices(archive, &interface->node, contact, 0, dofs / 2);
+    int32_t nodes = dofs / interface->dim;
+    interface->count = interface_rod(interface, rod);
+    archive_new_indices(archive, &interface->node, contact, 0, nodes);
     archive_new_numbers(archive, &interface->x, contact);
     archive_new_numbers(archive, &interface->weight, contact);
     archive_flag(archive, &has_gap);
@@ -125,7 +129,7 @@ static void archive_interface(Interface *interface, int32_t dofs, Archive *archi
         archive_new(archive, interface->pad_name, interface->pad_count, GROUP_NAME_SIZE);
     for (int32_t k = 0; interface->pad_name && k < interface->pad_count; k++)
         archive_text(archive, interface->pad_name[k], GROUP_NAME_SIZE);
-    archive_new_indices(archive, &interface->rod_node, rod, 0, dofs / 2);
+    archive_new_indices(archive, &interface->rod_node, rod, 0, nodes);
     archive_new_numbers(archive, &interface->rod_z, rod);
     archive_new_numbers(archive, &interface->rod_share, rod);
     archive_numbers(archive, interface->rod_face, 2);

@@ -22,7 +22,7 @@ typedef struct Span {
 // The whole, and where it is cut.
 typedef struct Cut {
     const Mesh *mesh;
-    const double *position;   // [nodes * 2] over L
+    const double *position;   // [nodes * dim] over L
     Span *spans;   // [elements] by height; owned
     int32_t first;   // of those above the line
     int32_t *place;   // [nodes] where each stands in the upper block; BELOW; owned
@@ -44,6 +44,11 @@ static int by_height(const void *left, const void *right)
     return (a->element > b->element) - (a->element < b->element);
 }
 
+static const double *place_of(const Cut *cut, int32_t node)
+{
+    return cut->position + node_dof(cut->mesh->dim, node, 0);
+}
+
 static void list_spans(const Cut *cut)
 {
     const Mesh *mesh = cut->mesh;
@@ -53,7 +58,7 @@ static void list_spans(const Cut *cut)
         spans[e] = (Span){INFINITY, -INFINITY, e};
         do {
             for (int32_t k = mesh->first_node[member]; k < mesh->first_node[member + 1]; k++) {
-                double z = cut->position[2 * mesh->element_nodes[k] + 1];
+                double z = place_of(cut, mesh->element_nodes[k])[mesh->dim - 1];
                 spans[e].low = fmin(spans[e].low, z);
                 spans[e].high = fmax(spans[e].high, z);
             }
@@ -69,12 +74,12 @@ static double foot_length(const Cut *cut, const Span *span)
     const Mesh *mesh = cut->mesh;
     const int32_t *nodes = mesh->element_nodes + mesh->first_node[span->element];
     ElementKind kind = (ElementKind)mesh->kind[span->element];
-    int32_t corners = kind == ELEMENT_T3 || kind == ELEMENT_T6 ? 3 : 4;
+    int32_t corners = element_corner_count(kind), up = mesh->dim - 1;
     double length = 0;
     for (int32_t k = 0; k < corners; k++) {
-        const double *one = cut->position + 2 * nodes[k];
-        const double *other = cut->position + 2 * nodes[(k + 1) % corners];
-        if (one[1] == span->low && other[1] == span->low) length += fabs(other[0] - one[0]);
+        const double *one = place_of(cut, nodes[k]);
+        const double *other = place_of(cut, nodes[(k + 1) % corners]);
+        if (one[up] == span->low && other[up] == span->low) length += fabs(other[0] - one[0]);
     }
     return length;
 }
@@ -115,13 +120,14 @@ static bool list_nodes(const Cut *cut, UpperBlock *upper, Error *err)
     for (int32_t i = 0; i < mesh->node_count; i++)
         if (place[i] == UNKNOWN) nodes[count++] = i;
     mesh_sort_nodes(&by_place, nodes, count);
-    upper->dofs = NEW_ARRAY(int32_t, 2 * (int64_t)count, err);
+    upper->dofs = NEW_ARRAY(int32_t, (int64_t)mesh->dim * count, err);
+    upper->mesh.dim = mesh->dim;
     upper->mesh.node_count = count;
     if (!upper->dofs) goto cleanup;
     for (int32_t i = 0; i < count; i++) {
         place[nodes[i]] = i;
-        upper->dofs[2 * i] = 2 * nodes[i];
-        upper->dofs[2 * i + 1] = 2 * nodes[i] + 1;
+        for (int32_t d = 0; d < mesh->dim; d++)
+            upper->dofs[node_dof(mesh->dim, i, d)] = node_dof(mesh->dim, nodes[i], d);
     }
 cleanup:
     memory_free(nodes);
@@ -194,13 +200,15 @@ static bool list_interface(const int32_t *place, const int32_t *dofs, int32_t do
                            UpperBlock *upper, Error *err)
 {
     const double *position = upper->block.position;
-    int32_t count = 0, unknowns = 2 * upper->mesh.node_count;
+    int32_t count = 0, dim = upper->mesh.dim, unknowns = dim * upper->mesh.node_count;
     uint8_t *inside = NEW_ARRAY(uint8_t, unknowns, err);
     upper->interface_dofs = NEW_ARRAY(int32_t, unknowns, err);
     if (!inside || !upper->interface_dofs) goto cleanup;
-    for (int32_t k = 0; k < unknowns; k++) inside[k] = position[k | 1] == 0;
+    for (int32_t k = 0; k < unknowns; k++)
+        inside[k] = position[node_dof(dim, dof_node(dim, k), dim - 1)] == 0;
     for (int32_t j = 0; j < dof_count; j++)
-        if (place[dofs[j] / 2] >= 0) inside[2 * place[dofs[j] / 2] + dofs[j] % 2] = 1;
+        if (place[dof_node(dim, dofs[j])] >= 0)
+            inside[node_dof(dim, place[dof_node(dim, dofs[j])], dof_axis(dim, dofs[j]))] = 1;
     for (int32_t k = 0; k < unknowns; k++)
         if (inside[k]) upper->interface_dofs[count++] = k;
     upper->interface_count = count;
@@ -228,13 +236,14 @@ static bool take_above(const Cut *cut, UpperBlock *upper, Error *err)
     Mesh *mesh = &upper->mesh;
     TRY(list_nodes(cut, upper, err));
     TRY(list_elements(cut, mesh, err));
-    int64_t numbers = 2 * (int64_t)mesh->node_count;
+    int64_t numbers = (int64_t)mesh->dim * mesh->node_count;
     mesh->position = NEW_ARRAY(double, numbers, err);
     upper->block.position = NEW_ARRAY(double, numbers, err);
     if (!mesh->position || !upper->block.position) goto cleanup;
     for (int64_t k = 0; k < numbers; k++)
-        mesh->position[k] = upper->block.position[k] = cut->position[upper->dofs[k]] -
-                                                       (k % 2 ? cut->spans[cut->first].low : 0);
+        mesh->position[k] = upper->block.position[k] =
+            cut->position[upper->dofs[k]] -
+            (k % mesh->dim == mesh->dim - 1 ? cut->spans[cut->first].low : 0);
 cleanup:
     return error_is_clean(err);
 }

@@ -37,7 +37,7 @@ _Static_assert(sizeof(Head) == ARCHIVE_LINE, "what follows would not begin with 
 
 static Head make_head(const CacheItem *item, int64_t size)
 {
-    Head head = {.magic = "amontons-cache 3", .size = size};
+    Head head = {.magic = "amontons-cache 4", .size = size};
     memcpy(head.key, item->key, strnlen(item->key, KEY_SIZE));
     memcpy(head.ending, endings[item->kind], strlen(endings[item->kind]));
     return head;

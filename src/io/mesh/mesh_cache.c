@@ -53,9 +53,11 @@ static void archive_group(MeshGroup *group, const MeshFile *mesh, Archive *archi
 static void archive_mesh(void *self, Archive *archive)
 {
     MeshFile *mesh = self;
+    archive_length(archive, &mesh->dim);
     archive_length(archive, &mesh->node_count);
     archive_length(archive, &mesh->element_count);
-    archive_new_numbers(archive, &mesh->position, 2 * (int64_t)mesh->node_count);
+    archive_require(archive, mesh->dim >= 2 && mesh->dim <= DIM_MAX);
+    archive_new_numbers(archive, &mesh->position, (int64_t)mesh->dim * mesh->node_count);
     archive_new_counts(archive, &mesh->node_number, mesh->node_count);
     archive_elements(mesh, archive);
     archive_length(archive, &mesh->group_count);

@@ -5,6 +5,7 @@
 #include "stepping/certificate.h"
 
 #include "certificate_rig.h"
+#include "plane.h"
 
 enum { UNKNOWNS_MAX = 32 };
 
@@ -26,8 +27,8 @@ static void list_moving(Slip *slip)
     slip->count = 0;
     for (int32_t i = 0; i < interface->contact_count; i++) {
         if (slip->seen->status[i] == CONTACT_STICK) continue;
-        slip->moving[slip->count++] = interface_tangent(i);
-        if (!slips(slip->seen->status[i])) slip->moving[slip->count++] = interface_normal(i);
+        slip->moving[slip->count++] = plane_tangent(i);
+        if (!slips(slip->seen->status[i])) slip->moving[slip->count++] = plane_normal(i);
     }
     for (int32_t j = 0; j < interface->rod_count; j++)
         if (!slip->seen->rod_touches[j]) slip->moving[slip->count++] = interface_rod(interface, j);
@@ -110,10 +111,10 @@ static void random_state(Random *random, const BlockRig *rig, double pressure, S
     for (int32_t i = 0; i < interface->contact_count; i++) {
         seen->status[i] = (uint8_t)random_index(random, 4);
         bool open = seen->status[i] == CONTACT_OPEN;
-        seen->reaction[interface_normal(i)] = open ? 0 : pressure * random_between(random, 0.2, 1);
+        seen->reaction[plane_normal(i)] = open ? 0 : pressure * random_between(random, 0.2, 1);
         double speed = random_between(random, 0, 1) < 0.8 ? random_between(random, 0.01, 0.99)
                                                           : random_between(random, 1.01, 2);
-        seen->slip_rate[interface_tangent(i)] =
+        seen->slip_rate[plane_tangent(i)] =
             (seen->status[i] == CONTACT_SLIP_BACKWARD ? -speed : speed) *
             rig->law.critical_velocity;
     }
@@ -261,7 +262,7 @@ static void build_rungs(Ladder *ladder, int32_t apart)
 static void press(const Interface *interface, double factor, State *seen)
 {
     for (int32_t i = 0; i < interface->contact_count; i++)
-        seen->reaction[interface_normal(i)] *= factor;
+        seen->reaction[plane_normal(i)] *= factor;
 }
 
 // Steps fell by `apart` rungs each time. What runs away at a rate between those that are built is
@@ -325,15 +326,15 @@ static double alike_state(const BlockRig *rig, const double *schur, double part,
     int32_t n = interface->contact_count;
     double weak[UNKNOWNS_MAX], a[UNKNOWNS_MAX * UNKNOWNS_MAX], values[UNKNOWNS_MAX];
     for (int32_t i = 0; i < n; i++) {
-        int32_t t = interface_tangent(i);
+        int32_t t = plane_tangent(i);
         weak[i] = part * (1 - spread * i) * schur[t * interface->count + t];
         seen->status[i] = CONTACT_SLIP_FORWARD;
         seen->slip_rate[t] = (1 - 1e-9) * law->critical_velocity;
-        seen->reaction[interface_normal(i)] = weak[i] * law->critical_velocity / law->mu_static;
+        seen->reaction[plane_normal(i)] = weak[i] * law->critical_velocity / law->mu_static;
     }
     for (int32_t i = 0; i < n; i++)
         for (int32_t j = 0; j < n; j++)
-            a[i * n + j] = schur[interface_tangent(i) * interface->count + interface_tangent(j)] /
+            a[i * n + j] = schur[plane_tangent(i) * interface->count + plane_tangent(j)] /
                            sqrt(weak[i] * weak[j]);
     hand_eigenvalues(a, n, values);
     return 1 / values[0];

@@ -383,7 +383,7 @@ static void column_build(Case *test, double shear, double eta, double density, d
     int32_t nodes = LAYERS + 1, n = 2 * nodes;
     double h = height / LAYERS;
     Bulk *bulk = &test->bulk;
-    *bulk = (Bulk){.dof_count = n};
+    *bulk = (Bulk){.dim = 2, .dof_count = n};
     bulk->pattern.size = n;
     bulk->pattern.start = NEW_ARRAY(int32_t, n + 1, &err);
     bulk->pattern.index = NEW_ARRAY(int32_t, 3 * n, &err);
@@ -406,7 +406,8 @@ static void column_build(Case *test, double shear, double eta, double density, d
         bulk->pattern.start[dof + 1] = entry;
     }
     Interface *interface = &test->interface;
-    *interface = (Interface){.contact_count = 1, .rod_count = 1, .count = 3, .pad_count = 1};
+    *interface =
+        (Interface){.dim = 2, .contact_count = 1, .rod_count = 1, .count = 3, .pad_count = 1};
     interface->dofs = NEW_ARRAY(int32_t, 3, &err);
     interface->x = NEW_ARRAY(double, 1, &err);
     interface->weight = NEW_ARRAY(double, 1, &err);

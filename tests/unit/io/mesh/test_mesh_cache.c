@@ -47,7 +47,8 @@ static MeshFile known_mesh(MeshGroup groups[3])
                             .element_count = 2,
                             .elements = part,
                             .blurred = true};
-    return (MeshFile){.node_count = 10,
+    return (MeshFile){.dim = 2,
+                      .node_count = 10,
                       .position = position,
                       .node_number = node_number,
                       .element_count = 3,
