@@ -223,8 +223,6 @@ NOT_A_CHOICE = {
     "reduction/far_patches.h": {"NO_PATCH": "near"},
     "reduction/far_patches.c": {"LAYERS_MAX": SIZE, "LEFT": "counted"},
     "reduction/far_field.c": {"FAR": "in no list of near ones"},
-    "reduction/upper_block.c": {"BELOW": "not in the upper block", "UNKNOWN": "no place yet",
-                           "LINE_LENGTH": ROUNDING},
     "reduction/far_samples.c": {"LEVELS_MAX": SIZE, "POINTS_MAX": SIZE, "ROOM": SIZE,
                            "NEGATIVE": "from which on all eigenvalues are looked at"},
     "reduction/patch_modes.c": {"TOGETHER": SIZE},
@@ -286,7 +284,6 @@ NOT_A_CHOICE = {
     "reduction/machine.c": {"LOOSE": "rounding, with room: a matrix that must not be singular"},
     "contact/contact_matrix.c": {"SWEEPS_KEPT": SIZE, "TOGETHER": "unknowns swept at once: time alone",
                                  "PAIR": "of a node"},
-    "model/far_cache.c": {"COUNTS": "stored"},
     "model/shape_cache.c": {"NAME_NUMBERS": "stored", "BASIS_NUMBERS": "stored", "COUNTS": "stored"},
     "model/model.c": {
         "standard_middle": "the rod's default place", "standard_width": "the rod's default"},
