@@ -9,7 +9,7 @@
 #include "reduction/reduced_bulk.h"
 #include "contact/friction_law.h"
 #include "contact/rod.h"
-#include "io/cache/cache_file.h"
+#include "io/cache/store.h"
 #include "model/choice.h"
 #include "record/observation.h"
 #include "scene/scene.h"

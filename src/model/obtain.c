@@ -159,7 +159,7 @@ static bool obtain_basis(Model *model, const ReductionBlock *block, Shape *shape
     }
     TRY(load_basis(model, block, shape, err));
     if (model->from_cache) goto cleanup;
-    if (basis_cache_lock(shape->basis, &lock)) TRY(load_basis(model, block, shape, err));
+    if (cache_lock(shape->basis, &lock)) TRY(load_basis(model, block, shape, err));
     if (model->from_cache) goto cleanup;
     TRY(model_blame_extremes(model, build_basis(model, block, interface, &def, err), err));
     if (!basis_cache_store(shape->basis, &model->reduced, model->cache_note)) shape->basis[0] = 0;

@@ -8,7 +8,7 @@
 
 const char *const ANSWER_NAMES[ANSWER_KINDS] = {"mu_M", "mu_hold"};
 
-// Of mu, over nodes or cells: scatter of one mesh, and slope on the way to cells of no size.
+// Of mu, over nodes or cells: scatter of one mesh, and slope on the way to ever smaller cells.
 // Chosen on 78 of the 160 cases before those of promise.py and on strangers' problems for tuning
 // (validation/benchmark/priors.md). One contact has two lengths: by how much mu rises as slip comes
 // one cell farther goes with the contact's, whether slip is resolved with that which slips.
@@ -170,7 +170,7 @@ static double variance_of_runs(const Level *level, double spread)
 // that falls like 1 / n, and by what its few runs leave of their spread over branches; b is about
 // 0, as far as SLOPE, before anything is known.
 typedef struct Limit {
-    double value;   // a: on cells of no size
+    double value;   // a: in the limit of ever smaller cells
     double mesh;   // of a, 95 %, from scatter and b; NaN: one level
     double runs, drops;   // of a: variance by branches; error by drops
 } Limit;
@@ -297,6 +297,33 @@ const ErrorBar *levels_answer(const Levels *levels, AnswerKind kind)
     return levels->count > 0 ? &levels->list[levels->count - 1].answer[kind] : NULL;
 }
 
+// Over the value. NaN: cells are too long for slip.
+static double usual_of_one(const Level *level)
+{
+    const double slopes[] = {SLOPE_PADS, SLOPE_WHOLE, SLOPE, SLOPE_SLIP};
+    double part = fmax(level_cells(level), 0.5) / level->contact_nodes;
+    double slope = by_nodes(level, part, slopes) / level->contact_nodes;
+    double usual = ERROR_BAR * hypot(scatter_of(level, part, 1), slope);
+    return level->undamped ? (double)NAN : fmax(usual, STEPS);
+}
+
+double levels_known_to(const Levels *levels, AnswerKind kind)
+{
+    const ErrorBar *answer = levels_answer(levels, kind);
+    double others = hypot(known(answer->parts.branches), known(answer->parts.drops));
+    double usual = usual_of_one(&levels->list[levels->count - 1]);
+    return isnan(answer->bar) ? hypot(usual * answer->value, others) : answer->bar;
+}
+
+void level_answer_for(const Level *level, Answers *answers)
+{
+    double usual = usual_of_one(level);
+    answers->mu_M_known_to = hypot(usual * answers->mu_M.value, known(answers->mu_M.error));
+    answers->mu_hold_known_to =
+        hypot(usual * answers->mu_hold.value, known(answers->mu_hold.error));
+    answers->mu_max_known_to = fabs(usual * answers->mu_max);
+}
+
 void levels_answer_for(const Levels *levels, Answers *answers)
 {
     const ErrorBar *mu_M = levels_answer(levels, ANSWER_MU_M);
@@ -310,6 +337,8 @@ void levels_answer_for(const Levels *levels, Answers *answers)
     answers->mu_M_parts = mu_M->parts;
     answers->mu_hold = (Estimate){mu_hold->value, mu_hold->bar};
     answers->mu_hold_parts = mu_hold->parts;
+    answers->mu_M_known_to = levels_known_to(levels, ANSWER_MU_M);
+    answers->mu_hold_known_to = levels_known_to(levels, ANSWER_MU_HOLD);
 }
 
 double levels_order(const Levels *levels)

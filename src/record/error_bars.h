@@ -11,8 +11,8 @@
 //              values scatter from mesh to mesh, as slip stops at nodes, and by what few runs leave
 //              of branches; the scatter of a level and the slope b are what they usually are,
 //              until levels are enough to say more).
-//              a, on cells of no size, is the answer, Student's 95 % of its deviation the part. At
-//              least what steps and reduction leave. Levels whose cells are too long for slip
+//              a, the limit of ever smaller cells, is the answer, Student's 95 % of its deviation
+//              the part. At least what steps and reduction leave. Levels whose cells are too long for slip
 //              (`undamped`) have no part in it; where slip turns fast on too few cells they
 //              scatter more, and so where the last nodes of the contact hold the block: three
 //              times what mu rises by meanwhile (`end_wait`) is added. One level: its own
@@ -103,8 +103,16 @@ bool levels_resolved(const Levels *levels);
 // A run of the last level has no answer, as its run-in was not over.
 bool levels_run_in(const Levels *levels);
 
+// How far the answer of all levels is known: the bar, or what the last mesh alone usually leaves.
+double levels_known_to(const Levels *levels, AnswerKind kind);
+
+// What one mesh alone, without its runs, usually leaves open: into how far answers are known. Twice
+// what is usual of scatter and slope, and what the drops of a run leave. NaN: nothing is known.
+void level_answer_for(const Level *level, Answers *answers);
+
 // Puts value, error and parts of both answers in the place of those of one run; without any whole
-// run that one's answers stay, of whose errors nothing is known.
+// run that one's answers stay, of whose errors nothing is known. Where the mesh's part of a bar is
+// not known the last mesh alone says how far answers are.
 void levels_answer_for(const Levels *levels, Answers *answers);
 
 // Of the last three levels, for the asked answer: ln(difference before / last difference) over ln

@@ -4,6 +4,7 @@
 #include "run/summary.h"
 
 #include "base/memory.h"
+#include "base/text.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -148,6 +149,11 @@ static void note_levels(const Simulation *simulation, RunSummary *summary)
     summary->bar_ended = levels->ended;
 }
 
+void amontons_estimate(double value, double bar, double known_to, char text[ESTIMATE_SIZE])
+{
+    text_estimate(value, bar, known_to, text);
+}
+
 // counters, answers: made by the caller, who writes them into run.json as well.
 void summary_fill(const Simulation *simulation, const RunCounters *counters, const Answers *answers,
                   RunSummary *summary)
@@ -155,10 +161,13 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
     const int32_t *kinds = simulation->events.kinds;
     *summary = (RunSummary){.mu_M = answers->mu_M.value,
                             .mu_M_error = answers->mu_M.error,
+                            .mu_M_known_to = answers->mu_M_known_to,
                             .mu_M_spread = answers->mu_M_spread,
                             .mu_hold = answers->mu_hold.value,
                             .mu_hold_error = answers->mu_hold.error,
+                            .mu_hold_known_to = answers->mu_hold_known_to,
                             .mu_max = answers->mu_max,
+                            .mu_max_known_to = answers->mu_max_known_to,
                             .mu_steady = steady_mu(&simulation->steady).value,
                             .mu_M_is = steady_words(&simulation->steady, answers),
                             .peaks = answers->peaks,

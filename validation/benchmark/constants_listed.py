@@ -86,7 +86,7 @@ CONSTANTS = [
     *of("stepping/step_control.c",
         ("SAFETY", "part of the tolerance that the error of a longer step must keep", HERE),
         ("LEDGER_SHARE", "part of the ledger's tolerance that long steps may use up", HERE),
-        ("HOLD_FIRST", "steps before a rung that slip outgrew is tried again", HERE),
+        ("HOLD_FIRST", "steps after one that slip outgrew before a longer one is tried", HERE),
         ("HOLD_MAX", "the same, doubled each time, at most", HERE),
         ("UNCERTIFIED_DROP", "rungs down from a step into a state that is not certified", HERE),
         ("SMALL_OSCILLATION", "part of v_c that an oscillation may reach unseen", HERE)),
@@ -277,14 +277,11 @@ NOT_A_CHOICE = {
     "record/observation.h": {"RECORDERS_MAX": SIZE},
     "model/extremes.c": {"USUAL": "from which on a message names a quotient"},
     "model/gaps.c": {"ROUNDING": ROUNDING},
-    "model/basis_cache.c": {"WAIT_MAX": "seconds for another run's basis", "COUNTS": "stored", "PART_COUNTS": "stored",
-                            "WHOLE": "none"},
     "model/assemble.c": {"NODE_BYTES": "memory"},
     "stepping/growth.c": {"NO_RATE": "rounding, with room: 0 that is not 0"},
     "reduction/machine.c": {"LOOSE": "rounding, with room: a matrix that must not be singular"},
     "contact/contact_matrix.c": {"SWEEPS_KEPT": SIZE, "TOGETHER": "unknowns swept at once: time alone",
                                  "PAIR": "of a node"},
-    "model/shape_cache.c": {"NAME_NUMBERS": "stored", "BASIS_NUMBERS": "stored", "COUNTS": "stored"},
     "model/model.c": {
         "standard_middle": "the rod's default place", "standard_width": "the rod's default"},
     "model/obtain.c": {

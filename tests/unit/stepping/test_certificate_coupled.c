@@ -239,6 +239,81 @@ static void test_load(void **state)
     certificate_rig_destroy(&on);
 }
 
+// The largest load of a state on the rungs of `ladder` that are built.
+static double largest_ratio(CertificateRig *on, Ladder *ladder)
+{
+    double largest = 0;
+    for (int32_t k = 0; k < ladder->rung_count; k++) {
+        ContactMatrix *rung = ladder_contact(ladder, k);
+        if (rung) largest = fmax(largest, certificate_ratio(&on->certificate, &on->seen, rung));
+    }
+    return largest;
+}
+
+static void build_rungs(Ladder *ladder, int32_t apart)
+{
+    Error err = {0};
+    for (int32_t k = 0; k < ladder->rung_count; k += apart)
+        assert_non_null(ladder_rung(ladder, k, &err));
+}
+
+// The reactions of `seen` times `factor`; loads go with them.
+static void press(const Interface *interface, double factor, State *seen)
+{
+    for (int32_t i = 0; i < interface->contact_count; i++)
+        seen->reaction[interface_normal(i)] *= factor;
+}
+
+// Steps fell by `apart` rungs each time. What runs away at a rate between those that are built is
+// not excluded, by loads at all rungs and half way between them. A block 100 long: waves are hardly
+// damped, and loads differ from rung to rung.
+static void check_holes(int32_t apart)
+{
+    const double longest = 1e4, shortest = 1e4 / (1 << 20);   // 21 rungs
+    Random random = {.state = 6};
+    RigDef def = rig_def();
+    CertificateRig on;
+    Ladder all, between;
+    def.block.length = 100;
+    def.block.height = 50;
+    def.rod_height = 25;
+    def.rod_width = 10;
+    certificate_rig_build(&def, longest, shortest, &on);
+    ladder_init(&on.rig.system, longest, shortest, &all);
+    ladder_init(&on.rig.system, longest * M_SQRT1_2, shortest, &between);
+    build_rungs(&all, 1);
+    build_rungs(&between, 1);
+    int32_t excluded = 0, hidden = 0;
+    for (int32_t trial = 0; trial < 100; trial++) {
+        ladder_destroy(&on.ladder);   // what the certificate built
+        ladder_init(&on.rig.system, longest, shortest, &on.ladder);
+        build_rungs(&on.ladder, apart);
+        random_state(&random, &on.rig, 1, &on.seen);
+        double largest = fmax(largest_ratio(&on, &all), largest_ratio(&on, &between));
+        double wanted = random_between(&random, 0.9, 1.2);
+        if (largest == 0) continue;
+        press(&on.rig.interface, wanted / largest, &on.seen);
+        bool seen = largest_ratio(&on, &on.ladder) >= 1;
+        bool excludes = certificate_excludes_runaway(&on.certificate, &on.seen, &on.ladder);
+        if (excludes ? wanted >= 1 : wanted < 0.98) fail_msg("load %.3f", wanted);
+        excluded += excludes;
+        hidden += !excludes && !seen;
+    }
+    print_message("%d apart: %d excluded; %d run away and show on no rung that was built\n", apart,
+                  excluded, hidden);
+    assert_true(excluded > 15 && hidden > 15);
+    ladder_destroy(&between);
+    ladder_destroy(&all);
+    certificate_rig_destroy(&on);
+}
+
+static void test_holes(void **state)
+{
+    (void)state;
+    check_holes(20);
+    check_holes(4);
+}
+
 // All nodes slip, just below v_c, where mu_kinetic = 0 leaves no friction and S - W is symmetric.
 // Node i weakens by `part` of S's diagonal there, less `spread` of that times i: all nodes bear
 // nearly the same, as on a short step. Returns the largest ratio, from eigenvalues.
@@ -292,8 +367,9 @@ static void test_load_of_nodes_alike(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_random_states), cmocka_unit_test(test_all_rungs),
-        cmocka_unit_test(test_load), cmocka_unit_test(test_load_of_nodes_alike)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_random_states),
+                                       cmocka_unit_test(test_all_rungs),
+                                       cmocka_unit_test(test_load), cmocka_unit_test(test_holes),
+                                       cmocka_unit_test(test_load_of_nodes_alike)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
