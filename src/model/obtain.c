@@ -14,7 +14,6 @@
 #include "model/basis_cache.h"
 #include "model/contact_laws.h"
 #include "model/extremes.h"
-#include "model/far_cache.h"
 #include "model/gaps.h"
 #include "model/shape_cache.h"
 #include "model/stages.h"
@@ -107,32 +106,6 @@ static bool list_rotation(const Model *model, const ReductionBlock *block, Shape
     return shape->rotation != NULL;
 }
 
-// What is far from the contact, of the upper block alone, and the basis with it.
-static bool build_upper(Model *model, const ReductionBlock *block, const Interface *interface,
-                        ReductionDef *def, Error *err)
-{
-    UpperBlock upper = {0};
-    FarBlock far = {0};
-    FarCacheDef far_def = {.upper = &upper,
-                           .far = {def->tolerance, def->scales, def->materials},
-                           .with_fields = def->modes,
-                           .keep = model->scene->reduction.cache};
-    if (interface->count >= FAR_INTERFACE)
-        TRY(upper_block_create(&model->mesh, block, interface->dofs, interface->count, &upper,
-                               err));
-    if (upper.interface_count > 0) {
-        TRY(far_cache_obtain(&far_def, &far, &model->upper_from_cache, model->cache_note, err));
-        def->above.block = &far;
-        def->above.dofs = upper.dofs;
-    }
-    TRY(reduction_build(&block->bulk, interface->dofs, interface->count, def, &model->reduced,
-                        err));
-cleanup:
-    far_block_destroy(&far);
-    upper_block_destroy(&upper);
-    return error_is_clean(err);
-}
-
 // By its symmetry, where it has one.
 static bool build_basis(Model *model, const ReductionBlock *block, const Interface *interface,
                         ReductionDef *def, Error *err)
@@ -144,7 +117,8 @@ static bool build_basis(Model *model, const ReductionBlock *block, const Interfa
     if (mirror.found)
         TRY(symmetry_reduction_build(&mirror, interface->count, def, &model->reduced, err));
     else
-        TRY(build_upper(model, block, interface, def, err));
+        TRY(reduction_build(&block->bulk, interface->dofs, interface->count, def, &model->reduced,
+                            err));
 cleanup:
     mirror_destroy(&mirror);
     malloc_trim(0);   // what a reduction needs at once nothing needs afterwards

@@ -223,8 +223,6 @@ NOT_A_CHOICE = {
     "reduction/far_patches.h": {"NO_PATCH": "near"},
     "reduction/far_patches.c": {"LAYERS_MAX": SIZE, "LEFT": "counted"},
     "reduction/far_field.c": {"FAR": "in no list of near ones"},
-    "reduction/upper_block.c": {"BELOW": "not in the upper block", "UNKNOWN": "no place yet",
-                           "LINE_LENGTH": ROUNDING},
     "reduction/far_samples.c": {"LEVELS_MAX": SIZE, "POINTS_MAX": SIZE, "ROOM": SIZE,
                            "NEGATIVE": "from which on all eigenvalues are looked at"},
     "reduction/patch_modes.c": {"TOGETHER": SIZE},

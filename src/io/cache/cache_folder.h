@@ -14,9 +14,7 @@
     X(CACHE_MESH, "mesh", "mesh")                                                                  \
     X(CACHE_SHAPE, "shape", "shape")                                                               \
     X(CACHE_BASIS, "basis", "basis")                                                               \
-    X(CACHE_MODES, "modes", "basis")                                                               \
-    X(CACHE_UPPER, "upper", "upper block")                                                         \
-    X(CACHE_FIELD, "field", "upper block")
+    X(CACHE_MODES, "modes", "basis")
 
 #define CACHE_KIND(kind, ending, name) kind,
 typedef enum CacheKind { CACHE_KINDS(CACHE_KIND) CACHE_KIND_COUNT } CacheKind;
