@@ -26,7 +26,7 @@ static void print_known_to(double known_to)
     if (isnan(known_to))
         say("%scells are too long for slip: not even this digit is sure on others\n", INDENT);
     else
-        say("%sin the digits that other meshes leave as a rule, the last within 1; --to 1%% gives "
+        say("%sto the digits that finer meshes keep as a rule, the last within 1; --to 1%% gives "
             "an error bar\n",
             INDENT);
 }
@@ -97,7 +97,7 @@ static void print_mu_M(const RunSummary *summary)
     print_known_to(summary->mu_M_known_to);
     print_on_this_mesh(summary->mu_M, summary->mu_M_error);
     if (!isnan(summary->mu_M_spread)) {
-        say("; the peaks differ by at most %.4f", summary->mu_M_spread);
+        say("; the peaks differ by at most %.2g", summary->mu_M_spread);
         if (summary->period > 1) say(" and repeat after %d slidings", summary->period);
         say("%s", summary->period > 0 ? "" : "; not periodic yet");
     }

@@ -68,7 +68,7 @@ static void write_lead(HtmlWriter *html, const RunSource *run)
                     steady ? ", slowly and steadily: no sliding was fast"
                     : !isnan(bar)
                         ? ""
-                        : " (in the digits that other meshes leave as a rule; there is no "
+                        : " (in the digits that finer meshes keep as a rule; there is no "
                           "error bar)");
     } else {
         bool told = strncmp(is, "none: ", 6) == 0;

@@ -256,7 +256,7 @@ static void write_tables(HtmlWriter *html, const SweepSource *sweep)
              shown, rows);
     if (run_number(&sweep->run, "scene.accuracy.mu") == 0)
         html_markup(html,
-                    "<p class='note'>mu in the digits that other meshes leave as a rule; "
+                    "<p class='note'>mu in the digits that finer meshes keep as a rule; "
                     "<code>set: {accuracy.mu: 1%%}</code> in the study asks for error bars.</p>\n");
     write_table(html, sweep, &sweep->table, ROWS_MAX, caption);
 }

@@ -323,7 +323,7 @@ class Sweep(unittest.TestCase):
             self.assertEqual(row["mu_M_error"], rows[k]["mu_M_error"])
         shown = done.stdout.split("mu_M, highest first; gain over the same point with")[1].split("\n\n")[0].splitlines()
         self.assertEqual(len(shown), 6)   # title, head, three rows, how many more
-        self.assertRegex(shown[2], rf"^ +1 .* {value[order[0]]:.4g} ")
+        self.assertRegex(shown[2], rf"^ +1 .* {value[order[0]]:.2f} ")
         self.assertIn("5 more in ranking.csv", shown[5])
         for name in ("ranking", "plot"):
             self.assertGreater((self.folder / f"out/figures/{name}.png").stat().st_size, 10000)
@@ -374,19 +374,20 @@ class Sweep(unittest.TestCase):
             self.assertEqual((done.returncode, said in done.stderr), (2, True), done.stderr)
 
     def test_errors_beside_results(self):
-        """Whatever run.json calls X_error is the error of X: a column in both tables, bars in the picture."""
+        """Whatever run.json calls X_error is the error of X: a column in both tables; so is X_known_to, which is drawn."""
         study = self.study(STUDY + "plot: {x: load.pressure, y: mu_M, series: rod.kind}\n"
                            "record: [mu_M, results.drops.mean, mu_hold_error, l_c, mu_hold]\n")
         self.sweep(study=study)
         self.assertEqual([name for name in self.table()[0] if name.split(".")[0] not in ("mesh", "load", "rod")],
-                         ["point", "mu_M", "mu_M_error", "results.drops.mean", "results.drops.mean_error", "mu_hold_error",
-                          "l_c", "mu_hold", "status", "message", "warnings", "run"])
+                         ["point", "mu_M", "mu_M_error", "mu_M_known_to", "results.drops.mean", "results.drops.mean_error", "mu_hold_error",
+                          "l_c", "mu_hold", "mu_hold_known_to", "status", "message", "warnings", "run"])
         rows, known = self.table(), {}
         for row in rows:
             results = json.loads((self.folder / "out" / row["run"] / "run.json").read_text())["results"]
             for column, error in ("mu_M_error", results["mu_M_error"]), ("results.drops.mean_error", results["drops"]["mean_error"]):
                 self.assertEqual(float(row[column]) if row[column] else None, error)
-            mu, error = results["mu_M"], results["mu_M_error"]
+            mu, error = results["mu_M"], results["mu_M_known_to"]
+            self.assertEqual(float(row["mu_M_known_to"]) if row["mu_M_known_to"] else None, error)
             known[mu] = (None, None) if error is None else (mu - error, mu + error)
         with h5py.File(self.folder / "out/sweep.h5") as file:
             np.testing.assert_array_equal(file["result/mu_M_error"][:], [float(row["mu_M_error"] or "nan") for row in rows])
@@ -403,7 +404,7 @@ class Sweep(unittest.TestCase):
                            "rank: {by: mu_M, top: 16, against: {rod.kind: push, load.pressure: 0.003}}\n")
         shown = self.sweep(study=study).stdout.split("mu_M, highest first")[1].split("\n\n")[0].splitlines()
         rows = self.table()
-        value, error = (np.array([float(row[name] or "nan") for row in rows]) for name in ("mu_M", "mu_M_error"))
+        value, error = (np.array([float(row[name] or "nan") for row in rows]) for name in ("mu_M", "mu_M_known_to"))
         with open(self.folder / "out/ranking.csv", newline="") as file:
             ranked = list(csv.DictReader(file))
         self.assertGreater(len({row["rank_to"] for row in ranked}), 2)
@@ -425,7 +426,8 @@ class Sweep(unittest.TestCase):
             else:
                 self.assertAlmostEqual(float(row["gain_percent_error"]), gain, places=9)
         self.assertGreater(open_ranks, 1)
-        self.assertEqual(shown[1].split(), ["rank", "mesh.set.length", "load.pressure", "rod.kind", "mu_M", "+-", "gain", "+-"])
+        self.assertEqual(shown[1].split(), ["rank", "mesh.set.length", "load.pressure", "rod.kind", "mu_M", "gain"])
+        self.assertFalse([line for line in shown if "+-" in line])   # no error bar was asked for
         done = self.sweep(study=self.study(STUDY + "rank: {by: l_c, against: first}\n"))   # run.json has no l_c_error
         self.assertRegex(done.stdout, r"l_c, highest first; gain over .*; no errors are known of it\n.* l_c +gain\n")
 

@@ -33,11 +33,11 @@ static void watch_level(const LevelView *view, void *context)
 {
     Watch *watch = context;
     size_t used = strlen(watch->reached);
-    char bar[24] = "";
-    if (!isnan(view->mesh)) snprintf(bar, sizeof bar, " +- %.1g", view->bar);
+    char value[ESTIMATE_SIZE];
+    amontons_estimate(view->value, view->bar, view->known_to, value);
     if (view->level == watch->levels) return;   // more runs on the same mesh
-    snprintf(watch->reached + used, sizeof watch->reached - used, "%s%.4f%s on %d%s",
-             used ? ", " : "so far mu_M = ", view->value, bar, view->contact_nodes,
+    snprintf(watch->reached + used, sizeof watch->reached - used, "%s%s on %d%s",
+             used ? ", " : "so far mu_M = ", value, view->contact_nodes,
              used ? "" : " contact nodes");
     watch->levels = view->level;
 }
