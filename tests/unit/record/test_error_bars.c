@@ -47,7 +47,7 @@ static void test_one_level(void **state)
 static void test_without_a_bar(void **state)
 {
     (void)state;
-    Level level = {.contact_nodes = 40, .pads = 1, .slip_cells = 10};
+    Level level = {.contact_nodes = 40, .nodes_along = 40, .pads = 1, .slip_cells = 10};
     Answers answers = {.mu_M = {0.3, 0.004}, .mu_hold = {0.2, NAN}, .mu_max = 0.4};
     double usual = 2 * hypot(0.12, 0.05) / 40;
     level_answer_for(&level, &answers);
@@ -62,7 +62,7 @@ static void test_without_a_bar(void **state)
     level.slip_cells = NAN;
     level_answer_for(&level, &answers);   // 9 cells on each
     assert_near("pads", answers.mu_hold_known_to, 2 * hypot(0.14, 0.1) / 9 * 0.2, 1e-15);
-    level = (Level){.contact_nodes = 4001, .pads = 1, .slip_cells = 2000};
+    level = (Level){.contact_nodes = 4001, .nodes_along = 4001, .pads = 1, .slip_cells = 2000};
     level_answer_for(&level, &answers);
     assert_near("least", answers.mu_hold_known_to, 0.002 * 0.2, 1e-15);
     level.undamped = true;
