@@ -28,22 +28,21 @@ double element_strain_matrix(ElementKind kind, const MeshPlace *position, const 
     return determinant;
 }
 
-// out += weight * B' D B
-static void add_quadratic_form(int32_t strains, int32_t dofs,
-                               const double b[STRAINS_MAX][ELEMENT_DOFS_MAX],
+// out += weight * B' D B; rows beyond the element's strains are zero.
+static void add_quadratic_form(int32_t dofs, const double b[STRAINS_MAX][ELEMENT_DOFS_MAX],
                                const double d[STRAINS_MAX][STRAINS_MAX], double weight,
                                double out[ELEMENT_DOFS_MAX][ELEMENT_DOFS_MAX])
 {
     for (int32_t j = 0; j < dofs; j++) {
         double stress[STRAINS_MAX];
-        for (int32_t r = 0; r < strains; r++) {
+        for (int32_t r = 0; r < STRAINS_MAX; r++) {
             double sum = 0;
-            for (int32_t c = 0; c < strains; c++) sum += d[r][c] * b[c][j];
+            for (int32_t c = 0; c < STRAINS_MAX; c++) sum += d[r][c] * b[c][j];
             stress[r] = weight * sum;
         }
         for (int32_t i = 0; i < dofs; i++) {
             double sum = 0;
-            for (int32_t r = 0; r < strains; r++) sum += b[r][i] * stress[r];
+            for (int32_t r = 0; r < STRAINS_MAX; r++) sum += b[r][i] * stress[r];
             out[i][j] += sum;
         }
     }
@@ -76,15 +75,15 @@ static void integrate(ElementKind kind, const MeshPlace *position,
                       const double viscous[STRAINS_MAX][STRAINS_MAX], ElementMatrices *out)
 {
     double b[STRAINS_MAX][ELEMENT_DOFS_MAX];
-    int32_t dim = element_dim(kind), strains = strain_count(dim);
+    int32_t dim = element_dim(kind);
     memset(out, 0, sizeof *out);
     out->dof_count = dim * element_node_count(kind);
     Quadrature quadrature = shape_quadrature(kind);
     for (int32_t q = 0; q < quadrature.count; q++) {
         const double *point = quadrature.point[q];
         double weight = quadrature.weight[q] * element_strain_matrix(kind, position, point, b);
-        add_quadratic_form(strains, out->dof_count, b, elastic, weight, out->stiffness);
-        add_quadratic_form(strains, out->dof_count, b, viscous, weight, out->damping);
+        add_quadratic_form(out->dof_count, b, elastic, weight, out->stiffness);
+        add_quadratic_form(out->dof_count, b, viscous, weight, out->damping);
         for (int32_t j = 0; j < out->dof_count; j++) out->areal[j] += weight * b[j % dim][j];
         out->area += weight;
     }

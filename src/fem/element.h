@@ -28,13 +28,7 @@ void element_matrices(ElementKind kind, const MeshPlace *position, const Materia
 void element_shape_matrices(ElementKind kind, const MeshPlace *position, const Material *material,
                             ElementMatrices *out);
 
-// How many components a strain has: of `dim` axes, then of each pair of them.
-static inline int32_t strain_count(int32_t dim)
-{
-    return dim * (dim + 1) / 2;
-}
-
-// B at one point: strain = B [strain_count][dofs] u; returns det J.
+// B at one point: strain = B [strains][dofs] u; returns det J.
 double element_strain_matrix(ElementKind kind, const MeshPlace *position, const double *point,
                              double b[STRAINS_MAX][ELEMENT_DOFS_MAX]);
 

@@ -275,7 +275,7 @@ NOT_A_CHOICE = {
     "record/window.h": {"WINDOW_SLIDINGS_MAX": "slidings that a scene may ask for as the last: room for their states"},
     "record/observation.h": {"RECORDERS_MAX": SIZE},
     "model/extremes.c": {"USUAL": "from which on a message names a quotient"},
-    "model/gaps.c": {"ROUNDING": ROUNDING},
+    "model/gaps.c": {"ROUNDING": "digits of a file, far below a cell"},
     "model/assemble.c": {"NODE_BYTES": "memory"},
     "stepping/growth.c": {"NO_RATE": "rounding, with room: 0 that is not 0"},
     "reduction/machine.c": {"LOOSE": "rounding, with room: a matrix that must not be singular"},
