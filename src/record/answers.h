@@ -27,6 +27,7 @@ typedef struct Answers {
     Regime regime;   // of the load drops
     int32_t first;   // number in drops->list of the first drop that counts
     bool enough;   // run-in is over, and load drops repeat or 30 and more have a mean known to 2 %
+    bool steady;   // mu_M is that of steady sliding (record/steady)
     Estimate mu_M;   // error: twice the standard error
     ErrorParts mu_M_parts, mu_hold_parts;   // of the errors
     double mu_M_low, mu_M_high;   // smallest and largest peak that counts; NaN: none

@@ -5,18 +5,17 @@
 // answer of the limit in 19 of 20 cases; its parts, added in quadrature:
 //
 //   drops      twice the standard error that the finite number of load drops leaves
-//   branches   twice the standard error of the mean over runs, their spread taken from all levels;
-//              both weighed as the levels are
+//   branches   twice the standard error of the mean over runs, their spread taken from the levels
+//              with several; both weighed as the levels are
 //   mesh       value = a + b / n on n nodes along the contact is estimated from the levels together
 //              (Bayes: values scatter from mesh to mesh, as slip stops at nodes, and by what few
-//              runs leave of branches; the scatter of a level and the slope b are what they
-//              usually are, until levels are enough to say more).
+//              runs leave of branches; how far, the levels say themselves: what is usual counts as
+//              one level more).
 //              a, the limit of ever smaller cells, is the answer, Student's 95 % of its deviation
 //              the part. At least what steps and reduction leave. Levels whose cells are too long
-//              for slip (`undamped`) have no part in it; where slip turns fast on too few cells
-//              they scatter more, and so where the last nodes of the contact hold the block: three
-//              times what mu rises by meanwhile (`end_wait`) is added. One level: its own
-//              value, nothing known.
+//              for slip (`undamped`) have no part in it; where the last nodes of the contact hold
+//              the block they scatter more, and three times what mu rises by meanwhile (`end_wait`)
+//              is added. One level: its own value, nothing known.
 //
 // How often bars hold, and by how much, is measured by validation/benchmark/promise.py.
 #ifndef AMONTONS_RECORD_ERROR_BARS_H
@@ -24,8 +23,8 @@
 
 #include "record/answers.h"
 
-enum { LEVELS_MAX = 11, LEVEL_RUNS_MAX = 9 };
-enum { LEVELS_LEAST = 3 };   // two agree by chance
+enum { LEVELS_MAX = 24, LEVEL_RUNS_MAX = 9 };
+enum { LEVELS_LEAST = 4 };   // three agree by chance now and then
 
 typedef enum AnswerKind { ANSWER_MU_M, ANSWER_MU_HOLD, ANSWER_KINDS } AnswerKind;
 
@@ -107,8 +106,8 @@ bool levels_run_in(const Levels *levels);
 // How far the answer of all levels is known: the bar, or what the last mesh alone usually leaves.
 double levels_known_to(const Levels *levels, AnswerKind kind);
 
-// What one mesh alone, without its runs, usually leaves open: into how far answers are known. Twice
-// what is usual of scatter and slope, and what the drops of a run leave. NaN: nothing is known.
+// What one mesh alone, without its runs, usually leaves open, and what the drops of a run leave: into
+// how far answers are known. NaN: nothing is known.
 void level_answer_for(const Level *level, Answers *answers);
 
 // Puts value, error and parts of both answers in the place of those of one run; without any whole

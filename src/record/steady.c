@@ -70,9 +70,8 @@ void steady_answer(const Steady *steady, Answers *answers)
 {
     if (!is_steady(steady, answers)) return;
     answers->mu_M = steady_mu(steady);
-    answers->mu_M.error = 0.5 * STEADY_RANGE * answers->mu_M.value;   // what it is known to
-    answers->mu_M_known_to = answers->mu_M.error;
-    answers->mu_M_parts = (ErrorParts){NAN, NAN, NAN};
+    answers->mu_M_parts = (ErrorParts){NAN, NAN, answers->mu_M.error};
+    answers->steady = true;
 }
 
 const char *steady_words(const Steady *steady, const Answers *answers)

@@ -24,8 +24,8 @@ bool steady_record(void *self, const Observation *seen, Error *err);   // a Reco
 // The mean of mu since it is steady, and half its range; NaN: the run does not end so.
 Estimate steady_mu(const Steady *steady);
 
-// Where no bulk sliding counts mu_M is that of steady sliding, its error half the range within
-// which that is steady: other meshes differ by less (validation/strangers).
+// Where no bulk sliding counts mu_M is that of steady sliding, its error half the range in which it
+// keeps; other meshes have another, as with load drops.
 void steady_answer(const Steady *steady, Answers *answers);
 // What mu_M is: "peaks", "steady sliding", or "none: " and why.
 const char *steady_words(const Steady *steady, const Answers *answers);   // static storage

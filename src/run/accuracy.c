@@ -17,36 +17,29 @@
 #include <math.h>
 
 enum { COARSER_MAX = 3 };   // halvings of the scene's mesh that are tried
-static const double STEP = 1.4142135623730951;   // of cell size from level to level
-static const double STEP_SPLIT = 2;   // where cells can only be halved: no .geo with `refine`; and
-    // at most, where the last mesh does not resolve slip
-static const double GROWTH = 2.5;   // of a level's time, before two levels are known
+static const double STEP = 1.189207115002721;   // of cell size from level to level: 2^(1/4)
+// A run's time goes with a power of the cells along the contact: this before levels tell, and that
+// at least.
+static const double GROWTH = 2.6, GROWTH_LEAST = 1.2;
 
-// Pressures over the scene's: the ends of the window, then points between them, in pairs that leave
-// the mean where it is.
-static double pressure_of(const Accuracy *accuracy, int32_t run)
+static double seconds_of_run(const Level *level)
 {
-    static const double places[] = {1, 0.5, 0.75, 0.25};
-    double half = accuracy->scene->accuracy.window / 2;
-    double place = places[run / 2 % (int32_t)(sizeof places / sizeof *places)];
-    return 1 + (run % 2 == 0 ? -half : half) * place;
+    return level->seconds / level->run_count;
 }
 
 // For so many more runs on the last level.
 static bool has_time_for(Accuracy *accuracy, int32_t runs)
 {
     const Level *level = accuracy_last_level(accuracy);
-    return level->seconds / level->run_count * runs <= accuracy_seconds_left(accuracy);
+    return seconds_of_run(level) * runs <= accuracy_seconds_left(accuracy);
 }
 
 static bool add_runs(Accuracy *accuracy, int32_t count, Error *err)
 {
-    int32_t first = accuracy_last_level(accuracy)->run_count;
-    first -= first % 2 == 1 && count % 2 == 0;   // the run in full is no half of a pair
-    for (int32_t k = first; k < first + count && !accuracy->out_of_time; k++) {
+    for (int32_t k = 0; k < count && !accuracy->out_of_time; k++) {
         accuracy->out_of_time = !has_time_for(accuracy, 1);
         if (accuracy->out_of_time) break;
-        TRY(accuracy_run_member(accuracy, pressure_of(accuracy, k), NULL, err));
+        TRY(accuracy_run_member(accuracy, NULL, err));
     }
 cleanup:
     return error_is_clean(err);
@@ -64,14 +57,14 @@ static bool first_level(Accuracy *accuracy, Error *err)
     for (int32_t halvings = COARSER_MAX; halvings >= 0; halvings--) {
         bool coarse = false, last = halvings == 0;
         begin_level(accuracy, ldexp(1, -halvings));
-        accuracy_run_member(accuracy, pressure_of(accuracy, 0), last ? NULL : &coarse, err);
+        accuracy_run_member(accuracy, last ? NULL : &coarse, err);
         if (!coarse && (last || error_is_clean(err))) break;
         if (err->code == ERROR_INPUT || err->code == ERROR_LIBRARY) *err = (Error){0};
         TRY(error_is_clean(err));
         accuracy->levels.count--;
     }
     TRY(error_is_clean(err));
-    TRY(add_runs(accuracy, RUNS_FIRST - 1, err));
+    TRY(add_runs(accuracy, accuracy_runs_first(accuracy) - 1, err));
 cleanup:
     return error_is_clean(err);
 }
@@ -91,13 +84,13 @@ static double next_step(const Accuracy *accuracy)
 static bool try_level(Accuracy *accuracy, double refine, bool *coarse, Error *err)
 {
     begin_level(accuracy, refine * next_step(accuracy));
-    if (!accuracy_run_member(accuracy, pressure_of(accuracy, 0), coarse, err) &&
+    if (!accuracy_run_member(accuracy, coarse, err) &&
         err->code == ERROR_INPUT && accuracy->step < STEP_SPLIT) {
         *err = (Error){0};
         accuracy->step = STEP_SPLIT;
         accuracy->levels.count--;
         begin_level(accuracy, refine * accuracy->step);
-        accuracy_run_member(accuracy, pressure_of(accuracy, 0), coarse, err);
+        accuracy_run_member(accuracy, coarse, err);
     }
     return error_is_clean(err);
 }
@@ -111,12 +104,13 @@ static bool add_level(Accuracy *accuracy, double refine, Error *err)
         TRY(try_level(accuracy, refine, k >= LEVELS_MAX ? NULL : &coarse, err));
         refine = accuracy_last_level(accuracy)->refine;
         if (!coarse) break;
-        accuracy->out_of_time = GROWTH * accuracy_last_level(accuracy)->seconds >
+        accuracy->out_of_time = pow(accuracy->step, GROWTH) *
+                                    accuracy_last_level(accuracy)->seconds >
                                 accuracy_seconds_left(accuracy);
         accuracy->levels.count--;
         if (accuracy->out_of_time) goto cleanup;
     }
-    TRY(add_runs(accuracy, RUNS_FIRST - 1, err));
+    TRY(add_runs(accuracy, accuracy_runs_first(accuracy) - 1, err));
 cleanup:
     return error_is_clean(err);
 }
@@ -136,21 +130,20 @@ static bool is_met(const Accuracy *accuracy)
            answer->bar <= accuracy->levels.wanted * answer->value;
 }
 
-// By what the next level takes longer than the last, as the last did than the one before.
+// By what a run on the next level takes longer than on the last, as its power was so far.
 static double growth_ahead(const Accuracy *accuracy)
 {
-    int32_t last = accuracy->levels.count - 1;
-    const Level *level = &accuracy->levels.list[last];
-    double growth = last > 0 ? level[0].seconds / level[-1].seconds : GROWTH;
-    double steps = log(next_step(accuracy)) / log(accuracy->step);
-    return pow(fmax(growth, 1.5), steps);
+    const Level *first = accuracy->levels.list, *last = &first[accuracy->levels.count - 1];
+    double finer = log(last->nodes_along / first->nodes_along);
+    double power = finer > 0 ? log(seconds_of_run(last) / seconds_of_run(first)) / finer : GROWTH;
+    return pow(next_step(accuracy), fmax(power, GROWTH_LEAST));
 }
 
 // Wall time that the next level will take, s.
 static double next_seconds(const Accuracy *accuracy)
 {
     const Level *level = &accuracy->levels.list[accuracy->levels.count - 1];
-    return level->seconds * growth_ahead(accuracy) * RUNS_FIRST / level->run_count;
+    return seconds_of_run(level) * growth_ahead(accuracy) * accuracy_runs_first(accuracy);
 }
 
 // With the run in full on it.
@@ -190,7 +183,8 @@ static bool end_here(Accuracy *accuracy, const char *why)
 static void drop_cut_level(Accuracy *accuracy)
 {
     Levels *levels = &accuracy->levels;
-    if (levels->count > 1 && accuracy_last_level(accuracy)->run_count < RUNS_FIRST) levels->count--;
+    bool cut = accuracy_last_level(accuracy)->run_count < accuracy_runs_first(accuracy);
+    if (levels->count > 1 && cut) levels->count--;
     levels_estimate(levels);
 }
 
@@ -201,8 +195,6 @@ static bool go_on(Accuracy *accuracy, bool *ended, Error *err)
     Level *level = accuracy_last_level(accuracy);
     double between = hypot(answer->parts.branches, answer->parts.drops);
     bool enough = accuracy->levels.count >= LEVELS_LEAST && levels_resolved(&accuracy->levels);
-    if (isnan(answer->value) && accuracy->slides_steadily)
-        return *ended = end_here(accuracy, "the block slides steadily");
     if (isnan(answer->value))
         return *ended = end_here(accuracy, levels_run_in(&accuracy->levels)
                                                ? "the run-in of a run was not over"
@@ -248,15 +240,6 @@ static bool levels_lack_runs(const Accuracy *accuracy)
     const ErrorBar *answer = asked(accuracy);
     return !is_met(accuracy) && answer->parts.mesh < levels->wanted * answer->value &&
            levels->list[levels->count - 1].run_count + 2 <= LEVEL_RUNS_MAX;
-}
-
-// F_T/F_N of steady sliding, where that is the answer, is known as well as was wanted.
-static bool is_steady_enough(const Accuracy *accuracy, const Simulation *simulation)
-{
-    Answers answers = answers_of(&simulation->drops);
-    if (!accuracy->slides_steadily || answers.peaks_counted > 0) return false;
-    steady_answer(&simulation->steady, &answers);
-    return answers.mu_M.error <= accuracy->levels.wanted * answers.mu_M.value;
 }
 
 // After a loop that ended early: no error where it was for time.
@@ -310,12 +293,13 @@ static bool run_in_full(Accuracy *accuracy, RunSummary *summary, Error *err)
     simulation->deadline = accuracy->deadline;
     if (!simulation_loop(simulation, err)) TRY(is_time_up(accuracy, simulation, err));
     Answers answers = answers_of(&simulation->drops);
-    if (accuracy_is_known(accuracy, &answers))
+    steady_answer(&simulation->steady, &answers);
+    if (answers.steady || accuracy_is_known(accuracy, &answers))
         levels_add_run(levels, 1, &answers, simulation->control.counters.accepted);
     while (levels_lack_runs(accuracy) && accuracy_seconds_left(accuracy) > 0)
         TRY(add_runs(accuracy, 2, err));
     if (levels->met && !is_met(accuracy)) levels->ended = "the run in full widened it";
-    levels->met = is_met(accuracy) || is_steady_enough(accuracy, simulation);
+    levels->met = is_met(accuracy);
     if (!levels->met) warnings_of_bar(levels, &simulation->warnings);
     warnings_of_last_mesh(levels, &simulation->warnings);
     simulation->started = accuracy->started;

@@ -28,6 +28,22 @@ Level *accuracy_last_level(Accuracy *accuracy)
     return &accuracy->levels.list[accuracy->levels.count - 1];
 }
 
+int32_t accuracy_runs_first(const Accuracy *accuracy)
+{
+    return accuracy->levels.count == 1 || accuracy->step == STEP_SPLIT ? 2 : 1;
+}
+
+// The next pressure, over the scene's: the ends of the window, then points between them, in pairs
+// that leave the mean where it is.
+static double next_pressure(Accuracy *accuracy)
+{
+    static const double places[] = {1, 0.5, 0.75, 0.25};
+    double half = accuracy->scene->accuracy.window / 2;
+    int32_t run = accuracy->members++;
+    double place = places[run / 2 % (int32_t)(sizeof places / sizeof *places)];
+    return 1 + (run % 2 == 0 ? -half : half) * place;
+}
+
 double accuracy_seconds_left(const Accuracy *accuracy)
 {
     return accuracy->deadline - accuracy->full - clock_seconds();
@@ -93,8 +109,7 @@ static bool step_until_known(Accuracy *accuracy, Simulation *simulation, EndWait
     for (bool finished = false; !finished;) {
         TRY(amontons_simulation_step(simulation, NULL, &finished, err));
         end_wait_watch(wait, simulation);
-        accuracy->slides_steadily = slides_steadily(accuracy, simulation);
-        if (accuracy->slides_steadily) break;
+        if (slides_steadily(accuracy, simulation)) break;
         if (finished && goes_on(accuracy, simulation)) finished = false;
         if (simulation->events.ended) {
             accuracy->so_far = answers_of(&simulation->drops);
@@ -151,7 +166,7 @@ static void expect_full(Accuracy *accuracy, const Simulation *simulation, double
     bool sooner = scene->time.until_periodic || scene->time.until_slidings > 0 ||
                   scene->time.until_mu_below > 0;
     if (sooner || !isfinite(way)) way = fmin(way, 1);
-    if (accuracy->levels.count > 1 && accuracy_last_level(accuracy)->run_count < RUNS_FIRST) return;
+    if (accuracy->levels.count > 1 && accuracy_last_level(accuracy)->run_count < accuracy_runs_first(accuracy)) return;
     accuracy->full = making + fmin(way * stepping, FULL_SHARE * scene->accuracy.within);
 }
 
@@ -183,7 +198,15 @@ cleanup:
     return;
 }
 
-bool accuracy_run_member(Accuracy *accuracy, double pressure, bool *coarse, Error *err)
+// Nothing new is learnt on it.
+static bool is_too_coarse(const Accuracy *accuracy, const Interface *interface)
+{
+    const Level *last = &accuracy->levels.list[accuracy->levels.count - 1];
+    bool same = accuracy->levels.count > 1 && last->contact_nodes <= last[-1].contact_nodes;
+    return last->undamped || same || !contact_has_nodes(interface);
+}
+
+bool accuracy_run_member(Accuracy *accuracy, bool *coarse, Error *err)
 {
     Level *level = accuracy_last_level(accuracy);
     RunOptions options = {.on_step = show_member,
@@ -194,6 +217,7 @@ bool accuracy_run_member(Accuracy *accuracy, double pressure, bool *coarse, Erro
     EndWait wait = {.mu = NAN};
     bool first = !levels_have_runs(&accuracy->levels) && accuracy->levels.count == 1;
     double started = clock_seconds(), deadline = accuracy->deadline - accuracy->full;
+    double pressure = next_pressure(accuracy);
     Scene *scene = scene_of_run(accuracy, level->refine, pressure, err);
     accuracy->so_far = (Answers){.mu_M = {NAN, NAN}, .mu_hold = {NAN, NAN}};
     TRY(scene);
@@ -201,10 +225,14 @@ bool accuracy_run_member(Accuracy *accuracy, double pressure, bool *coarse, Erro
     simulation->deadline = deadline;   // one step is made, whatever time there is
     const Interface *interface = &simulation->model.interface;
     one_mesh_read(simulation, level);
-    if (coarse && (*coarse = level->undamped || !contact_has_nodes(interface))) goto cleanup;
+    if (coarse && (*coarse = is_too_coarse(accuracy, interface))) {
+        accuracy->members--;
+        goto cleanup;
+    }
     double begun = clock_seconds();
     TRY(step_until_known(accuracy, simulation, &wait, err));
     Answers answers = answers_of(&simulation->drops);
+    steady_answer(&simulation->steady, &answers);
     const Event *least = drops_least_resolved(&simulation->drops, answers.first);
     if (least) level->slip_cells = fmin(level->slip_cells, least->slip_cells);
     level->end_wait = fmax(level->end_wait, end_wait_of(&wait, interface, answers.critical_length));

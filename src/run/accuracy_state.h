@@ -12,30 +12,36 @@
 #include "record/error_bars.h"
 #include "run/simulation_state.h"
 
-enum { RUNS_FIRST = 2 };   // on every level, at either end of the window
+// Of cell size from level to level, where cells can only be halved: no .geo with `refine`; and at
+// most, where the last mesh does not resolve slip.
+enum { STEP_SPLIT = 2 };
 
 typedef struct Accuracy {
     const Scene *scene;
     const RunOptions *options;
     Levels levels;
     double step;   // of cell size from level to level
+    int32_t members;   // runs begun behind the bar
     double started, deadline;   // wall clock, s; INFINITY: accuracy.within is not given
     double full;   // expected of the run in full, s; 0: no run is whole
     bool out_of_time;
-    bool slides_steadily;   // at the end of the last run
     Answers so_far;   // of the run under way
     char stage[64];   // of it, as the caller is told
     Simulation *cut;   // the first run of all, where time cut it short; owned
 } Accuracy;
 
 Level *accuracy_last_level(Accuracy *accuracy);
+// Before another mesh is looked at: two on the first, where they tell branches from the mesh, and
+// where meshes are few as each halves the cells of the last; else one.
+int32_t accuracy_runs_first(const Accuracy *accuracy);
 // For runs behind the bar, s: what the run in full needs is kept back. INFINITY: no limit.
 double accuracy_seconds_left(const Accuracy *accuracy);
 // What more slidings could still change is a small part of the bar wanted.
 bool accuracy_is_known(const Accuracy *accuracy, const Answers *answers);
 
-// One run of the last level. *coarse (NULL: not asked): the mesh has too few contact nodes, or its
-// cells are too long for slip; nothing was stepped. Out of time: nothing was added.
-bool accuracy_run_member(Accuracy *accuracy, double pressure, bool *coarse, Error *err);
+// One run of the last level, at the next pressure of the window. *coarse (NULL: not asked): the mesh
+// has too few contact nodes, as many as the one before, or its cells are too long for slip; nothing
+// was stepped. Out of time: nothing was added.
+bool accuracy_run_member(Accuracy *accuracy, bool *coarse, Error *err);
 
 #endif

@@ -309,9 +309,9 @@ static Answers answers_to_report(const Simulation *simulation, const Event **lea
 {
     Answers answers = answers_of(&simulation->drops);
     *least = drops_least_resolved(&simulation->drops, answers.first);
+    steady_answer(&simulation->steady, &answers);
     one_mesh_answer(simulation, *least, &answers);
     if (simulation->levels) levels_answer_for(simulation->levels, &answers);
-    steady_answer(&simulation->steady, &answers);
     return answers;
 }
 
