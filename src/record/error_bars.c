@@ -53,12 +53,24 @@ static bool is_held(const Levels *levels, const Level *level, AnswerKind kind)
     return END_WAITS * level->end_wait > levels->wanted * level_value(level, kind);
 }
 
+static bool counts(const Levels *levels, const Level *level, AnswerKind kind)
+{
+    return is_known(level, kind) && !is_held(levels, level, kind);
+}
+
 int32_t levels_known(const Levels *levels, AnswerKind kind)
 {
     int32_t known = 0;
-    for (int32_t l = 0; l < levels->count; l++)
-        known += is_known(&levels->list[l], kind) && !is_held(levels, &levels->list[l], kind);
+    for (int32_t l = 0; l < levels->count; l++) known += counts(levels, &levels->list[l], kind);
     return known;
+}
+
+bool levels_enough(const Levels *levels, AnswerKind kind)
+{
+    int32_t runs = 0;
+    for (int32_t l = 0; l < levels->count; l++)
+        if (counts(levels, &levels->list[l], kind)) runs += levels->list[l].run_count;
+    return levels_known(levels, kind) >= LEVELS_LEAST && runs >= RUNS_LEAST;
 }
 
 // Of single runs about their level's mean, from all levels together; NaN: one run on each.

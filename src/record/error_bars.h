@@ -24,7 +24,7 @@
 #include "record/answers.h"
 
 enum { LEVELS_MAX = 24, LEVEL_RUNS_MAX = 9 };
-enum { LEVELS_LEAST = 4 };   // three agree by chance now and then
+enum { LEVELS_LEAST = 3, RUNS_LEAST = 5 };   // fewer agree by chance
 
 typedef enum AnswerKind { ANSWER_MU_M, ANSWER_MU_HOLD, ANSWER_KINDS } AnswerKind;
 
@@ -90,6 +90,8 @@ const ErrorBar *levels_answer(const Levels *levels, AnswerKind kind);   // of th
 // Damped levels whose runs all have such an answer, and whose last nodes do not hold the
 // block up by more than is wanted.
 int32_t levels_known(const Levels *levels, AnswerKind kind);
+// These, and their runs, are enough for a bar that is met.
+bool levels_enough(const Levels *levels, AnswerKind kind);
 
 // Of its own runs, mu_M their mean, mu_hold their lowest; NaN: a run has none.
 double level_value(const Level *level, AnswerKind kind);

@@ -125,7 +125,7 @@ static const ErrorBar *asked(const Accuracy *accuracy)
 static bool is_met(const Accuracy *accuracy)
 {
     const ErrorBar *answer = asked(accuracy);
-    return levels_known(&accuracy->levels, accuracy->levels.asked) >= LEVELS_LEAST &&
+    return levels_enough(&accuracy->levels, accuracy->levels.asked) &&
            levels_resolved(&accuracy->levels) && !isnan(answer->parts.mesh) &&
            answer->bar <= accuracy->levels.wanted * answer->value;
 }
@@ -194,7 +194,8 @@ static bool go_on(Accuracy *accuracy, bool *ended, Error *err)
     const ErrorBar *answer = asked(accuracy);
     Level *level = accuracy_last_level(accuracy);
     double between = hypot(answer->parts.branches, answer->parts.drops);
-    bool enough = accuracy->levels.count >= LEVELS_LEAST && levels_resolved(&accuracy->levels);
+    bool enough = levels_enough(&accuracy->levels, accuracy->levels.asked) &&
+                  levels_resolved(&accuracy->levels);
     if (isnan(answer->value))
         return *ended = end_here(accuracy, levels_run_in(&accuracy->levels)
                                                ? "the run-in of a run was not over"

@@ -158,8 +158,7 @@ static const char *why_unknown(const Levels *levels)
 
 static const char *why_not_sure(const Levels *levels)
 {
-    bool few = levels_known(levels, levels->asked) < LEVELS_LEAST;
-    return few ? " from fewer than four meshes that count" : "";
+    return levels_enough(levels, levels->asked) ? "" : " from too few meshes that count";
 }
 
 void warnings_of_bar(const Levels *levels, RunWarnings *warnings)

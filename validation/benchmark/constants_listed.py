@@ -265,11 +265,9 @@ NOT_A_CHOICE = {
     "record/answers.h": {"ERROR_BAR": "95 % of normal deviates"},
     "record/error_bars_json.c": {"BRANCH_WIDTH": "of branches: the next is twice as far"},
     "record/error_bars.c": {
-        "SCATTER": "of error bars: priors.md", "SCATTER_PADS": "the same", "SCATTER_SLIP": "the same", "SCATTER_WHOLE": "the same",
-        "SLOPE": "the same", "SLOPE_PADS": "the same", "SLOPE_SLIP": "the same", "SLOPE_WHOLE": "the same", "MOST": "the same",
-        "SCATTER_LEVELS": "the same", "END_WAITS": "of error bars: set B at P = 1e-5",
+        "USUAL": "of error bars: priors.md", "USUAL_LEVELS": "the same", "ONE_MESH": "the same", "END_WAITS": "of error bars: set B at P = 1e-5",
         "STEPS": "of error bars: what this table's tolerances move"},
-    "record/error_bars.h": {"LEVELS_MAX": SIZE, "LEVEL_RUNS_MAX": SIZE, "LEVELS_LEAST": "two agree by chance"},
+    "record/error_bars.h": {"LEVELS_MAX": SIZE, "LEVEL_RUNS_MAX": SIZE, "LEVELS_LEAST": "of error bars: priors.md", "RUNS_LEAST": "the same"},
     "record/steady.c": {"STEADY_RANGE": "twice what the steps of a standard run move mu by"},
     "record/history.c": {"FLUSH_EVERY": "seconds of a run that a kill may cost"},
     "record/window.h": {"WINDOW_SLIDINGS_MAX": "slidings that a scene may ask for as the last: room for their states"},

@@ -66,7 +66,7 @@ static Watch stop_in(int32_t runs, const char *folder, bool overwrite, Error *er
     assert_false(amontons_run(scene, &options, &summary, err));
     assert_int_equal(err->code, ERROR_INTERRUPT);
     assert_int_equal(memory_counters().live, live);
-    if (!in_full) assert_int_equal(watch.levels, runs / 2);
+    if (!in_full) assert_int_equal(watch.levels, runs < 2 ? 0 : runs - 1);   // two on the first
     amontons_scene_destroy(scene);
     return watch;
 }
@@ -103,7 +103,7 @@ static void test_stopped_without_a_folder(void **state)
     (void)state;
     char said[400];
     Error err = {0};
-    Watch watch = stop_in(4, NULL, false, &err);
+    Watch watch = stop_in(3, NULL, false, &err);
     snprintf(said, sizeof said,
              "stopped on mesh 3 of an error bar; %s; it does not go on from here: the same command "
              "begins anew; with --within TIME it keeps what it has when time is up",
@@ -195,11 +195,12 @@ static RunWarnings said_of(Levels *levels)
         Level *level = &levels->list[k];
         level->contact_nodes = 1 + (20 << k);
         level->nodes_along = level->contact_nodes;
-        level->pads = level->run_count = 1;
+        level->pads = 1;
+        level->run_count = 2;
         for (int32_t kind = 0; kind < ANSWER_KINDS; kind++) {
             level->answer[kind].value = 0.3;
             level->answer[kind].bar = 0.03;
-            level->runs[0].answer[kind].value = 0.3;
+            level->runs[0].answer[kind].value = level->runs[1].answer[kind].value = 0.3;
         }
     }
     warnings_of_bar(levels, &warnings);
@@ -220,7 +221,7 @@ static void test_what_is_said_of_a_bar(void **state)
     for (int32_t k = 0; k < 3; k++) levels.list[k].slip_cells = 100;
     expect(levels, "mu_M is known to 10.0 %, asked for 1.0 % (no time for more)");
     levels.list[0].undamped = true;
-    expect(levels, "known to 10.0 % from fewer than three meshes that count, asked for");
+    expect(levels, "known to 10.0 % from too few meshes that count, asked for");
     levels.list[2].answer[0].parts.mesh = NAN;
     expect(levels, "the mesh's part of it is not known (one mesh: no time for more)");
     levels.list[2].slip_cells = 1;
